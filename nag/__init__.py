@@ -1,0 +1,1 @@
+"""Numerical algebraic geometry for mechanisms."""

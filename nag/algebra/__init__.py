@@ -1,0 +1,1 @@
+"""Exact polynomials over the rationals, and systems of them."""

@@ -1,0 +1,229 @@
+"""Sparse multivariate polynomials with exact coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from types import MappingProxyType
+from typing import Any
+
+from nag.algebra.number import Irrational, Number, is_zero, number_text
+
+Exponents = tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Polynomial:
+    """A polynomial in ``n`` variables, as a read-only map from exponents to non-zero coefficients.
+
+    Coefficients are `fractions.Fraction`, or `Irrational` where the input was not rational. The
+    variables have no names here; `PolynomialSystem` names them.
+    """
+
+    n: int
+    terms: Mapping[Exponents, Number]
+
+    def __post_init__(self) -> None:
+        kept = {}
+        for exponents, coefficient in self.terms.items():
+            if len(exponents) != self.n:
+                raise ValueError(f"exponents {exponents} do not belong to {self.n} variables")
+            if isinstance(coefficient, int):
+                coefficient = Fraction(coefficient)
+            if not is_zero(coefficient):
+                kept[exponents] = coefficient
+        object.__setattr__(self, "terms", MappingProxyType(kept))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Polynomial, (self.n, dict(self.terms))
+
+    @classmethod
+    def constant(cls, n: int, value: Number | int) -> Polynomial:
+        return cls(n, {(0,) * n: value})
+
+    @classmethod
+    def variable(cls, n: int, index: int) -> Polynomial:
+        return cls(n, {tuple(int(i == index) for i in range(n)): Fraction(1)})
+
+    @classmethod
+    def variables(cls, n: int) -> tuple[Polynomial, ...]:
+        return tuple(cls.variable(n, i) for i in range(n))
+
+    def _coerce(self, other: Polynomial | Number | int) -> Polynomial | None:
+        if isinstance(other, Polynomial):
+            if other.n != self.n:
+                raise ValueError(f"polynomials in {self.n} and in {other.n} variables do not mix")
+            return other
+        if isinstance(other, int | Fraction | Irrational):
+            return Polynomial.constant(self.n, other)
+        return None
+
+    def __add__(self, other: Polynomial | Number | int) -> Polynomial:
+        other = self._coerce(other)
+        if other is None:
+            return NotImplemented
+        terms = dict(self.terms)
+        for exponents, coefficient in other.terms.items():
+            terms[exponents] = terms[exponents] + coefficient if exponents in terms else coefficient
+        return Polynomial(self.n, terms)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Polynomial:
+        return Polynomial(self.n, {e: -c for e, c in self.terms.items()})
+
+    def __sub__(self, other: Polynomial | Number | int) -> Polynomial:
+        other = self._coerce(other)
+        return NotImplemented if other is None else self + (-other)
+
+    def __rsub__(self, other: Number | int) -> Polynomial:
+        return (-self) + other
+
+    def __mul__(self, other: Polynomial | Number | int) -> Polynomial:
+        other = self._coerce(other)
+        if other is None:
+            return NotImplemented
+        terms: dict[Exponents, Number] = {}
+        for e, c in self.terms.items():
+            for f, d in other.terms.items():
+                key = tuple(map(int.__add__, e, f))
+                product = c * d
+                terms[key] = terms[key] + product if key in terms else product
+        return Polynomial(self.n, terms)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Number | int) -> Polynomial:
+        if is_zero(other):
+            raise ZeroDivisionError("a polynomial is divided by zero")
+        return self * (Fraction(1) / other)
+
+    def __pow__(self, exponent: int) -> Polynomial:
+        if exponent < 0:
+            raise ValueError("a polynomial has no negative power")
+        result, base = Polynomial.constant(self.n, 1), self
+        while exponent:
+            if exponent & 1:
+                result = result * base
+            exponent >>= 1
+            if exponent:
+                base = base * base
+        return result
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Polynomial):
+            return NotImplemented
+        return self.n == other.n and dict(self.terms) == dict(other.terms)
+
+    def __hash__(self) -> int:
+        return hash((self.n, frozenset(self.terms.items())))
+
+    def __bool__(self) -> bool:
+        return bool(self.terms)
+
+    @property
+    def degree(self) -> int:
+        """Total degree; 0 for a constant, -1 for the zero polynomial."""
+        return max((sum(e) for e in self.terms), default=-1)
+
+    def degree_in(self, indices: Iterable[int]) -> int:
+        """Degree in the variables at ``indices`` together; -1 for the zero polynomial."""
+        indices = tuple(indices)
+        return max((sum(e[i] for i in indices) for e in self.terms), default=-1)
+
+    @property
+    def support(self) -> frozenset[int]:
+        """Indices of the variables that occur."""
+        return frozenset(i for e in self.terms for i, k in enumerate(e) if k)
+
+    @property
+    def exact(self) -> bool:
+        """Whether every coefficient is rational."""
+        return all(isinstance(c, Fraction) for c in self.terms.values())
+
+    @property
+    def constant_value(self) -> Number:
+        """The coefficient of the constant term."""
+        return self.terms.get((0,) * self.n, Fraction(0))
+
+    def derivative(self, index: int) -> Polynomial:
+        terms = {}
+        for e, c in self.terms.items():
+            if e[index]:
+                terms[e[:index] + (e[index] - 1,) + e[index + 1 :]] = c * e[index]
+        return Polynomial(self.n, terms)
+
+    def __call__(self, point: Sequence[Any], convert: Callable[[Number], Any] | None = None) -> Any:
+        """Value at ``point``, in the arithmetic of its entries (exact for fractions).
+
+        ``convert`` turns a coefficient into that arithmetic; by default coefficients are used as
+        they are when the entries are exact, and as floats otherwise.
+        """
+        if convert is None:
+            exact = all(isinstance(x, int | Fraction | Irrational) for x in point)
+            convert = (lambda c: c) if exact else float
+        total: Any = convert(Fraction(0))
+        for e, c in self.terms.items():
+            value: Any = convert(c)
+            for x, k in zip(point, e, strict=True):
+                if k:
+                    value = value * x**k
+            total = total + value
+        return total
+
+    def compose(self, images: Sequence[Polynomial]) -> Polynomial:
+        """The polynomial with variable ``i`` replaced by ``images[i]``, in the images' variables."""
+        if len(images) != self.n:
+            raise ValueError(f"{self.n} images are needed, {len(images)} were given")
+        if not images:
+            return self
+        m = images[0].n
+        powers: dict[tuple[int, int], Polynomial] = {}
+        total = Polynomial(m, {})
+        for e, c in self.terms.items():
+            value = Polynomial.constant(m, c)
+            for i, k in enumerate(e):
+                if k:
+                    if (i, k) not in powers:
+                        powers[i, k] = images[i] ** k
+                    value = value * powers[i, k]
+            total = total + value
+        return total
+
+    def with_variables(self, n: int, positions: Sequence[int]) -> Polynomial:
+        """The same polynomial among ``n`` variables; variable ``i`` moves to ``positions[i]``."""
+        terms = {}
+        for e, c in self.terms.items():
+            key = [0] * n
+            for i, k in enumerate(e):
+                if k:
+                    key[positions[i]] += k
+            terms[tuple(key)] = c
+        return Polynomial(n, terms)
+
+    def text(self, variables: Sequence[str]) -> str:
+        """The polynomial as text that `nag.algebra.expression.parse_polynomial` reads back."""
+        if not self.terms:
+            return "0"
+        parts = []
+        order = sorted(self.terms, key=lambda e: (-sum(e), tuple(-k for k in e)))
+        for e in order:
+            c = self.terms[e]
+            monomial = "*".join(
+                v if k == 1 else f"{v}^{k}" for v, k in zip(variables, e, strict=True) if k
+            )
+            negative = isinstance(c, Fraction) and c < 0
+            size = number_text(-c if negative else c)
+            if not monomial:
+                body = size
+            elif size == "1":
+                body = monomial
+            else:
+                body = f"{size}*{monomial}"
+            sign = "-" if negative else "+"
+            parts.append(f" {sign} {body}" if parts else (f"-{body}" if negative else body))
+        return "".join(parts)
+
+    def __repr__(self) -> str:
+        return f"Polynomial({self.text([f'x{i}' for i in range(self.n)])})"

@@ -1,0 +1,70 @@
+"""Systems of polynomials with named variables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from nag.algebra.polynomial import Polynomial
+
+
+@dataclass(frozen=True)
+class PolynomialSystem:
+    """Polynomials ``f`` in named variables, and what is known about the space they live in.
+
+    Attributes:
+        variables: names, one for each variable.
+        polynomials: the equations ``f_i = 0``.
+        nonzero: polynomials that must not vanish: components inside one of their zero sets are no
+            solutions (points of norm zero in half-angle models, for example).
+        groups: a partition of the variables' indices into groups in which multidegrees are
+            counted, or empty. A group is one affine chart of a projective space; a group of one
+            variable is a chart of a projective line.
+    """
+
+    variables: tuple[str, ...]
+    polynomials: tuple[Polynomial, ...]
+    nonzero: tuple[Polynomial, ...] = ()
+    groups: tuple[tuple[int, ...], ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("variables", "polynomials", "nonzero"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        object.__setattr__(self, "groups", tuple(tuple(g) for g in self.groups))
+        if len(set(self.variables)) != len(self.variables):
+            raise ValueError("two variables have the same name")
+        for polynomial in self.polynomials + self.nonzero:
+            if polynomial.n != self.n:
+                raise ValueError(f"a polynomial in {polynomial.n} variables in a system of {self.n}")
+        if self.groups and sorted(i for g in self.groups for i in g) != list(range(self.n)):
+            raise ValueError("the groups are not a partition of the variables")
+
+    @property
+    def n(self) -> int:
+        """Number of variables."""
+        return len(self.variables)
+
+    @property
+    def degrees(self) -> tuple[int, ...]:
+        """Total degrees of the polynomials."""
+        return tuple(f.degree for f in self.polynomials)
+
+    @property
+    def exact(self) -> bool:
+        """Whether all coefficients are rational."""
+        return all(f.exact for f in self.polynomials + self.nonzero)
+
+    @cached_property
+    def jacobian(self) -> tuple[tuple[Polynomial, ...], ...]:
+        """Partial derivatives, one row for each polynomial."""
+        return tuple(tuple(f.derivative(i) for i in range(self.n)) for f in self.polynomials)
+
+    def __call__(self, point: Sequence[Any]) -> list[Any]:
+        """Values of all polynomials at ``point``, exact if its entries are."""
+        return [f(point) for f in self.polynomials]
+
+    def text(self) -> list[str]:
+        """The polynomials as text."""
+        return [f.text(self.variables) for f in self.polynomials]

@@ -1,0 +1,1 @@
+"""Irreducible decomposition of solution sets into witness sets."""

@@ -1,0 +1,165 @@
+"""Witness sets, and the components and decompositions that are made of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+
+
+def _read_only(array: np.ndarray, dtype: type) -> np.ndarray:
+    array = np.array(array, dtype=dtype)
+    array.setflags(write=False)
+    return array
+
+
+class Status(StrEnum):
+    """What is known of a component."""
+
+    IRREDUCIBLE = "irreducible"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, eq=False)
+class Slice:
+    """A linear slice ``A x = b`` of codimension ``len(b)`` in affine space.
+
+    Attributes:
+        A: complex, shape ``(d, n)``, rows orthonormal.
+        b: complex, shape ``(d,)``.
+    """
+
+    A: np.ndarray
+    b: np.ndarray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "A", _read_only(self.A, complex))
+        object.__setattr__(self, "b", _read_only(self.b, complex))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Slice):
+            return NotImplemented
+        return np.array_equal(self.A, other.A) and np.array_equal(self.b, other.b)
+
+    @property
+    def dimension(self) -> int:
+        """Dimension of the sets that it cuts in points."""
+        return len(self.b)
+
+
+@dataclass(frozen=True, eq=False)
+class WitnessSet:
+    """A component by its points on a generic slice.
+
+    Attributes:
+        slice: the slice.
+        points: complex, shape ``(degree, n)``.
+        multiplicity: multiplicity of the component in the scheme that the equations define; 0
+            where it is not known.
+        status: `IRREDUCIBLE` where the trace test and the final checks passed.
+        residual: largest relative residual of the original equations at the points.
+        accuracy: largest estimated distance of a point from the exact one, relative to its size.
+        corank: corank of the Jacobian of the original equations at the points.
+        multidegree: integer array of order ``dimension``: entry ``[i, j, ..]`` counts the points
+            with groups ``i, j, ..`` of the system fixed at random values; None without groups.
+        orbit: number of components that a symmetry carries into this one, itself included.
+        precision: arithmetic that the points needed: ``"double"``, ``"double-double"`` or
+            ``"mpmath N"``.
+        note: why the status is undecided; empty otherwise.
+    """
+
+    slice: Slice
+    points: np.ndarray
+    multiplicity: int
+    status: Status
+    residual: float
+    accuracy: float
+    corank: int
+    multidegree: np.ndarray | None = None
+    orbit: int = 1
+    precision: str = "double"
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", _read_only(self.points, complex))
+        object.__setattr__(self, "status", Status(self.status))
+        if self.multidegree is not None:
+            object.__setattr__(self, "multidegree", _read_only(self.multidegree, int))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, WitnessSet):
+            return NotImplemented
+        plain = "multiplicity status residual accuracy corank orbit precision note".split()
+        if (self.multidegree is None) != (other.multidegree is None):
+            return False
+        return (
+            all(getattr(self, name) == getattr(other, name) for name in plain)
+            and self.slice == other.slice
+            and np.array_equal(self.points, other.points)
+            and (
+                self.multidegree is None or np.array_equal(self.multidegree, other.multidegree)
+            )
+        )
+
+    @property
+    def dimension(self) -> int:
+        return self.slice.dimension
+
+    @property
+    def degree(self) -> int:
+        return len(self.points)
+
+    def __repr__(self) -> str:
+        return (
+            f"WitnessSet(dimension={self.dimension}, degree={self.degree}, "
+            f"multiplicity={self.multiplicity}, {self.status})"
+        )
+
+
+@dataclass(frozen=True)
+class PathCounts:
+    """How many paths were tracked, and how they ended that did not end at a point."""
+
+    tracked: int = 0
+    failed: int = 0
+    at_infinity: int = 0
+
+    def __add__(self, other: PathCounts) -> PathCounts:
+        return PathCounts(
+            self.tracked + other.tracked,
+            self.failed + other.failed,
+            self.at_infinity + other.at_infinity,
+        )
+
+
+@dataclass(frozen=True)
+class Decomposition:
+    """The irreducible components of the zero set of ``system``.
+
+    Attributes:
+        system: the exact system.
+        components: by falling dimension, then rising degree.
+        paths: what the tracker did.
+        seed: seed of the random numbers.
+        settings: name of the tracking settings.
+        order: indices of the equations in the order in which they were intersected.
+        complete: whether every component is confirmed and no path was left undecided.
+        notes: what a reader must know of an incomplete answer.
+    """
+
+    system: PolynomialSystem
+    components: tuple[WitnessSet, ...]
+    paths: PathCounts
+    seed: int
+    settings: str
+    order: tuple[int, ...]
+    complete: bool
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def dimension(self) -> int:
+        """Largest dimension of a component; -1 for the empty set."""
+        return max((c.dimension for c in self.components), default=-1)

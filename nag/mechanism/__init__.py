@@ -1,0 +1,1 @@
+"""Mechanisms: bodies and joints, and the smallest polynomial systems that model them."""

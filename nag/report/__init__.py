@@ -1,0 +1,1 @@
+"""Tables, JSON and other ways to show a result."""

@@ -1,0 +1,1 @@
+"""Homotopy path tracking: predictor, corrector, endgame, precision."""
