@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import isqrt
 from typing import Any
 
 import mpmath
@@ -12,6 +13,12 @@ import mpmath
 # Two expressions are taken to be equal when they agree to this many digits; a rational identity
 # between square roots of case-file numbers that holds so far and then fails is not to be expected.
 EQUALITY_DIGITS = 60
+
+# Digits that a sum may lose to cancellation before it counts as zero. Each is tried in turn.
+_GUARDS = (10, 40, 40 + EQUALITY_DIGITS)
+
+# Square factors of radicands are looked for below this bound: sqrt(12) is 2*sqrt(3).
+_SQUARE_BOUND = 200
 
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "sqrt": mpmath.sqrt,
@@ -22,14 +29,17 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "/": lambda a, b: a / b,
     "neg": lambda a: -a,
 }
+_CANCELLING = ("+", "sin", "cos")
 
 
 @dataclass(frozen=True, eq=False)
 class Irrational:
     """A real number given by an expression in ``sqrt``, ``sin``, ``cos``, ``pi`` and fractions.
 
-    Equality means agreement to `EQUALITY_DIGITS` digits, so results that rest on it are marked
-    inexact in the output.
+    Rational factors are kept in front and equal radicands are multiplied out, so products, powers
+    and inverses of ``q*sqrt(r)`` are exact, and rational where they should be. Otherwise equality
+    means agreement to `EQUALITY_DIGITS` digits, so results that rest on it are marked inexact in
+    the output.
     """
 
     operation: str
@@ -37,16 +47,34 @@ class Irrational:
     _cache: dict[int, Any] = field(default_factory=dict, repr=False)
 
     def evaluate(self, digits: int) -> Any:
-        """The value as an `mpmath.mpf` with about ``digits`` digits."""
+        """The value as an `mpmath.mpf` with about ``digits`` correct digits; 0 if it is zero."""
         if digits not in self._cache:
-            with mpmath.workdps(digits + 10):
-                if self.operation == "pi":
-                    value = +mpmath.pi
-                else:
-                    values = [to_mpf(a, digits + 10) for a in self.arguments]
-                    value = _FUNCTIONS[self.operation](*values)
-            self._cache[digits] = value
+            self._cache[digits] = self._evaluate(digits)
         return self._cache[digits]
+
+    def _evaluate(self, digits: int) -> Any:
+        for guard in _GUARDS:
+            with mpmath.workdps(digits + guard + 5):
+                if self.operation == "pi":
+                    return +mpmath.pi
+                values = [to_mpf(a, digits + guard) for a in self.arguments]
+                value = _FUNCTIONS[self.operation](*values)
+                if self.operation not in _CANCELLING:
+                    return value
+                scale = max(abs(v) for v in values)
+                if self.operation != "+":
+                    scale = max(scale, mpmath.mpf(1))
+                if abs(value) > scale * mpmath.mpf(10) ** (5 - guard):
+                    return value
+        return mpmath.mpf(0)
+
+    @property
+    def depth(self) -> int:
+        """Levels of the expression, which evaluation descends."""
+        if -1 not in self._cache:
+            inner = [a.depth for a in self.arguments if isinstance(a, Irrational)]
+            self._cache[-1] = 1 + max(inner, default=0)
+        return self._cache[-1]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Irrational, (self.operation, self.arguments)
@@ -54,12 +82,25 @@ class Irrational:
     def __add__(self, other: Number | int) -> Number:
         if not isinstance(other, int | Fraction | Irrational):
             return NotImplemented
-        return self if other == 0 else Irrational("+", (self, _number(other)))
+        if not isinstance(other, Irrational):
+            return self if other == 0 else Irrational("+", (self, Fraction(other)))
+        (p, core), (q, other_core) = _split(self), _split(other)
+        if _same(core, other_core):
+            return _times(p + q, core)
+        total = Irrational("+", (self, other))
+        return Fraction(0) if is_zero(total) else total
 
     __radd__ = __add__
 
     def __neg__(self) -> Number:
-        return self.arguments[0] if self.operation == "neg" else Irrational("neg", (self,))
+        factor, core = _split(self)
+        return _times(-factor, core)
+
+    def __pos__(self) -> Number:
+        return self
+
+    def __abs__(self) -> Number:
+        return -self if self < 0 else self
 
     def __sub__(self, other: Number | int) -> Number:
         if not isinstance(other, int | Fraction | Irrational):
@@ -72,58 +113,76 @@ class Irrational:
     def __mul__(self, other: Number | int) -> Number:
         if not isinstance(other, int | Fraction | Irrational):
             return NotImplemented
-        if isinstance(other, int | Fraction):
-            if other == 0:
-                return Fraction(0)
-            if other == 1:
-                return self
-            if other == -1:
-                return -self
-        if isinstance(other, Irrational) and self.operation == other.operation == "sqrt":
-            if self.arguments[0] is other.arguments[0] or self.arguments[0] == other.arguments[0]:
-                return self.arguments[0]
-        return Irrational("*", (self, _number(other)))
+        (p, core), (q, other_core) = _split(self), _split(_number(other))
+        if other_core is None:
+            return _times(p * q, core)
+        if core.operation == other_core.operation == "sqrt":
+            return p * q * square_root(core.arguments[0] * other_core.arguments[0])
+        return _times(p * q, Irrational("*", (core, other_core)))
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Number | int) -> Number:
         if not isinstance(other, int | Fraction | Irrational):
             return NotImplemented
-        if is_zero(other):
-            raise ZeroDivisionError("division by zero")
-        if isinstance(other, int | Fraction):
-            return self * (1 / Fraction(other))
-        return Irrational("/", (self, other))
+        return self * _inverse(_number(other))
 
     def __rtruediv__(self, other: Number | int) -> Number:
-        if is_zero(self):
-            raise ZeroDivisionError("division by zero")
-        return Irrational("/", (_number(other), self))
+        if not isinstance(other, int | Fraction):
+            return NotImplemented
+        return _inverse(self) * other
 
     def __pow__(self, exponent: int) -> Number:
         if exponent < 0:
-            return 1 / (self**-exponent)
+            return _inverse(self) ** -exponent
         result: Number = Fraction(1)
-        for _ in range(exponent):
-            result = self * result
+        base: Number = self
+        while exponent:
+            if exponent & 1:
+                result = base * result
+            exponent >>= 1
+            if exponent:
+                base = base * base
         return result
 
     def __float__(self) -> float:
         return float(self.evaluate(30))
 
+    def __bool__(self) -> bool:
+        return not is_zero(self)
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, int | Fraction | Irrational):
             return NotImplemented
-        return self is other or is_zero(Irrational("+", (self, _number(-other))))
+        return self is other or is_zero(self - other)
 
     def __hash__(self) -> int:
-        return hash(mpmath.nstr(self.evaluate(30), 20))
+        # A number that equals a fraction must hash like it.
+        with mpmath.workdps(EQUALITY_DIGITS):
+            value = self.evaluate(EQUALITY_DIGITS)
+            if abs(value) < 10**15:
+                near = Fraction(int(mpmath.nint(value * 10**40)), 10**40).limit_denominator(10**15)
+                if self == near:
+                    return hash(near)
+            return hash(mpmath.nstr(value, 20))
+
+    def _sign_of_difference(self, other: Number | int) -> int:
+        difference = self - other
+        if isinstance(difference, Irrational):
+            return int(mpmath.sign(difference.evaluate(EQUALITY_DIGITS)))
+        return (difference > 0) - (difference < 0)
 
     def __lt__(self, other: Number | int) -> bool:
-        return self != other and self.evaluate(60) < to_mpf(_number(other), 60)
+        return self._sign_of_difference(other) < 0
+
+    def __le__(self, other: Number | int) -> bool:
+        return self._sign_of_difference(other) <= 0
 
     def __gt__(self, other: Number | int) -> bool:
-        return self != other and self.evaluate(60) > to_mpf(_number(other), 60)
+        return self._sign_of_difference(other) > 0
+
+    def __ge__(self, other: Number | int) -> bool:
+        return self._sign_of_difference(other) >= 0
 
     def __str__(self) -> str:
         return number_text(self)
@@ -131,9 +190,62 @@ class Irrational:
 
 Number = Fraction | Irrational
 
+PI = Irrational("pi")
+
 
 def _number(value: Number | int) -> Number:
     return Fraction(value) if isinstance(value, int) else value
+
+
+def _split(value: Number) -> tuple[Fraction, Irrational | None]:
+    """``value`` as a rational factor and what it multiplies (nothing, for a fraction)."""
+    if isinstance(value, Fraction):
+        return value, None
+    if value.operation == "neg":
+        factor, core = _split(value.arguments[0])
+        return -factor, core
+    if value.operation == "*" and isinstance(value.arguments[0], Fraction):
+        return value.arguments[0], value.arguments[1]
+    return Fraction(1), value
+
+
+def _times(factor: Fraction, core: Irrational) -> Number:
+    if factor == 0:
+        return Fraction(0)
+    if factor == 1:
+        return core
+    if factor == -1:
+        return Irrational("neg", (core,))
+    return Irrational("*", (factor, core))
+
+
+def _same(left: Irrational | None, right: Irrational | None) -> bool:
+    """Whether two expressions are written the same way."""
+    if left is right:
+        return True
+    if left is None or right is None or left.operation != right.operation:
+        return False
+    return all(
+        _same(a, b)
+        if isinstance(a, Irrational) and isinstance(b, Irrational)
+        else a is b
+        if isinstance(a, Irrational) or isinstance(b, Irrational)
+        else a == b
+        for a, b in zip(left.arguments, right.arguments, strict=True)
+    )
+
+
+def _inverse(value: Number) -> Number:
+    if is_zero(value):
+        raise ZeroDivisionError("division by zero")
+    factor, core = _split(value)
+    if core is None:
+        return 1 / factor
+    if core.operation == "sqrt":
+        return core / core.arguments[0] / factor
+    if core.operation == "/":
+        return Irrational("/", (core.arguments[1], core.arguments[0])) / factor
+    return _times(1 / factor, Irrational("/", (Fraction(1), core)))
 
 
 def to_mpf(value: Number | int, digits: int) -> Any:
@@ -149,7 +261,7 @@ def is_zero(value: Number | int) -> bool:
     """Whether ``value`` is zero: exactly for fractions, to `EQUALITY_DIGITS` otherwise."""
     if not isinstance(value, Irrational):
         return value == 0
-    return abs(value.evaluate(EQUALITY_DIGITS)) < mpmath.mpf(10) ** (5 - EQUALITY_DIGITS)
+    return value.evaluate(EQUALITY_DIGITS) == 0
 
 
 def square_root(value: Number | int) -> Number:
@@ -158,16 +270,71 @@ def square_root(value: Number | int) -> Number:
     Raises:
         ValueError: if ``value`` is negative.
     """
-    from math import isqrt
-
     value = _number(value)
     if value < 0:
         raise ValueError("square root of a negative number")
-    if isinstance(value, Fraction):
-        top, bottom = isqrt(value.numerator), isqrt(value.denominator)
-        if top * top == value.numerator and bottom * bottom == value.denominator:
-            return Fraction(top, bottom)
-    return Irrational("sqrt", (value,))
+    if isinstance(value, Irrational):
+        return Irrational("sqrt", (value,))
+    root, radicand = 1, value.numerator * value.denominator
+    for k in range(2, _SQUARE_BOUND):
+        while radicand and radicand % (k * k) == 0:
+            root, radicand = root * k, radicand // (k * k)
+    exact = isqrt(radicand)
+    if exact * exact == radicand:
+        return Fraction(root * exact, value.denominator)
+    core = Irrational("sqrt", (Fraction(radicand),))
+    return _times(Fraction(root, value.denominator), core)
+
+
+def pi_multiple(value: Number) -> Fraction | None:
+    """The fraction ``q`` with ``value = q*pi`` if the expression shows one, else None."""
+    factor, core = _split(value)
+    if factor == 0:
+        return Fraction(0)
+    if core is None:
+        return None
+    if core.operation == "pi":
+        return factor
+    if core.operation == "+":
+        parts = [pi_multiple(a) for a in core.arguments]
+        if None not in parts:
+            return factor * (parts[0] + parts[1])
+    return None
+
+
+def sine(value: Number | int) -> Number:
+    """The sine, in square roots at the multiples of pi/6 and pi/4."""
+    value = _number(value)
+    turns = pi_multiple(value)
+    if turns is None:
+        return Irrational("sin", (value,))
+    turns %= 2
+    if turns >= 1:
+        return -sine(_times_pi(turns - 1))
+    acute = min(turns, 1 - turns)
+    squared = {
+        Fraction(0): Fraction(0),
+        Fraction(1, 6): Fraction(1, 4),
+        Fraction(1, 4): Fraction(1, 2),
+        Fraction(1, 3): Fraction(3, 4),
+        Fraction(1, 2): Fraction(1),
+    }
+    if acute in squared:
+        return square_root(squared[acute])
+    return Irrational("sin", (_times_pi(acute),))
+
+
+def cosine(value: Number | int) -> Number:
+    """The cosine, in square roots at the multiples of pi/6 and pi/4."""
+    value = _number(value)
+    turns = pi_multiple(value)
+    if turns is None:
+        return Irrational("cos", (value,))
+    return sine(_times_pi(turns + Fraction(1, 2)))
+
+
+def _times_pi(factor: Fraction) -> Number:
+    return _times(factor, PI)
 
 
 def number_text(value: Number) -> str:

@@ -151,7 +151,7 @@ class Polynomial:
         terms = {}
         for e, c in self.terms.items():
             if e[index]:
-                terms[e[:index] + (e[index] - 1,) + e[index + 1 :]] = c * e[index]
+                terms[(*e[:index], e[index] - 1, *e[index + 1 :])] = c * e[index]
         return Polynomial(self.n, terms)
 
     def __call__(self, point: Sequence[Any], convert: Callable[[Number], Any] | None = None) -> Any:
@@ -173,14 +173,14 @@ class Polynomial:
         return total
 
     def compose(self, images: Sequence[Polynomial]) -> Polynomial:
-        """The polynomial with variable ``i`` replaced by ``images[i]``, in the images' variables."""
+        """The polynomial in the images' variables, variable ``i`` replaced by ``images[i]``."""
         if len(images) != self.n:
             raise ValueError(f"{self.n} images are needed, {len(images)} were given")
         if not images:
             return self
         m = images[0].n
         powers: dict[tuple[int, int], Polynomial] = {}
-        total = Polynomial(m, {})
+        total: dict[Exponents, Number] = {}
         for e, c in self.terms.items():
             value = Polynomial.constant(m, c)
             for i, k in enumerate(e):
@@ -188,18 +188,23 @@ class Polynomial:
                     if (i, k) not in powers:
                         powers[i, k] = images[i] ** k
                     value = value * powers[i, k]
-            total = total + value
-        return total
+            for f, d in value.terms.items():
+                total[f] = total[f] + d if f in total else d
+        return Polynomial(m, total)
 
     def with_variables(self, n: int, positions: Sequence[int]) -> Polynomial:
-        """The same polynomial among ``n`` variables; variable ``i`` moves to ``positions[i]``."""
-        terms = {}
+        """The polynomial among ``n`` variables; variable ``i`` becomes number ``positions[i]``.
+
+        Variables that become the same one are identified.
+        """
+        terms: dict[Exponents, Number] = {}
         for e, c in self.terms.items():
             key = [0] * n
             for i, k in enumerate(e):
                 if k:
                     key[positions[i]] += k
-            terms[tuple(key)] = c
+            moved = tuple(key)
+            terms[moved] = terms[moved] + c if moved in terms else c
         return Polynomial(n, terms)
 
     def text(self, variables: Sequence[str]) -> str:

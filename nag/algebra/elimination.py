@@ -1,0 +1,194 @@
+"""Exact elimination of variables that equations give as polynomials in the others."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.system import PolynomialSystem
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """A system with fewer variables, and the way back.
+
+    The original solution set is the graph of `images` over that of `system` (PT13 definition 2.1),
+    so dimensions, irreducibility and multiplicities are the same. Degrees are the same if every
+    image is of degree one.
+
+    Attributes:
+        system: the reduced system.
+        original_variables: names of the original variables.
+        kept: index, among the original variables, of each variable of `system`.
+        images: each original variable as a polynomial in the variables of `system`.
+    """
+
+    system: PolynomialSystem
+    original_variables: tuple[str, ...]
+    kept: tuple[int, ...]
+    images: tuple[Polynomial, ...]
+
+    @property
+    def linear(self) -> bool:
+        """Whether every image has degree at most one, so that degrees are kept."""
+        return all(image.degree <= 1 for image in self.images)
+
+    def lift(self, point: Sequence[Any]) -> Any:
+        """The point of the original space above ``point``.
+
+        ``point`` is a sequence of numbers, exact ones giving exact ones, or a NumPy array of shape
+        (..., reduced n), which gives an array of shape (..., n).
+        """
+        if not hasattr(point, "dtype"):
+            return [image(point) for image in self.images]
+        import numpy as np
+
+        array = np.asarray(point)
+        columns = [array[..., i] for i in range(array.shape[-1])]
+        lifted = np.empty((*array.shape[:-1], len(self.images)), dtype=np.result_type(array, float))
+        for i, image in enumerate(self.images):
+            lifted[..., i] = image(columns)
+        return lifted
+
+    def project(self, point: Sequence[Any]) -> Any:
+        """The coordinates of a point of the original space that the reduced system keeps."""
+        if hasattr(point, "dtype"):
+            return point[..., list(self.kept)]
+        return [point[i] for i in self.kept]
+
+
+def eliminate_linear(
+    system: PolynomialSystem, keep: Collection[int] = (), graphs: bool = True
+) -> Elimination:
+    """Solve equations for variables that they contain linearly, with a constant coefficient.
+
+    Equations of degree one are solved first, those with the fewest terms before others and each
+    for the variable that spreads least; that raises no degree. With ``graphs``, an equation of
+    higher degree is solved as well (``z - x^2`` for ``z``) where no degree of another equation
+    rises. That changes the degrees of components, so systems whose degrees are asked for want
+    ``graphs=False``. Where the system has variable groups, no degree in a group rises either; still
+    multidegrees are then those of the reduced system.
+
+    Equations that reduce to zero are dropped. One that reduces to another constant stays: the
+    system has no solutions; so it is where a condition in ``nonzero`` reduces to zero. A group
+    all of whose variables are eliminated disappears.
+
+    Args:
+        system: the equations; conditions in ``nonzero`` are carried along.
+        keep: indices of variables that must stay.
+        graphs: whether equations of degree two and more may be solved.
+    """
+    n = system.n
+    equations = [f for f in system.polynomials if f]
+    nonzero = list(system.nonzero)
+    images = list(Polynomial.variables(n))
+    kept = set(range(n))
+    groups = system.groups
+    while True:
+        pivot = _pivot(equations, nonzero, kept - set(keep), groups, graphs)
+        if pivot is None:
+            break
+        row, index = pivot
+        image = _solved(equations[row], index)
+        del equations[row]
+        equations = [g for g in (_substitute(f, index, image) for f in equations) if g]
+        nonzero = [_substitute(f, index, image) for f in nonzero]
+        images = [_substitute(f, index, image) for f in images]
+        kept.discard(index)
+    order = sorted(kept)
+    return Elimination(
+        system=PolynomialSystem(
+            tuple(system.variables[i] for i in order),
+            tuple(_restrict(f, order) for f in equations),
+            tuple(_restrict(f, order) for f in nonzero),
+            tuple(g for g in (tuple(order.index(i) for i in g if i in kept) for g in groups) if g),
+        ),
+        original_variables=system.variables,
+        kept=tuple(order),
+        images=tuple(_restrict(f, order) for f in images),
+    )
+
+
+def _pivot(
+    equations: list[Polynomial],
+    nonzero: list[Polynomial],
+    free: set[int],
+    groups: tuple[tuple[int, ...], ...],
+    graphs: bool,
+) -> tuple[int, int] | None:
+    """Equation and variable to solve it for: those that fill in least, lowest degree first."""
+    others = [f.support for f in equations]
+    best: tuple[Any, tuple[int, int]] | None = None
+    for row, f in enumerate(equations):
+        if f.degree < 1 or (f.degree > 1 and not graphs):
+            continue
+        for index in _linear_variables(f) & free:
+            used_in = [i for i, support in enumerate(others) if index in support and i != row]
+            fill = (len(f.terms) - 2) * len(used_in)
+            key = (f.degree, fill, len(f.terms), index, row)
+            if best is not None and key >= best[0]:
+                continue
+            affected = [equations[i] for i in used_in]
+            affected += [g for g in nonzero if index in g.support]
+            if (f.degree > 1 or groups) and _raises_degrees(affected, f, index, groups):
+                continue
+            best = key, (row, index)
+    return None if best is None else best[1]
+
+
+def _linear_variables(f: Polynomial) -> set[int]:
+    """Variables that occur in ``f`` in one term only, linearly and alone."""
+    alone = {e.index(1) for e in f.terms if sum(e) == 1}
+    elsewhere = {i for e in f.terms if sum(e) > 1 for i, k in enumerate(e) if k}
+    return alone - elsewhere
+
+
+def _solved(f: Polynomial, index: int) -> Polynomial:
+    """What ``f = 0`` says the variable is."""
+    variable = Polynomial.variable(f.n, index)
+    (exponents,) = variable.terms
+    coefficient = f.terms[exponents]
+    return variable - f / coefficient
+
+
+def _substitute(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
+    """``f`` with one variable replaced, by Horner's rule in that variable."""
+    by_power: dict[int, dict[Exponents, Number]] = {}
+    for e, c in f.terms.items():
+        by_power.setdefault(e[index], {})[(*e[:index], 0, *e[index + 1 :])] = c
+    top = max(by_power, default=0)
+    if top == 0:
+        return f
+    result = Polynomial(f.n, by_power[top])
+    for power in range(top - 1, -1, -1):
+        result = result * image + Polynomial(f.n, by_power.get(power, {}))
+    return result
+
+
+def _raises_degrees(
+    affected: Iterable[Polynomial],
+    f: Polynomial,
+    index: int,
+    groups: tuple[tuple[int, ...], ...],
+) -> bool:
+    """Whether substituting for the variable can raise the degree of one that contains it.
+
+    Degrees before cancellation are compared: a degree that only cancellation keeps low is a
+    coincidence that is not worth the larger coefficients.
+    """
+    for measured in (tuple(range(f.n)), *groups):
+        of_image = max((sum(e[i] for i in measured) for e in f.terms if not e[index]), default=0)
+        of_variable = int(index in measured)
+        for g in affected:
+            degree = g.degree_in(measured)
+            for e in g.terms:
+                if sum(e[i] for i in measured) + e[index] * (of_image - of_variable) > degree:
+                    return True
+    return False
+
+
+def _restrict(f: Polynomial, order: Sequence[int]) -> Polynomial:
+    return Polynomial(len(order), {tuple(e[i] for i in order): c for e, c in f.terms.items()})
