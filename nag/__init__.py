@@ -1,1 +1,40 @@
 """Numerical algebraic geometry for mechanisms."""
+
+from importlib import import_module
+from typing import Any
+
+__version__ = "0.1.0"
+
+# Public names by the module that defines them. They are imported on first use, so that
+# `import nag` and `nag --help` load neither numpy nor numba.
+_HOME = {
+    "Case": "nag.cases",
+    "CaseError": "nag.cases",
+    "Decomposition": "nag.decomposition.witness",
+    "Mechanism": "nag.mechanism.graph",
+    "Polynomial": "nag.algebra.polynomial",
+    "PolynomialSystem": "nag.algebra.system",
+    "Slice": "nag.decomposition.witness",
+    "Status": "nag.decomposition.witness",
+    "WitnessSet": "nag.decomposition.witness",
+    "decompose": "nag.decomposition",
+    "gruebler_kutzbach": "nag.mechanism.mobility",
+    "model": "nag.mechanism.model",
+    "read_case": "nag.cases",
+    "read_decomposition": "nag.report.export",
+    "write_decomposition": "nag.report.export",
+}
+
+__all__ = [*sorted(_HOME), "__version__"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'nag' has no attribute {name!r}")
+    value = getattr(import_module(_HOME[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOME})

@@ -1,0 +1,256 @@
+"""The command ``nag``.
+
+Exit status: 0 for a complete answer, 1 for an incomplete one, 2 for bad input (one line on
+standard error), 130 after Ctrl-C. Modules that load numpy or numba are imported by the commands
+that need them, so that ``nag --help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+import time
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NoReturn
+
+import nag
+
+if TYPE_CHECKING:
+    from nag.cases import Case
+    from nag.mechanism.model import Model
+
+COMPLETE, INCOMPLETE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+SETTINGS = ("fast", "default", "careful")
+MOST_THREADS = 256
+LARGEST_SEED = 2**63 - 1
+
+
+class UsageError(ValueError):
+    """Bad input; the message is one line for the user."""
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"{message} (see {self.prog} --help)")
+
+
+def _whole(text: str, least: int, most: int) -> int:
+    digits = text.strip()
+    if not (digits.isascii() and digits.isdigit() and len(digits) < 30):
+        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a whole number from {least} up")
+    value = int(digits)
+    if not least <= value <= most:
+        raise argparse.ArgumentTypeError(f"{value} is not between {least} and {most}")
+    return value
+
+
+def _seed(text: str) -> int:
+    return _whole(text, 0, LARGEST_SEED)
+
+
+def _threads(text: str) -> int:
+    return _whole(text, 1, MOST_THREADS)
+
+
+def _available_threads() -> int:
+    if hasattr(os, "sched_getaffinity"):
+        return min(len(os.sched_getaffinity(0)), MOST_THREADS)
+    return min(os.cpu_count() or 1, MOST_THREADS)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line's grammar."""
+    root = _Parser(
+        prog="nag",
+        description="Numerical algebraic geometry for mechanisms.",
+        epilog="Exit status: 0 complete answer, 1 incomplete answer, 2 bad input.",
+        allow_abbrev=False,
+    )
+    root.add_argument("--version", action="version", version=f"nag {nag.__version__}")
+    commands = root.add_subparsers(dest="command", metavar="COMMAND", required=True)
+
+    case = argparse.ArgumentParser(add_help=False)
+    case.add_argument("case", metavar="CASE", help="case file (TOML)")
+    case.add_argument(
+        "--formulation",
+        choices=("E", "H"),
+        help="model of a mechanism: E Euler parameters, H half angles (default: the smaller one)",
+    )
+
+    decompose = commands.add_parser(
+        "decompose",
+        parents=[case],
+        allow_abbrev=False,
+        help="find the irreducible components of a case",
+        description="Find the irreducible components of a mechanism's configuration space, or of "
+        "the zero set of a polynomial system, and the mobility.",
+    )
+    decompose.add_argument(
+        "--seed", type=_seed, default=0, help="seed of the random numbers (default: 0)"
+    )
+    decompose.add_argument(
+        "--threads",
+        type=_threads,
+        default=_available_threads(),
+        help="threads; the answer is the same for any number (default: one a processor)",
+    )
+    decompose.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
+    decompose.add_argument(
+        "--settings",
+        choices=SETTINGS,
+        default="default",
+        help="how carefully paths are tracked (default: default)",
+    )
+    decompose.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    decompose.set_defaults(run=_decompose)
+
+    model = commands.add_parser(
+        "model",
+        parents=[case],
+        allow_abbrev=False,
+        help="print the polynomial system of a case",
+        description="Print the polynomial system that `nag decompose` decomposes.",
+    )
+    model.set_defaults(run=_model)
+    return root
+
+
+def _read(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
+    """The case, and its model if it is a mechanism."""
+    from nag.cases import CaseError, read_case
+
+    try:
+        case = read_case(arguments.case)
+    except CaseError as error:
+        raise UsageError(str(error)) from None
+    except OSError as error:
+        raise UsageError(f"{arguments.case}: {error.strerror or error}") from None
+    if case.mechanism is None:
+        if arguments.formulation is not None:
+            raise UsageError(
+                f"{arguments.case}: is a polynomial system; --formulation is for mechanisms"
+            )
+        return case, None
+
+    from nag.mechanism.graph import MechanismError
+    from nag.mechanism.model import model
+
+    try:
+        return case, model(case.mechanism, arguments.formulation or "auto")
+    except MechanismError as error:
+        raise UsageError(f"{arguments.case}: {error}") from None
+
+
+def _check_json(target: str, case: str) -> None:
+    """Refuse, before any work is done, a file that the answer could not be written to."""
+    from nag.report.target import TargetError, check_target
+
+    try:
+        check_target(target)
+    except TargetError as error:
+        raise UsageError(f"--json: {error}") from None
+    if os.path.exists(target) and os.path.exists(case) and os.path.samefile(target, case):
+        raise UsageError(f"--json: {target}: is the case file; name another file")
+
+
+def _decompose(arguments: argparse.Namespace) -> int:
+    started = time.perf_counter()
+    if arguments.json is not None:
+        _check_json(arguments.json, arguments.case)
+    case, model = _read(arguments)
+
+    from nag.report.progress import compilation_notice, progress_line
+
+    with (
+        compilation_notice(sys.stderr, arguments.quiet),
+        progress_line(sys.stderr, arguments.quiet) as progress,
+    ):
+        from nag.decomposition import decompose
+        from nag.report.answer import system_of, through_points
+
+        decomposition = decompose(
+            system_of(case, model),
+            seed=arguments.seed,
+            threads=arguments.threads,
+            settings=arguments.settings,
+            progress=progress,
+        )
+        points = through_points(decomposition, case, model, arguments.threads)
+
+    from nag.report.answer import answer_lines, is_complete, origin
+    from nag.report.export import write_decomposition
+    from nag.report.target import TargetError
+
+    failure = None
+    if arguments.json is not None:
+        try:
+            write_decomposition(decomposition, arguments.json, origin(case, model))
+        except TargetError as error:
+            failure = UsageError(f"--json: {error}")
+    seconds = time.perf_counter() - started
+    _print(answer_lines(decomposition, case, model, points, seconds))
+    if failure is not None:
+        raise failure
+    return COMPLETE if is_complete(decomposition, points) else INCOMPLETE
+
+
+def _model(arguments: argparse.Namespace) -> int:
+    from nag.report.answer import model_lines
+
+    _print(model_lines(*_read(arguments)))
+    return COMPLETE
+
+
+def _print(lines: Sequence[str] = ()) -> None:
+    """Write lines to standard output; a reader who has gone away is no error."""
+    try:
+        sys.stdout.write("".join(f"{line}\n" for line in lines))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _abandon_output()
+    except OSError as error:
+        _abandon_output()
+        raise UsageError(f"standard output cannot be written: {error.strerror}") from None
+
+
+def _complain(message: str) -> None:
+    from nag.report.table import printable
+
+    with contextlib.suppress(OSError, ValueError):
+        sys.stderr.write(f"nag: {printable(message)}\n")
+        sys.stderr.flush()
+
+
+def _abandon_output() -> None:
+    """Give standard output nowhere to go, so that the interpreter's last flush cannot fail."""
+    with contextlib.suppress(OSError, ValueError):
+        sink = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(sink, sys.stdout.fileno())
+        os.close(sink)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit status."""
+    for stream in (sys.stdout, sys.stderr):
+        # What a terminal's encoding cannot show is escaped; it must not end the run.
+        with contextlib.suppress(AttributeError):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        try:
+            arguments = parser().parse_args(argv)
+        except SystemExit:  # after --help or --version
+            _print()
+            return COMPLETE
+        return arguments.run(arguments)
+    except UsageError as error:
+        _complain(str(error))
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        _complain("interrupted")
+        return INTERRUPTED
+    except MemoryError:
+        _complain("not enough memory for this case")
+        return INCOMPLETE

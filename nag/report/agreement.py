@@ -1,0 +1,167 @@
+"""A decomposition beside what a case says is known of it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nag.decomposition.witness import Decomposition, Status, WitnessSet
+
+if TYPE_CHECKING:
+    from nag.cases import Truth
+
+
+class Verdict(StrEnum):
+    """How an answer stands to what is known."""
+
+    AGREES = "agrees"
+    OPEN = "agrees as far as it is decided"
+    DIFFERS = "differs"
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Components that are alike in what can be known of them beforehand."""
+
+    dimension: int
+    degree: int
+    multiplicity: int
+    multidegree: tuple[int, ...] | None = None
+
+    def text(self, count: int) -> str:
+        """``count`` of them in words: "9 components of dimension 2, degree 4"."""
+        plural = "" if count == 1 else "s"
+        text = f"{count} component{plural} of dimension {self.dimension}, degree {self.degree}"
+        if self.multiplicity == 0:
+            return f"{text}, multiplicity not known"
+        return text if self.multiplicity == 1 else f"{text}, multiplicity {self.multiplicity}"
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """Outcome of a comparison.
+
+    Attributes:
+        verdict: whether the answer agrees.
+        confirmed: what is known and was found.
+        missing: what is known and was not found.
+        surplus: what was found, in a dimension that the known list covers, and is not known.
+        unlisted: what was found in dimensions of which nothing is known.
+        undecided: number of components that are undecided.
+        sources: where the known things come from.
+    """
+
+    verdict: Verdict
+    confirmed: Counter[Kind]
+    missing: Counter[Kind]
+    surplus: Counter[Kind]
+    unlisted: Counter[Kind]
+    undecided: int
+    sources: tuple[str, ...]
+
+
+def _flat(multidegree: object) -> tuple[int, ...] | None:
+    return None if multidegree is None else tuple(np.ravel(np.array(multidegree)).tolist())
+
+
+def kind(component: WitnessSet) -> Kind:
+    """What can be compared of ``component``."""
+    return Kind(
+        component.dimension,
+        component.degree,
+        component.multiplicity,
+        _flat(component.multidegree),
+    )
+
+
+def kinds(components: Iterable[WitnessSet]) -> Counter[Kind]:
+    """How many components there are of each kind; each stands for its whole orbit."""
+    counts: Counter[Kind] = Counter()
+    for component in components:
+        counts[kind(component)] += component.orbit
+    return counts
+
+
+def in_words(counts: Counter[Kind]) -> str:
+    """Counts in words, multidegrees left out, by falling dimension."""
+    plain: Counter[Kind] = Counter()
+    for each, count in counts.items():
+        plain[Kind(each.dimension, each.degree, each.multiplicity)] += count
+    order = sorted(plain, key=lambda k: (-k.dimension, k.degree, k.multiplicity))
+    return "; ".join(each.text(plain[each]) for each in order) or "no component"
+
+
+def compare(
+    decomposition: Decomposition, truth: Iterable[Truth], formulation: str | None = None
+) -> Agreement | None:
+    """Compare with what is known for the system's formulation; None if nothing is.
+
+    Known things that name another formulation are left out. The known list is taken to be
+    complete in every dimension that it mentions; of other dimensions it says nothing. Only
+    components that are decided are compared.
+    """
+    known = [t for t in truth if t.formulation is None or t.formulation == formulation]
+    if not known:
+        return None
+    left = kinds(c for c in decomposition.components if c.status is Status.IRREDUCIBLE)
+    undecided = sum(c.orbit for c in decomposition.components if c.status is not Status.IRREDUCIBLE)
+    confirmed: Counter[Kind] = Counter()
+    missing: Counter[Kind] = Counter()
+    # The more specific statements choose first among the components that fit.
+    for item in sorted(known, key=lambda t: t.multidegree is None):
+        wanted = Kind(item.dimension, item.degree, item.multiplicity, _flat(item.multidegree))
+        due = item.count
+        for found in list(left):
+            fits = (found.dimension, found.degree, found.multiplicity) == (
+                wanted.dimension,
+                wanted.degree,
+                wanted.multiplicity,
+            ) and wanted.multidegree in (None, found.multidegree)
+            taken = min(due, left[found]) if fits else 0
+            left[found] -= taken
+            due -= taken
+        confirmed[wanted] += item.count - due
+        missing[wanted] += due
+    covered = {item.dimension for item in known}
+    surplus = Counter({k: n for k, n in left.items() if n and k.dimension in covered})
+    unlisted = Counter({k: n for k, n in left.items() if n and k.dimension not in covered})
+    if surplus or (missing.total() and not undecided):
+        verdict = Verdict.DIFFERS
+    else:
+        verdict = Verdict.OPEN if missing.total() or undecided else Verdict.AGREES
+    return Agreement(
+        verdict=verdict,
+        confirmed=+confirmed,
+        missing=+missing,
+        surplus=surplus,
+        unlisted=unlisted,
+        undecided=undecided,
+        sources=tuple(dict.fromkeys(item.source for item in known)),
+    )
+
+
+def agreement_text(agreement: Agreement) -> str:
+    """The comparison as one sentence."""
+    confirmed, missing = in_words(agreement.confirmed), in_words(agreement.missing)
+    sources = f" ({'; '.join(agreement.sources)})" if any(agreement.sources) else ""
+    if agreement.verdict is Verdict.AGREES:
+        text = f"agrees with what is known: {confirmed}"
+    elif agreement.verdict is Verdict.OPEN:
+        text = f"agrees with what is known as far as it is decided: {confirmed}"
+        if agreement.missing:
+            text += f"; known but not decided here: {missing}"
+    else:
+        parts = []
+        if agreement.missing:
+            parts.append(f"not found: {missing}")
+        if agreement.surplus:
+            parts.append(f"found but not known: {in_words(agreement.surplus)}")
+        text = f"differs from what is known: {'; '.join(parts)}"
+    if agreement.unlisted:
+        text += f"; nothing is known of: {in_words(agreement.unlisted)}"
+    return text + sources

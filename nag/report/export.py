@@ -1,0 +1,332 @@
+"""Decompositions as JSON: written, and read back to equal objects.
+
+The format is ``nag-decomposition``, version 1; its JSON Schema is in ``schema/`` beside this
+module. A file holds all that is needed to go on from it (system, slices, points, seed, settings)
+and nothing that differs between runs with the same seed (no times, no folders, no thread counts).
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.report.json_values import (
+    ExportError,
+    as_count,
+    as_double,
+    as_flag,
+    as_list,
+    as_matrix,
+    as_table,
+    as_text,
+    as_texts,
+    as_vector,
+    entry,
+    wrong,
+)
+from nag.report.target import write_target
+
+FORMAT = "nag-decomposition"
+VERSION = 1
+
+# A file is taken into memory whole, several times its size as Python objects.
+LARGEST_FILE = 256 * 1024**2
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a decomposed system came from.
+
+    Attributes:
+        title: title of the case.
+        file: name of the case file, without its folder.
+        kind: ``"system"`` or ``"mechanism"``.
+        formulation: formulation of a mechanism's model, ``"E"`` or ``"H"``.
+        reason: why that model was chosen.
+    """
+
+    title: str
+    file: str
+    kind: str
+    formulation: str | None = None
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
+class Export:
+    """What a file holds."""
+
+    decomposition: Decomposition
+    origin: Origin | None = None
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of the format."""
+    name = f"{FORMAT}-{VERSION}.json"
+    return json.loads((resources.files("nag.report") / "schema" / name).read_text("utf-8"))
+
+
+def _real(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
+
+
+def _pairs(array: np.ndarray) -> list[Any]:
+    """A complex array as nested lists with ``[re, im]`` in place of each entry."""
+    doubles = np.ascontiguousarray(array).view(float).reshape(*array.shape, 2)
+    if np.isfinite(doubles).all():
+        return doubles.tolist()
+    return np.where(np.isfinite(doubles), doubles.astype(object), None).tolist()
+
+
+def _component_document(component: WitnessSet) -> dict[str, Any]:
+    document: dict[str, Any] = {"dimension": component.dimension, "degree": component.degree}
+    if component.multidegree is not None:
+        document["multidegree"] = component.multidegree.tolist()
+    return document | {
+        "multiplicity": component.multiplicity,
+        "status": str(component.status),
+        "note": component.note,
+        "orbit": {"size": component.orbit},
+        "residual": _real(component.residual),
+        "accuracy": _real(component.accuracy),
+        "precision": component.precision,
+        "corank": component.corank,
+        "slice": {"A": _pairs(component.slice.A), "b": _pairs(component.slice.b)},
+        "points": _pairs(component.points),
+    }
+
+
+def document(decomposition: Decomposition, origin: Origin | None = None) -> dict[str, Any]:
+    """The export as a JSON object (dicts, lists, strings, numbers, None)."""
+    system = decomposition.system
+    case = origin and {"title": origin.title, "file": origin.file, "kind": origin.kind}
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "case": case,
+        "formulation": origin and origin.formulation,
+        "reason": origin and origin.reason,
+        "seed": decomposition.seed,
+        "settings": decomposition.settings,
+        "complete": decomposition.complete,
+        "notes": list(decomposition.notes),
+        "paths": {
+            "tracked": decomposition.paths.tracked,
+            "failed": decomposition.paths.failed,
+            "at_infinity": decomposition.paths.at_infinity,
+        },
+        "order": [int(i) for i in decomposition.order],
+        "system": {
+            "variables": list(system.variables),
+            "polynomials": system.text(),
+            "nonzero": [f.text(system.variables) for f in system.nonzero],
+            "groups": [[system.variables[i] for i in group] for group in system.groups],
+            "exact": system.exact,
+        },
+        "components": [_component_document(c) for c in decomposition.components],
+    }
+
+
+def _depth(value: Any) -> float:
+    """Nesting depth of lists; infinite if there is an object inside."""
+    if isinstance(value, dict):
+        return math.inf
+    return 1 + max(map(_depth, value), default=0) if isinstance(value, list) else 0
+
+
+def _lay_out(value: Any, indent: str = "") -> str:
+    """JSON text with one line for each key, and one line for each point."""
+    deeper = indent + "  "
+    if isinstance(value, dict) and value:
+        parts = [f"{json.dumps(k)}: {_lay_out(v, deeper)}" for k, v in value.items()]
+        left, right = "{}"
+    elif isinstance(value, list) and (_depth(value) > 2 or any(isinstance(v, str) for v in value)):
+        parts = [_lay_out(v, deeper) for v in value]
+        left, right = "[]"
+    else:
+        return json.dumps(value, allow_nan=False)
+    return f"{left}\n{deeper}" + f",\n{deeper}".join(parts) + f"\n{indent}{right}"
+
+
+def export_text(decomposition: Decomposition, origin: Origin | None = None) -> str:
+    """The export as JSON text, ASCII, the same for equal arguments."""
+    return _lay_out(document(decomposition, origin)) + "\n"
+
+
+def write_decomposition(
+    decomposition: Decomposition,
+    path: str | os.PathLike[str],
+    origin: Origin | None = None,
+) -> None:
+    """Write the export to ``path`` in one step.
+
+    Raises:
+        nag.report.target.TargetError: if the file cannot be written.
+    """
+    write_target(path, export_text(decomposition, origin))
+
+
+def _multidegree(value: Any, groups: int, dimension: int, place: str) -> np.ndarray:
+    try:
+        array = np.array(value)
+    except ValueError:
+        array = np.array(None)
+    if array.shape != (groups,) * dimension or array.dtype.kind not in "iu" or (array < 0).any():
+        raise wrong(place, f"{groups} counts in each of {dimension} nested lists")
+    return array
+
+
+def _component(value: Any, system: PolynomialSystem, place: str) -> WitnessSet:
+    table = as_table(value, place)
+
+    def get(key: str, convert: Any, *arguments: Any) -> Any:
+        return convert(entry(table, key, place), *arguments, f"{place}.{key}")
+
+    cut = get("slice", as_table)
+    b = as_vector(entry(cut, "b", f"{place}.slice"), f"{place}.slice.b")
+    a = as_matrix(entry(cut, "A", f"{place}.slice"), system.n, f"{place}.slice.A")
+    points = get("points", as_matrix, system.n)
+    if len(a) != len(b) or get("dimension", as_count) != len(b):
+        raise wrong(f"{place}.dimension", "the number of rows of the slice's A and b")
+    if get("degree", as_count) != len(points):
+        raise wrong(f"{place}.degree", "the number of points")
+    status = get("status", as_text)
+    if status not in set(Status):
+        raise wrong(f"{place}.status", " or ".join(Status))
+    multidegree = None
+    if "multidegree" in table:
+        multidegree = get("multidegree", _multidegree, len(system.groups), len(b))
+    orbit = get("orbit", as_table)
+    return WitnessSet(
+        slice=Slice(a, b),
+        points=points,
+        multiplicity=get("multiplicity", as_count),
+        status=Status(status),
+        residual=get("residual", as_double),
+        accuracy=get("accuracy", as_double),
+        corank=get("corank", as_count),
+        multidegree=multidegree,
+        orbit=as_count(entry(orbit, "size", f"{place}.orbit"), f"{place}.orbit.size", 1),
+        precision=get("precision", as_text),
+        note=get("note", as_text),
+    )
+
+
+def _polynomials(value: Any, variables: Sequence[str], place: str) -> list[Polynomial]:
+    found = []
+    for i, text in enumerate(as_texts(value, place)):
+        try:
+            found.append(parse_polynomial(text, variables))
+        except ValueError as error:
+            raise ExportError(f"{place}[{i}]: {error}") from None
+    return found
+
+
+def _system(value: Any, place: str) -> PolynomialSystem:
+    table = as_table(value, place)
+    variables = as_texts(entry(table, "variables", place), f"{place}.variables")
+    index = {name: i for i, name in enumerate(variables)}
+    groups = []
+    for i, names in enumerate(as_list(entry(table, "groups", place), f"{place}.groups")):
+        here = f"{place}.groups[{i}]"
+        if unknown := [name for name in as_texts(names, here) if name not in index]:
+            raise ExportError(f"{here}: {unknown[0]!r} is not one of the variables")
+        groups.append([index[name] for name in names])
+    parts = {
+        key: _polynomials(entry(table, key, place), variables, f"{place}.{key}")
+        for key in ("polynomials", "nonzero")
+    }
+    try:
+        return PolynomialSystem(variables, parts["polynomials"], parts["nonzero"], groups)
+    except ValueError as error:
+        raise ExportError(f"{place}: {error}") from None
+
+
+def _export(value: Any) -> Export:
+    table = as_table(value, "the file")
+    if table.get("format") != FORMAT:
+        raise wrong("format", f'"{FORMAT}"')
+    if table.get("version") != VERSION:
+        raise wrong("version", f"{VERSION}, the version that this program reads")
+
+    def get(key: str, convert: Any) -> Any:
+        return convert(entry(table, key, "the file"), key)
+
+    system = get("system", _system)
+    paths = get("paths", as_table)
+    order = [as_count(v, f"order[{i}]") for i, v in enumerate(get("order", as_list))]
+    if any(i >= len(system.polynomials) for i in order):
+        raise wrong("order", "indices of the polynomials")
+    components = [
+        _component(v, system, f"components[{i}]") for i, v in enumerate(get("components", as_list))
+    ]
+    decomposition = Decomposition(
+        system=system,
+        components=tuple(components),
+        paths=PathCounts(
+            *(as_count(entry(paths, k, "paths"), f"paths.{k}") for k in PathCounts.__match_args__)
+        ),
+        seed=get("seed", as_count),
+        settings=get("settings", as_text),
+        order=tuple(order),
+        complete=get("complete", as_flag),
+        notes=tuple(get("notes", as_texts)),
+    )
+    if table.get("case") is None:
+        return Export(decomposition)
+    case = as_table(table["case"], "case")
+    known = {
+        key: as_text(entry(case, key, "case"), f"case.{key}") for key in ("title", "file", "kind")
+    }
+    model = {k: table[k] for k in ("formulation", "reason") if table.get(k) is not None}
+    return Export(decomposition, Origin(**known, **{k: as_text(v, k) for k, v in model.items()}))
+
+
+def _refuse_constant(name: str) -> float:
+    raise ValueError(f"{name} is not a JSON number")
+
+
+def read_export(path: str | os.PathLike[str]) -> Export:
+    """Read a file that `write_decomposition` wrote: the decomposition and where it came from.
+
+    Raises:
+        ExportError: if the file cannot be read or is not an export.
+    """
+    file = Path(path)
+    try:
+        if not file.is_file():
+            raise ExportError("is not a file" if file.exists() else "there is no such file")
+        if file.stat().st_size > LARGEST_FILE:
+            raise ExportError(f"is larger than {LARGEST_FILE // 1024**2} MB")
+        return _export(json.loads(file.read_bytes(), parse_constant=_refuse_constant))
+    except ExportError as error:
+        raise ExportError(f"{file}: {error}") from None
+    except OSError as error:
+        raise ExportError(f"{file}: cannot be read: {error.strerror or error}") from None
+    except RecursionError:
+        raise ExportError(f"{file}: is not an export: lists are nested too deep") from None
+    except ValueError as error:
+        raise ExportError(f"{file}: is not JSON: {error}") from None
+
+
+def read_decomposition(path: str | os.PathLike[str]) -> Decomposition:
+    """Read a decomposition that `write_decomposition` wrote, equal to the one written.
+
+    Values that were not finite are written as null and come back as not-a-number.
+
+    Raises:
+        ExportError: if the file cannot be read or is not an export.
+    """
+    return read_export(path).decomposition

@@ -1,0 +1,91 @@
+"""Files that a run writes: checked before the work is done, replaced in one step after it."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import stat
+import uuid
+from pathlib import Path
+
+
+class TargetError(ValueError):
+    """A file that cannot be written; the message is one line for the user."""
+
+
+def _is_special(path: Path) -> bool:
+    """Whether ``path`` is a device or a pipe, which is written to and never replaced."""
+    try:
+        mode = path.stat().st_mode
+    except OSError:
+        return False
+    return not stat.S_ISREG(mode) and not stat.S_ISDIR(mode)
+
+
+def _cannot_write(path: Path, error: OSError) -> TargetError:
+    return TargetError(f"{path}: cannot be written: {error.strerror or error}")
+
+
+def _temporary(path: Path) -> Path:
+    return path.with_name(f".nag-{uuid.uuid4().hex}.tmp")
+
+
+def check_target(path: str | os.PathLike[str]) -> None:
+    """Find out now whether `write_target` could write ``path``; leaves no trace.
+
+    Raises:
+        TargetError: if it could not.
+    """
+    target = Path(path)
+    try:
+        real = target.resolve()
+        if _is_special(real):
+            return
+        if real.is_dir():
+            raise TargetError(f"{target}: is a directory; name a file")
+        if not real.parent.is_dir():
+            raise TargetError(f"{target}: there is no directory {target.parent}")
+        if real.exists() and not os.access(real, os.W_OK):
+            raise TargetError(f"{target}: cannot be written: Permission denied")
+        trial = _temporary(real)
+        with trial.open("x"):
+            pass
+        trial.unlink()
+    except OSError as error:
+        raise _cannot_write(target, error) from None
+    except (ValueError, RuntimeError) as error:
+        if isinstance(error, TargetError):
+            raise
+        raise TargetError(f"{target}: is not a file name: {error}") from None
+
+
+def write_target(path: str | os.PathLike[str], text: str) -> None:
+    """Write ``text`` as UTF-8 to ``path`` through a temporary file in the same directory.
+
+    Whoever reads ``path`` sees the old content or the new, never a part. A symbolic link stays a
+    link; an existing file keeps its permissions; a device or a pipe is written to directly.
+
+    Raises:
+        TargetError: if it cannot be written; the old content is then untouched.
+    """
+    target = Path(path)
+    temporary = None
+    try:
+        real = target.resolve()
+        if _is_special(real):
+            with real.open("w", encoding="utf-8") as stream:
+                stream.write(text)
+            return
+        temporary = _temporary(real)
+        with temporary.open("x", encoding="utf-8", newline="\n") as stream:
+            stream.write(text)
+            stream.flush()
+            os.fsync(stream.fileno())
+        with contextlib.suppress(FileNotFoundError):
+            temporary.chmod(stat.S_IMODE(real.stat().st_mode))
+        temporary.replace(real)
+    except OSError as error:
+        raise _cannot_write(target, error) from None
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
