@@ -267,8 +267,6 @@ def _export(value: Any) -> Export:
     system = get("system", _system)
     paths = get("paths", as_table)
     order = [as_count(v, f"order[{i}]") for i, v in enumerate(get("order", as_list))]
-    if any(i >= len(system.polynomials) for i in order):
-        raise wrong("order", "indices of the polynomials")
     components = [
         _component(v, system, f"components[{i}]") for i, v in enumerate(get("components", as_list))
     ]

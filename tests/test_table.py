@@ -1,0 +1,278 @@
+"""What is printed says what the objects say, and no more."""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.report.agreement import Verdict, agreement_text, compare
+from nag.report.progress import INTERVAL, progress_line
+from nag.report.table import (
+    align,
+    component_table,
+    labelled,
+    magnitude,
+    multidegree_text,
+    printable,
+    remarks,
+    system_line,
+    title_line,
+)
+
+
+@dataclass(frozen=True)
+class Known:
+    """What a case says is known, as `nag.cases.Truth` has it."""
+
+    dimension: int
+    degree: int
+    count: int = 1
+    multiplicity: int = 1
+    multidegree: tuple[int, ...] | None = None
+    formulation: str | None = None
+    source: str = "a book"
+
+
+def component(dimension: int, degree: int, **changes: object) -> WitnessSet:
+    n = 3
+    plain = WitnessSet(
+        slice=Slice(np.eye(dimension, n), np.zeros(dimension)),
+        points=np.zeros((degree, n)),
+        multiplicity=1,
+        status=Status.IRREDUCIBLE,
+        residual=2e-16,
+        accuracy=3e-15,
+        corank=dimension,
+    )
+    return replace(plain, **changes)
+
+
+def undecided(dimension: int, degree: int) -> WitnessSet:
+    return component(dimension, degree, status=Status.UNDECIDED, multiplicity=0, note="not reduced")
+
+
+def decomposition(*components: WitnessSet, groups: tuple = (), notes: tuple = ()) -> Decomposition:
+    variables = ("x", "y", "z")
+    system = PolynomialSystem(variables, [parse_polynomial("x*y - z^2", variables)], (), groups)
+    complete = not notes and all(c.status is Status.IRREDUCIBLE for c in components)
+    return Decomposition(
+        system, components, PathCounts(4, 1, 2), 0, "default", (0,), complete, notes
+    )
+
+
+def test_like_components_are_counted_together() -> None:
+    nine = decomposition(*[component(2, 4)] * 9)
+    assert title_line(nine) == "9 components of dimension 2, degree 4"
+    mixed = decomposition(component(2, 1), *[component(1, 2)] * 2, undecided(1, 2))
+    assert title_line(mixed) == (
+        "1 component of dimension 2, degree 1; 1 component of dimension 1, degree 2, "
+        "multiplicity not known; 2 components of dimension 1, degree 2 (1 undecided)"
+    )
+    assert title_line(decomposition()) == "no component"
+
+
+def test_an_orbit_counts_with_all_its_members() -> None:
+    orbit = decomposition(component(1, 2, orbit=8))
+    assert title_line(orbit) == "8 components of dimension 1, degree 2"
+    assert component_table(orbit)[1].split()[3] == "8"
+
+
+def test_a_row_shows_the_worst_of_its_components() -> None:
+    table = component_table(
+        decomposition(
+            component(1, 2, residual=1e-16, accuracy=4e-9),
+            component(1, 2, residual=5e-13, accuracy=1e-15),
+            component(1, 4, residual=math.nan),
+        )
+    )
+    headings = "dimension  degree  multiplicity  count  status       residual  accuracy  precision"
+    assert table[0] == headings
+    assert [line.split() for line in table[1:]] == [
+        ["1", "2", "1", "2", "irreducible", "5.0e-13", "4.0e-09", "double"],
+        ["1", "4", "1", "1", "irreducible", "?", "3.0e-15", "double"],
+    ]
+
+
+def test_an_unknown_multiplicity_is_a_question_mark() -> None:
+    assert component_table(decomposition(undecided(1, 2)))[1].split()[2:5] == [
+        "?",
+        "1",
+        "undecided",
+    ]
+
+
+def test_multidegrees_stand_in_the_table_only_where_there_are_groups() -> None:
+    curve = component(1, 3, multidegree=[1, 2])
+    assert "multidegree" in component_table(decomposition(curve, groups=((0, 1), (2,))))[0]
+    assert "(1, 2)" in component_table(decomposition(curve, groups=((0, 1), (2,))))[1]
+    assert "multidegree" not in component_table(decomposition(curve))[0]
+
+
+def test_multidegrees_name_each_choice_of_groups_once() -> None:
+    assert multidegree_text(np.array(1)) == "-"
+    assert multidegree_text(np.array([2, 0, 1])) == "(2, 0, 1)"
+    assert multidegree_text(np.array([[0, 3], [3, 2]])) == "1.2: 3, 2.2: 2"
+    assert multidegree_text(np.arange(100)) == "see the export"
+
+
+def test_remarks_say_why_an_answer_is_incomplete() -> None:
+    lines = remarks(
+        decomposition(undecided(1, 2), undecided(1, 2), component(1, 2), notes=("2 paths failed",))
+    )
+    assert lines == ["undecided: dimension 1, degree 2: not reduced", "2 paths failed"]
+
+
+def test_system_line_counts_variables_equations_and_degrees() -> None:
+    assert system_line(decomposition().system) == (
+        "3 variables (x, y, z), 1 equation: 1 of degree 2"
+    )
+    irrational = PolynomialSystem(("x",), [parse_polynomial("x - sqrt(2)", ["x"])])
+    assert system_line(irrational).endswith("; not all coefficients are rational")
+
+
+@given(st.text())
+def test_printed_text_is_one_line_that_cannot_steer_a_terminal(text: str) -> None:
+    assert printable(text).isprintable()
+
+
+@given(
+    st.lists(st.lists(st.text(st.characters(codec="ascii")), min_size=3, max_size=3), min_size=1)
+)
+def test_columns_are_aligned(rows: list[list[str]]) -> None:
+    widths = [max(len(row[i]) for row in rows) for i in range(3)]
+    for row, line in zip(rows, align(rows), strict=True):
+        assert line == "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)).rstrip()
+
+
+def test_labels_share_a_column() -> None:
+    assert labelled([("a", "x"), ("long", "y")], 6) == ["a       x", "long    y"]
+
+
+def test_magnitudes_have_two_digits() -> None:
+    assert magnitude(3.14e-16) == "3.1e-16"
+    assert magnitude(math.inf) == "?"
+
+
+TWO_LINES = decomposition(component(1, 1), component(1, 1))
+
+
+@pytest.mark.parametrize(
+    ("answer", "truth", "verdict", "text"),
+    [
+        (
+            TWO_LINES,
+            [Known(1, 1, count=2)],
+            Verdict.AGREES,
+            "agrees with what is known: 2 components of dimension 1, degree 1 (a book)",
+        ),
+        (
+            TWO_LINES,
+            [Known(1, 1), Known(1, 1, source="a paper")],
+            Verdict.AGREES,
+            "agrees with what is known: 2 components of dimension 1, degree 1 (a book; a paper)",
+        ),
+        (
+            TWO_LINES,
+            [Known(1, 1, count=3)],
+            Verdict.DIFFERS,
+            "differs from what is known: not found: 1 component of dimension 1, degree 1 (a book)",
+        ),
+        (
+            TWO_LINES,
+            [Known(1, 1)],
+            Verdict.DIFFERS,
+            "differs from what is known: found but not known: "
+            "1 component of dimension 1, degree 1 (a book)",
+        ),
+        (
+            decomposition(component(1, 2)),
+            [Known(1, 1, count=2)],
+            Verdict.DIFFERS,
+            "differs from what is known: not found: 2 components of dimension 1, degree 1; "
+            "found but not known: 1 component of dimension 1, degree 2 (a book)",
+        ),
+        (
+            decomposition(component(1, 2, multiplicity=2)),
+            [Known(1, 2)],
+            Verdict.DIFFERS,
+            "differs from what is known: not found: 1 component of dimension 1, degree 2; "
+            "found but not known: 1 component of dimension 1, degree 2, multiplicity 2 (a book)",
+        ),
+        (
+            decomposition(component(1, 2), undecided(1, 2)),
+            [Known(1, 2), Known(1, 2, multiplicity=2)],
+            Verdict.OPEN,
+            "agrees with what is known as far as it is decided: "
+            "1 component of dimension 1, degree 2; known but not decided here: "
+            "1 component of dimension 1, degree 2, multiplicity 2 (a book)",
+        ),
+        (
+            decomposition(component(1, 2), component(0, 1)),
+            [Known(1, 2)],
+            Verdict.AGREES,
+            "agrees with what is known: 1 component of dimension 1, degree 2; "
+            "nothing is known of: 1 component of dimension 0, degree 1 (a book)",
+        ),
+    ],
+)
+def test_an_answer_is_compared_with_what_is_known(answer, truth, verdict, text) -> None:
+    agreement = compare(answer, truth)
+    assert agreement.verdict is verdict
+    assert agreement_text(agreement) == text
+
+
+def test_known_things_of_another_formulation_say_nothing() -> None:
+    truth = [Known(1, 1, count=2, formulation="H"), Known(1, 4, formulation="E")]
+    assert compare(TWO_LINES, truth, "H").verdict is Verdict.AGREES
+    assert compare(TWO_LINES, truth, "E").verdict is Verdict.DIFFERS
+    assert compare(TWO_LINES, truth) is None
+    assert compare(TWO_LINES, []) is None
+
+
+def test_multidegrees_are_compared_where_they_are_known() -> None:
+    groups = ((0, 1), (2,))
+    answer = decomposition(
+        component(1, 3, multidegree=[1, 2]), component(1, 3, multidegree=[2, 1]), groups=groups
+    )
+    either = Known(1, 3)
+    assert compare(answer, [either, Known(1, 3, multidegree=(1, 2))]).verdict is Verdict.AGREES
+    assert compare(answer, [either, Known(1, 3, multidegree=(2, 1))]).verdict is Verdict.AGREES
+    assert compare(answer, [either, Known(1, 3, multidegree=(3, 0))]).verdict is Verdict.DIFFERS
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_progress_is_shown_on_a_terminal_only_and_erased() -> None:
+    terminal = Terminal()
+    with progress_line(terminal) as progress:
+        progress("slicing", 1, 3)
+    assert "slicing: 1 of 3" in terminal.getvalue()
+    assert terminal.getvalue().endswith("\r\x1b[K")
+    for stream, quiet in ((io.StringIO(), False), (Terminal(), True)):
+        with progress_line(stream, quiet) as progress:
+            assert progress is None
+        assert stream.getvalue() == ""
+
+
+def test_progress_is_not_written_more_often_than_it_can_be_read(monkeypatch) -> None:
+    clock = iter([0.0, INTERVAL / 2, 1.5 * INTERVAL])
+    monkeypatch.setattr("nag.report.progress.time.monotonic", lambda: next(clock))
+    terminal = Terminal()
+    with progress_line(terminal) as progress:
+        for step in (1, 2, 3):
+            progress("splitting", step, 0)
+    written = terminal.getvalue()
+    assert "splitting: 1" in written and "splitting: 3" in written
+    assert "splitting: 2" not in written
