@@ -1,0 +1,104 @@
+"""Configurations: where every body of a mechanism is."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from types import MappingProxyType
+from typing import Any
+
+import mpmath
+
+from nag.algebra.number import Irrational, Number, square_root, to_mpf
+from nag.mechanism.loops import LoopStructure
+from nag.mechanism.quaternion import conjugate, multiply, rotate
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """Orientation and position of every body, the ground included.
+
+    Attributes:
+        euler: Euler parameters of each body's local frame, norm 1, as tuples of 4 numbers.
+        position: the place of each body's reference point, as tuples of 3 numbers. A body's
+            reference point is the one that is at the global origin in the reference configuration.
+
+    Entries are exact where the lifted point was exact, else complex or `mpmath` numbers.
+    """
+
+    euler: Mapping[str, tuple[Any, ...]]
+    position: Mapping[str, tuple[Any, ...]]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "euler", MappingProxyType(dict(self.euler)))
+        object.__setattr__(self, "position", MappingProxyType(dict(self.position)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Configuration, (dict(self.euler), dict(self.position))
+
+
+@dataclass(frozen=True)
+class Arithmetic:
+    """How exact numbers enter the arithmetic of a point, and how square roots are taken there."""
+
+    convert: Callable[[Number], Any]
+    sqrt: Callable[[Any], Any]
+
+
+def arithmetic_of(point: Sequence[Any]) -> Arithmetic:
+    """The arithmetic in which ``point`` is to be lifted: exact, `mpmath` or complex doubles."""
+    if all(isinstance(x, int | Fraction | Irrational) for x in point):
+        return Arithmetic(lambda c: c, square_root)
+    if any(isinstance(x, mpmath.mpf | mpmath.mpc) for x in point):
+        digits = mpmath.mp.dps
+        return Arithmetic(lambda c: to_mpf(c, digits), mpmath.sqrt)
+    return Arithmetic(lambda c: complex(float(c)), cmath.sqrt)
+
+
+def as_entries(point: Sequence[Any]) -> tuple[Any, ...]:
+    """``point`` with integers as fractions and NumPy's numbers as complex ones."""
+    entries = []
+    for x in point:
+        if isinstance(x, int):
+            x = Fraction(x)
+        elif not isinstance(x, Fraction | Irrational | mpmath.mpf | mpmath.mpc):
+            x = complex(x)
+        entries.append(x)
+    return tuple(entries)
+
+
+def configuration(
+    structure: LoopStructure, euler: Mapping[str, Sequence[Any]], arithmetic: Arithmetic
+) -> Configuration:
+    """Place all bodies, given the orientations of those with loops.
+
+    Positions follow from the joints along a spanning tree (PT13, eq. 4). Bodies of trees that were
+    cut off keep their place relative to their neighbours.
+    """
+    mechanism, convert = structure.mechanism, arithmetic.convert
+    reference = {
+        b: tuple(convert(x) for x in mechanism.orientation(b)) for b in mechanism.body_names
+    }
+    placed = {structure.base: reference[structure.base]}
+    zero = convert(Fraction(0))
+    position: dict[str, tuple[Any, ...]] = {structure.base: (zero, zero, zero)}
+    for parent, child, joint in structure.spanning_tree():
+        if child in euler:
+            placed[child] = tuple(euler[child])
+        else:
+            placed[child] = _carried(placed[parent], reference[parent], reference[child])
+        point = tuple(convert(x) for x in joint.point)
+        at = [rotate(placed[b], rotate(conjugate(reference[b]), point)) for b in (parent, child)]
+        position[child] = tuple(
+            r + x - y for r, x, y in zip(position[parent], at[0], at[1], strict=True)
+        )
+    order = mechanism.body_names
+    return Configuration({b: placed[b] for b in order}, {b: position[b] for b in order})
+
+
+def _carried(
+    parent: tuple[Any, ...], parent_reference: tuple[Any, ...], reference: tuple[Any, ...]
+) -> tuple[Any, ...]:
+    return multiply(multiply(parent, conjugate(parent_reference)), reference)

@@ -1,0 +1,249 @@
+"""Mechanisms as graphs: bodies are nodes, joints are edges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from nag.algebra.number import Number, is_zero, number_text
+
+if TYPE_CHECKING:
+    import networkx
+
+# Degrees of freedom that a joint leaves between its two bodies (PT13, table 1: 6 minus the number
+# of its conditions).
+JOINT_FREEDOMS = {"revolute": 1}
+
+_KNOWN_BUT_UNSUPPORTED = ("prismatic", "translational", "cylindrical", "universal", "spherical")
+
+
+class MechanismError(ValueError):
+    """A mechanism that makes no sense.
+
+    Attributes:
+        joint: name of the joint that is wrong, or None.
+        body: name of the body that is wrong, or None.
+        key: the field that is wrong (``type``, ``bodies``, ``axis``, ...), or None.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        joint: str | None = None,
+        body: str | None = None,
+        key: str | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.joint = joint
+        self.body = body
+        self.key = key
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint between two bodies, given in the assembled reference configuration.
+
+    Attributes:
+        name: unique among the joints.
+        type: a key of `JOINT_FREEDOMS`.
+        bodies: names of the two bodies that it joins.
+        point: a point of its axis, in global coordinates.
+        axis: direction of its axis, in global coordinates, of any length but zero.
+    """
+
+    name: str
+    type: str
+    bodies: tuple[str, str]
+    point: tuple[Number, Number, Number]
+    axis: tuple[Number, Number, Number]
+
+    def __post_init__(self) -> None:
+        for field in ("bodies", "point", "axis"):
+            object.__setattr__(self, field, tuple(getattr(self, field)))
+
+    def other(self, body: str) -> str:
+        """The body at the other end."""
+        return self.bodies[1] if body == self.bodies[0] else self.bodies[0]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A body that names its own local frame.
+
+    Attributes:
+        name: as the joints use it.
+        orientation: Euler parameters of the local frame at the reference configuration, of norm 1;
+            None for the global frame at that configuration.
+    """
+
+    name: str
+    orientation: tuple[Number, Number, Number, Number] | None = None
+
+    def __post_init__(self) -> None:
+        if self.orientation is not None:
+            object.__setattr__(self, "orientation", tuple(self.orientation))
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A connected graph of bodies and joints with one fixed body.
+
+    Attributes:
+        ground: name of the fixed body.
+        joints: at least one.
+        bodies: local frames; bodies that are not named here have the global frame.
+
+    Raises:
+        MechanismError: if a joint or a body makes no sense, or the graph is not connected.
+    """
+
+    ground: str
+    joints: tuple[Joint, ...]
+    bodies: tuple[Body, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "joints", tuple(self.joints))
+        object.__setattr__(self, "bodies", tuple(self.bodies))
+        if not self.joints:
+            raise MechanismError("a mechanism needs at least one joint")
+        for joint in self.joints:
+            _check_joint(joint)
+        repeated = _first_repeated(j.name for j in self.joints)
+        if repeated is not None:
+            raise MechanismError(
+                f"two joints are named {repeated!r}; every joint needs a name of its own",
+                joint=repeated,
+                key="name",
+            )
+        used = {b for j in self.joints for b in j.bodies}
+        repeated = _first_repeated(b.name for b in self.bodies)
+        if repeated is not None:
+            raise MechanismError(
+                f"body {repeated!r} is given twice; give each body once", body=repeated, key="name"
+            )
+        for body in self.bodies:
+            _check_body(body, used)
+        if self.ground not in used:
+            raise MechanismError(
+                f"ground {self.ground!r} is not a body of any joint; the bodies are "
+                f"{', '.join(sorted(used))}",
+                key="ground",
+            )
+        self._check_connected(used)
+
+    def _check_connected(self, used: set[str]) -> None:
+        reached, frontier = {self.ground}, [self.ground]
+        while frontier:
+            body = frontier.pop()
+            for joint in self.joints:
+                if body in joint.bodies and joint.other(body) not in reached:
+                    reached.add(joint.other(body))
+                    frontier.append(joint.other(body))
+        stray = sorted(used - reached)
+        if stray:
+            joint = next(j for j in self.joints if stray[0] in j.bodies)
+            raise MechanismError(
+                f"no joint connects {', '.join(stray)} with the ground {self.ground!r}; "
+                "every body must be connected with the ground",
+                joint=joint.name,
+                body=stray[0],
+                key="bodies",
+            )
+
+    @cached_property
+    def body_names(self) -> tuple[str, ...]:
+        """All bodies: the ground, then in the order in which they are declared and joined."""
+        names = dict.fromkeys([self.ground])
+        names.update(dict.fromkeys(b.name for b in self.bodies))
+        names.update(dict.fromkeys(b for j in self.joints for b in j.bodies))
+        return tuple(names)
+
+    @cached_property
+    def graph(self) -> networkx.MultiGraph:
+        """Bodies as nodes, joints as edges keyed by name, each with the attribute ``joint``."""
+        import networkx
+
+        graph = networkx.MultiGraph()
+        graph.add_nodes_from(self.body_names)
+        for joint in self.joints:
+            graph.add_edge(*joint.bodies, key=joint.name, joint=joint)
+        return graph
+
+    def orientation(self, body: str) -> tuple[Number, ...]:
+        """Euler parameters of the local frame of ``body`` at the reference configuration."""
+        from fractions import Fraction
+
+        for given in self.bodies:
+            if given.name == body and given.orientation is not None:
+                return given.orientation
+        return (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
+
+
+def _check_joint(joint: Joint) -> None:
+    if joint.type not in JOINT_FREEDOMS:
+        kind = "not supported yet" if joint.type in _KNOWN_BUT_UNSUPPORTED else "unknown"
+        raise MechanismError(
+            f"joint type {joint.type!r} is {kind}; use one of {', '.join(sorted(JOINT_FREEDOMS))}",
+            joint=joint.name,
+            key="type",
+        )
+    if len(joint.bodies) != 2:
+        raise MechanismError(
+            f"a joint has two bodies, not {len(joint.bodies)}", joint=joint.name, key="bodies"
+        )
+    if joint.bodies[0] == joint.bodies[1]:
+        raise MechanismError(
+            f"the joint connects {joint.bodies[0]!r} with itself; it needs two different bodies",
+            joint=joint.name,
+            key="bodies",
+        )
+    for key in ("point", "axis"):
+        if len(getattr(joint, key)) != 3:
+            raise MechanismError(
+                f"{key} has {len(getattr(joint, key))} coordinates; it needs 3",
+                joint=joint.name,
+                key=key,
+            )
+    if all(is_zero(x) for x in joint.axis):
+        raise MechanismError(
+            "the axis has length zero; it needs a direction", joint=joint.name, key="axis"
+        )
+
+
+def _check_body(body: Body, used: set[str]) -> None:
+    if body.name not in used:
+        raise MechanismError(
+            f"body {body.name!r} has no joint; the bodies of the joints are "
+            f"{', '.join(sorted(used))}",
+            body=body.name,
+            key="name",
+        )
+    if body.orientation is None:
+        return
+    if len(body.orientation) != 4:
+        raise MechanismError(
+            f"an orientation is 4 Euler parameters, not {len(body.orientation)}",
+            body=body.name,
+            key="orientation",
+        )
+    norm = sum((x * x for x in body.orientation[1:]), body.orientation[0] * body.orientation[0])
+    if not is_zero(norm - 1):
+        value = number_text(norm)
+        value = value if len(value) <= 40 else f"{float(norm):.6g}"
+        raise MechanismError(
+            f"the Euler parameters have squared norm {value}; it must be exactly 1",
+            body=body.name,
+            key="orientation",
+        )
+
+
+def _first_repeated(names: Iterable[str]) -> str | None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            return name
+        seen.add(name)
+    return None

@@ -1,0 +1,137 @@
+"""The part of a mechanism that has loops, and a basis of its loops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from nag.mechanism.graph import JOINT_FREEDOMS, Joint, Mechanism
+
+if TYPE_CHECKING:
+    import networkx
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A closed chain: ``joints[i]`` joins ``bodies[i]`` and ``bodies[(i + 1) % n]``."""
+
+    bodies: tuple[str, ...]
+    joints: tuple[Joint, ...]
+
+    def rotated(self, start: int) -> Loop:
+        """The same loop, read from ``bodies[start]`` on."""
+        return Loop(
+            self.bodies[start:] + self.bodies[:start], self.joints[start:] + self.joints[:start]
+        )
+
+
+@dataclass(frozen=True)
+class LoopStructure:
+    """What is left of a mechanism when dangling trees are cut off.
+
+    Attributes:
+        mechanism: the whole mechanism.
+        base: the body taken as fixed: the ground, or, where the ground hangs on a tree, the body
+            with loops that is nearest to it.
+        moving: the other bodies, in the mechanism's order.
+        joints: the joints between these bodies.
+        cut: the joints of the trees; each moves freely, whatever the others do.
+        loops: a minimum cycle basis.
+    """
+
+    mechanism: Mechanism
+    base: str
+    moving: tuple[str, ...]
+    joints: tuple[Joint, ...]
+    cut: tuple[Joint, ...]
+    loops: tuple[Loop, ...]
+
+    @property
+    def cut_freedoms(self) -> int:
+        """Freedoms of the joints that were cut off."""
+        return sum(JOINT_FREEDOMS[j.type] for j in self.cut)
+
+    @property
+    def single(self) -> Loop | None:
+        """The loop, if there is only one, read from the base on and to its first neighbour."""
+        if len(self.loops) != 1:
+            return None
+        loop = self.loops[0].rotated(self.loops[0].bodies.index(self.base))
+        if self.moving.index(loop.bodies[1]) > self.moving.index(loop.bodies[-1]):
+            return Loop(loop.bodies[:1] + loop.bodies[:0:-1], loop.joints[::-1])
+        return loop
+
+    def spanning_tree(self) -> Iterator[tuple[str, str, Joint]]:
+        """(parent, child, joint) for every body of the mechanism but the base, parents first."""
+        reached, frontier = {self.base}, [self.base]
+        # Joints with loops first: where a tree hangs does not matter to them.
+        order = self.joints + self.cut
+        while frontier:
+            parent = frontier.pop(0)
+            for joint in order:
+                if parent in joint.bodies and joint.other(parent) not in reached:
+                    child = joint.other(parent)
+                    reached.add(child)
+                    frontier.append(child)
+                    yield parent, child, joint
+
+
+def loop_structure(mechanism: Mechanism) -> LoopStructure:
+    """Cut dangling trees off and choose a minimum cycle basis.
+
+    A mechanism without loops gives a structure without moving bodies.
+    """
+    import networkx
+
+    graph = mechanism.graph.copy()
+    cut: set[str] = set()
+    leaves = [b for b in graph if graph.degree(b) == 1]
+    while leaves:
+        leaf = leaves.pop()
+        if graph.degree(leaf) != 1:
+            continue
+        _, neighbour, name = next(iter(graph.edges(leaf, keys=True)))
+        cut.add(name)
+        graph.remove_node(leaf)
+        if graph.degree(neighbour) == 1:
+            leaves.append(neighbour)
+    kept = tuple(j for j in mechanism.joints if j.name not in cut)
+    left_out = tuple(j for j in mechanism.joints if j.name in cut)
+    if not kept:
+        return LoopStructure(mechanism, mechanism.ground, (), (), left_out, ())
+    looped = {b for j in kept for b in j.bodies}
+    distance = networkx.single_source_shortest_path_length(mechanism.graph, mechanism.ground)
+    base = min((b for b in mechanism.body_names if b in looped), key=lambda b: distance[b])
+    moving = tuple(b for b in mechanism.body_names if b in looped and b != base)
+    return LoopStructure(mechanism, base, moving, kept, left_out, _cycle_basis(kept))
+
+
+def _cycle_basis(joints: tuple[Joint, ...]) -> tuple[Loop, ...]:
+    """Minimum cycle basis of a multigraph: a joint is a node of its own in a simple graph."""
+    import networkx
+
+    graph: networkx.Graph = networkx.Graph()
+    for joint in joints:
+        for body in joint.bodies:
+            graph.add_edge(("body", body), ("joint", joint.name))
+    position = {j.name: i for i, j in enumerate(joints)}
+    by_name = {j.name: j for j in joints}
+    loops = []
+    for nodes in networkx.minimum_cycle_basis(graph):
+        names = {name for kind, name in nodes if kind == "joint"}
+        loops.append(_ordered([by_name[n] for n in sorted(names, key=position.__getitem__)]))
+    return tuple(sorted(loops, key=lambda p: [position[j.name] for j in p.joints]))
+
+
+def _ordered(joints: list[Joint]) -> Loop:
+    """The joints of one cycle, in the order in which they follow each other."""
+    chain = [joints[0]]
+    bodies = list(joints[0].bodies)
+    rest = joints[1:]
+    while rest:
+        joint = next(j for j in rest if bodies[-1] in j.bodies)
+        rest.remove(joint)
+        chain.append(joint)
+        bodies.append(joint.other(bodies[-1]))
+    return Loop(tuple(bodies[:-1]), tuple(chain))

@@ -1,0 +1,156 @@
+"""Planar mechanisms: formulation E with one pair (c, s) for each moving body.
+
+All axes are parallel to a vector n of squared length N. In the frame e, n x e of the plane, not
+orthonormal unless N = 1, a turn takes x e + y (n x e) to (c x - N s y) e + (s x + c y) (n x e)
+with c^2 + N s^2 = 1, so no square root is needed (PT13 section 5.3 has N = 1).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.mechanism.axes import Vector, cross, difference, direction, dot, vanishes
+from nag.mechanism.configuration import (
+    Arithmetic,
+    Configuration,
+    arithmetic_of,
+    as_entries,
+    configuration,
+)
+from nag.mechanism.loops import LoopStructure
+from nag.mechanism.quaternion import Quaternion, multiply
+from nag.mechanism.row_reduction import independent_polynomials
+
+Turn = tuple[Any, Any]
+
+
+@dataclass(frozen=True)
+class PlanarModel:
+    """A planar mechanism in (c, s) for each moving body, linear equations solved away.
+
+    Attributes:
+        structure: the mechanism's part with loops.
+        normal: the common direction of the axes.
+        offsets: the turn of each body's local frame at the reference configuration.
+        elimination: from all (c, s) to the variables of `system`.
+        system: norms and loop equations.
+        reference: the reference configuration.
+    """
+
+    structure: LoopStructure
+    normal: Vector
+    offsets: dict[str, Turn]
+    elimination: Elimination
+    system: PolynomialSystem
+    reference: tuple[Number, ...]
+
+    def lift(self, point: Sequence[Any]) -> Configuration:
+        """All bodies' orientations and positions at a solution.
+
+        Exact for exact points, with square roots where half-angles need them.
+        """
+        arithmetic = arithmetic_of(point)
+        convert = arithmetic.convert
+        entries = as_entries(point)
+        values = [image(entries, convert) for image in self.elimination.images]
+        squared = convert(dot(self.normal, self.normal))
+        mechanism = self.structure.mechanism
+        euler = {}
+        for i, body in enumerate(self.structure.moving):
+            offset = tuple(convert(x) for x in self.offsets[body])
+            turn = _compose((values[2 * i], values[2 * i + 1]), (offset[0], -offset[1]), squared)
+            half = _half_turn(turn, self.normal, squared, arithmetic)
+            euler[body] = multiply(half, [convert(x) for x in mechanism.orientation(body)])
+        return configuration(self.structure, euler, arithmetic)
+
+
+def planar_model(structure: LoopStructure) -> PlanarModel:
+    """The equations of a planar mechanism.
+
+    (c, s) is the turn of a body's local frame where the frame itself lies in the plane of motion,
+    else the turn from the reference configuration.
+    """
+    normal = direction(structure.joints[0].axis)
+    squared = dot(normal, normal)
+    frame = _frame(normal)
+    n = 2 * len(structure.moving)
+    variables = Polynomial.variables(n)
+    mechanism = structure.mechanism
+    offsets = {
+        b: _offset(mechanism.orientation(b), normal) for b in (structure.base, *structure.moving)
+    }
+    turns: dict[str, Turn] = {
+        body: (variables[2 * i], variables[2 * i + 1]) for i, body in enumerate(structure.moving)
+    }
+    turns[structure.base] = tuple(Polynomial.constant(n, x) for x in offsets[structure.base])
+    polynomials = [turns[b][0] ** 2 + turns[b][1] ** 2 * squared - 1 for b in structure.moving]
+    for loop in structure.loops:
+        total = (Polynomial(n, {}), Polynomial(n, {}))
+        for i, body in enumerate(loop.bodies):
+            link = difference(loop.joints[i].point, loop.joints[i - 1].point)
+            place = (dot(link, frame[0]), dot(link, frame[1]) / squared)
+            offset = offsets[body]
+            x, y = _apply((offset[0], -offset[1]), place, squared)
+            moved = _apply(turns[body], (x, y), squared)
+            total = (total[0] + moved[0], total[1] + moved[1])
+        polynomials += total
+    names = tuple(f"{t}{i + 1}" for i in range(len(structure.moving)) for t in "cs")
+    full = PolynomialSystem(names, tuple(f for f in polynomials if f))
+    elimination = eliminate_linear(full, graphs=False)
+    reduced = elimination.system
+    system = PolynomialSystem(
+        reduced.variables, tuple(independent_polynomials(reduced.polynomials)), reduced.nonzero
+    )
+    start = [x for b in structure.moving for x in offsets[b]]
+    return PlanarModel(
+        structure, normal, offsets, elimination, system, tuple(elimination.project(start))
+    )
+
+
+def _frame(normal: Vector) -> tuple[Vector, Vector]:
+    """A vector e across ``normal`` and ``normal`` x e: exact, e of unit length where possible."""
+    candidates = [cross(normal, tuple(Fraction(int(i == j)) for j in range(3))) for i in range(3)]
+    e = direction(next(v for v in candidates if not vanishes(v)))
+    return e, cross(normal, e)
+
+
+def _apply(turn: Turn, place: tuple[Any, Any], squared: Any) -> tuple[Any, Any]:
+    """A turned vector, both in coordinates of the frame."""
+    (c, s), (x, y) = turn, place
+    return c * x - s * (y * squared), s * x + c * y
+
+
+def _compose(first: Turn, second: Turn, squared: Any) -> Turn:
+    """One turn after another."""
+    return (
+        first[0] * second[0] - squared * first[1] * second[1],
+        first[1] * second[0] + first[0] * second[1],
+    )
+
+
+def _offset(orientation: Sequence[Number], normal: Vector) -> Turn:
+    """The turn (c, s) of Euler parameters about ``normal``; none for other orientations."""
+    if not vanishes(cross(orientation[1:], normal)):
+        return Fraction(1), Fraction(0)
+    squared = dot(normal, normal)
+    half = dot(orientation[1:], normal) / squared
+    c = orientation[0] * orientation[0] - squared * (half * half)
+    return c, 2 * orientation[0] * half
+
+
+def _half_turn(turn: Turn, normal: Vector, squared: Any, arithmetic: Arithmetic) -> Quaternion:
+    """Euler parameters of a turn (c, s) about ``normal``, from the larger of the two halves."""
+    c, s = turn
+    axis = [arithmetic.convert(x) for x in normal]
+    if abs(1 + c) >= abs(1 - c):
+        cosine = arithmetic.sqrt((1 + c) / 2)
+        return (cosine, *(x * (s / (2 * cosine)) for x in axis))
+    sine = arithmetic.sqrt((1 - c) / (2 * squared))
+    return (s / (2 * sine), *(x * sine for x in axis))
