@@ -23,6 +23,8 @@ from fractions import Fraction
 from math import log10
 from typing import NoReturn
 
+import mpmath
+
 from nag.algebra.number import PI, Irrational, Number, cosine, is_zero, sine, square_root
 from nag.algebra.polynomial import Exponents, Polynomial
 
@@ -31,7 +33,9 @@ MAX_NESTING = 50
 MAX_DEGREE = 1_000
 MAX_TERMS = 10_000
 MAX_BITS = 4_000
-MAX_IRRATIONAL_DEPTH = 60
+MAX_IRRATIONAL_SIZE = 200
+# Coefficients and parameters end within this range, the binary logarithm of what a double holds.
+MAX_LOG2 = 1_000
 # Elementary operations on coefficients: a few microseconds each.
 MAX_WORK = 100_000
 
@@ -83,6 +87,14 @@ class _Reader:
     budget: Budget = field(default_factory=Budget)
 
 
+def names_in(text: str) -> frozenset[str]:
+    """Names that occur in ``text``, none if it is no expression at all."""
+    try:
+        return frozenset(t.text for t in _tokens(text) if t.kind == "name") - RESERVED
+    except ExpressionError:
+        return frozenset()
+
+
 def is_name(text: str) -> bool:
     """Whether ``text`` can name a variable or a parameter."""
     return len(text) <= 100 and _NAME.fullmatch(text) is not None and text not in RESERVED
@@ -126,7 +138,7 @@ def parse_number(
         raise ExpressionError(
             f"the number has too many digits ({_digits(number)}); at most {_MAX_DIGITS} are read"
         )
-    return number
+    return _representable(number)
 
 
 def parse_polynomial(
@@ -156,6 +168,27 @@ def _bits(value: Number) -> int:
     if isinstance(value, Irrational):
         return max((_bits(a) for a in value.arguments), default=1)
     return max(value.numerator.bit_length(), value.denominator.bit_length())
+
+
+def _operations(value: Number | Polynomial) -> int:
+    """Size of the largest irrational number in ``value``."""
+    if isinstance(value, Polynomial):
+        return max((_operations(c) for c in value.terms.values()), default=0)
+    return value.size if isinstance(value, Irrational) else 0
+
+
+def _representable(value: Number) -> Number:
+    if isinstance(value, Irrational):
+        near = abs(value.evaluate(15))
+        size = int(mpmath.log(near, 2)) if near else 0
+    else:
+        size = value.numerator.bit_length() - value.denominator.bit_length()
+    if value and abs(size) > MAX_LOG2:
+        raise ExpressionError(
+            f"a number of the order 1e{int(size * log10(2))} arises; "
+            "scale the numbers so that they stay between 1e-300 and 1e300"
+        )
+    return value
 
 
 def _digits(value: Fraction) -> int:
@@ -205,7 +238,7 @@ class _Parser:
     def number(self) -> Number:
         value = self._sum()
         self._finish("")
-        return value
+        return _representable(value)
 
     def polynomial(self) -> Polynomial:
         value = self._sum()
@@ -214,7 +247,11 @@ class _Parser:
             right = self._sum()
             value = self._add([(1, value, self.token), (-1, right, self.token)])
         self._finish(" or one '='")
-        return value if isinstance(value, Polynomial) else Polynomial.constant(self.n, value)
+        if not isinstance(value, Polynomial):
+            value = Polynomial.constant(self.n, value)
+        for c in value.terms.values():
+            _representable(c)
+        return value
 
     @property
     def token(self) -> _Token:
@@ -277,14 +314,14 @@ class _Parser:
         if not any(isinstance(value, Polynomial) for _, value, _ in parts):
             total: Number = Fraction(0)
             for sign, value, token in parts:
-                self._spend(1, token)
+                self._spend(1 + 10 * _operations(total) + 10 * _operations(value), token)
                 total = self._checked(total + value if sign > 0 else total - value, token)
             return total
         terms: dict[Exponents, Number] = {}
         constant = (0,) * self.n
         for sign, value, token in parts:
             added = value.terms if isinstance(value, Polynomial) else {constant: value}
-            self._spend(len(added), token)
+            self._spend(len(added) * (1 + self.n // 50 + 10 * _operations(value)), token)
             for e, c in added.items():
                 c = c if sign > 0 else -c
                 terms[e] = self._checked(terms[e] + c, token) if e in terms else c
@@ -311,8 +348,9 @@ class _Parser:
             if isinstance(value, Polynomial) and not value:
                 return value
         sizes = [len(v.terms) if isinstance(v, Polynomial) else 1 for v in (left, right)]
-        self._spend(sizes[0] * sizes[1], token)
         bits = sum(self._bits(v) for v in (left, right))
+        each = 1 + self.n // 50 + bits // 500 + 10 * sum(_operations(v) for v in (left, right))
+        self._spend(sizes[0] * sizes[1] * each, token)
         if bits > MAX_BITS:
             self._too_long(bits, token)
         if isinstance(left, Polynomial) and isinstance(right, Polynomial):
@@ -389,8 +427,13 @@ class _Parser:
                 f"the exponent {shown} is too large: the result has more than "
                 f"{_MAX_DIGITS} digits; write a smaller one",
             )
-        self._spend(abs(exponent), token)
-        return self._checked(base**exponent, token)
+        if isinstance(base, Fraction):
+            return base**exponent
+        factor = base if exponent > 0 else 1 / base
+        power = Fraction(1)
+        for _ in range(abs(exponent)):
+            power = self._multiply(power, factor, token)
+        return power
 
     def _atom(self) -> Number | Polynomial:
         token = self._next()
@@ -479,8 +522,12 @@ class _Parser:
     def _checked(self, value: Number, token: _Token) -> Number:
         if _bits(value) > MAX_BITS:
             self._too_long(_bits(value), token)
-        if isinstance(value, Irrational) and value.depth > MAX_IRRATIONAL_DEPTH:
-            self._fail(token, "too long an expression in square roots; write a simpler one")
+        if isinstance(value, Irrational) and value.size > MAX_IRRATIONAL_SIZE:
+            self._fail(
+                token,
+                f"an irrational number of more than {MAX_IRRATIONAL_SIZE} operations; "
+                "write a simpler one",
+            )
         return value
 
     def _too_long(self, bits: int, token: _Token) -> NoReturn:

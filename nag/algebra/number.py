@@ -69,11 +69,11 @@ class Irrational:
         return mpmath.mpf(0)
 
     @property
-    def depth(self) -> int:
-        """Levels of the expression, which evaluation descends."""
+    def size(self) -> int:
+        """Number of operations written out, shared parts counted each time."""
         if -1 not in self._cache:
-            inner = [a.depth for a in self.arguments if isinstance(a, Irrational)]
-            self._cache[-1] = 1 + max(inner, default=0)
+            inner = (a.size for a in self.arguments if isinstance(a, Irrational))
+            self._cache[-1] = 1 + sum(inner)
         return self._cache[-1]
 
     def __reduce__(self) -> tuple[Any, ...]:
