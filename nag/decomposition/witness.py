@@ -92,16 +92,15 @@ class WitnessSet:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, WitnessSet):
             return NotImplemented
-        plain = "multiplicity status residual accuracy corank orbit precision note".split()
+        plain = ("multiplicity", "status", "residual", "accuracy", "corank", "orbit")
+        plain += ("precision", "note")
         if (self.multidegree is None) != (other.multidegree is None):
             return False
         return (
             all(getattr(self, name) == getattr(other, name) for name in plain)
             and self.slice == other.slice
             and np.array_equal(self.points, other.points)
-            and (
-                self.multidegree is None or np.array_equal(self.multidegree, other.multidegree)
-            )
+            and (self.multidegree is None or np.array_equal(self.multidegree, other.multidegree))
         )
 
     @property

@@ -1,0 +1,85 @@
+"""Monodromy: loops of slices permute the points of a fibre and merge those of one component."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from nag.decomposition.fibres import Fibre, Tracker, move
+from nag.decomposition.slices import random_rows, unit_complex
+from nag.decomposition.witness import PathCounts
+
+ATTEMPTS = 3
+
+
+def match(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
+    """The permutation p with ``ends[i]`` at ``points[p[i]]``; None if the ends are no permutation.
+
+    An end belongs to the nearest point if it is a thousand times nearer than the next one.
+    """
+    if len(points) == 0:
+        return np.zeros(0, dtype=int)
+    distances = np.linalg.norm(ends[:, None, :] - points[None, :, :], axis=2)
+    nearest = distances.argmin(axis=1)
+    closest = distances.min(axis=1)
+    distances[np.arange(len(ends)), nearest] = np.inf
+    if (closest > 1e-3 * distances.min(axis=1)).any():
+        return None
+    if (closest > 1e-6 * (1 + np.linalg.norm(points[nearest], axis=1))).any():
+        return None
+    return nearest if len(np.unique(nearest)) == len(points) else None
+
+
+def carried(
+    fibres: Sequence[Fibre],
+    source: np.ndarray,
+    target: np.ndarray,
+    gamma: complex,
+    tracker: Tracker,
+) -> tuple[list[Fibre] | None, PathCounts]:
+    """The fibres on another generic slice, or None if a path did not arrive regularly."""
+    counts, result = PathCounts(), []
+    for fibre in fibres:
+        ends = move(fibre, source, target, gamma, tracker)
+        counts += ends.counts
+        if not ends.regular.all():
+            return None, counts
+        result.append(Fibre(fibre.cut, fibre.dimension, ends.points))
+    return result, counts
+
+
+def loop(
+    fibres: Sequence[Fibre], rows: np.ndarray, rng: np.random.Generator, tracker: Tracker
+) -> tuple[np.ndarray | None, PathCounts]:
+    """The permutation of all points of ``fibres`` along a random loop of slices.
+
+    None if no permutation was obtained in a few attempts, the later ones with careful tracking.
+    """
+    counts = PathCounts()
+    points = np.vstack([fibre.x for fibre in fibres])
+    for attempt in range(ATTEMPTS):
+        used = Tracker("careful" if attempt else tracker.settings, tracker.threads)
+        middle = random_rows(rng, len(rows), rows.shape[1] - 1)
+        out, back = unit_complex(rng, 2)
+        there, spent = carried(fibres, rows, middle, complex(out), used)
+        counts += spent
+        if there is None:
+            continue
+        again, spent = carried(there, middle, rows, complex(back), used)
+        counts += spent
+        if again is None:
+            continue
+        permutation = match(np.vstack([fibre.x for fibre in again]), points)
+        if permutation is not None:
+            return permutation, counts
+    return None, counts
+
+
+def merge(labels: np.ndarray, permutation: np.ndarray) -> np.ndarray:
+    """Labels of the classes after every point was joined with its image."""
+    labels = labels.copy()
+    for i, j in enumerate(permutation):
+        if labels[i] != labels[j]:
+            labels[labels == max(labels[i], labels[j])] = min(labels[i], labels[j])
+    return labels

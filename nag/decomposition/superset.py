@@ -1,0 +1,207 @@
+"""Witness supersets, equation by equation: u-generation (Duff, Leykin & Rodriguez 2022).
+
+A set of dimension d is kept as its points on the first d rows of a flag of slices. Where an
+equation f of degree m vanishes on such a point, the point stays; from the others start the paths
+of ``f = u^m`` from the slice ``L_d = 0`` to ``u = 0``, m from each, which end at the points of
+dimension d - 1. Nothing is randomised: each point carries the equations that cut it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.decomposition.cutting import ON, Cut
+from nag.decomposition.fibres import (
+    SAME,
+    Fibre,
+    Moved,
+    Tracker,
+    admit,
+    homogeneous,
+    moved,
+)
+from nag.decomposition.membership import Membership, is_member
+from nag.decomposition.slices import padded, unit_complex
+from nag.decomposition.witness import PathCounts
+from nag.tracking.compiled import compile_rows
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.track import track
+
+Progress = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Superset:
+    """Witness points of every dimension, singular ends that no cut was found for, and counts."""
+
+    fibres: dict[int, list[Fibre]]
+    counts: PathCounts
+    notes: tuple[str, ...]
+
+
+def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
+    """Order of intersection: lowest degree first, then fewest variables, then as given."""
+    keys = [(f.degree, len(f.support), i) for i, f in enumerate(equations)]
+    return [i for *_, i in sorted(keys)]
+
+
+def _normalised(f: Polynomial) -> Polynomial:
+    scale = max((abs(Fraction(float(c))) for c in f.terms.values()), default=Fraction(1))
+    return f * (1 / scale)
+
+
+def intersect(
+    fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker
+) -> Moved:
+    """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0."""
+    cut, d, degree = fibre.cut, fibre.dimension, f.degree
+    n, total = cut.n, cut.n + cut.aux
+    f = _normalised(f)
+    u = Polynomial.variable(total + 1, total)
+    place = range(total)
+    rows = [g.with_variables(total + 1, place) for g in cut.polynomials]
+    rows.append(f.with_variables(total + 1, range(n)) - u**degree)
+    compiled = compile_rows(rows, n=total + 1)
+    columns = total + 2
+    slices = padded(flag[:d], columns)
+    a0, a1 = slices.copy(), np.zeros_like(slices)
+    a0[d - 1] = 0
+    a0[d - 1, -1] = 1
+    a1[d - 1] = gamma * slices[d - 1] - a0[d - 1]
+    values = Evaluator.of([f], n).values(fibre.x)[:, 0]
+    roots = np.exp(2j * np.pi * np.arange(degree) / degree)
+    u_start = (values.astype(complex) ** (1 / degree))[:, None] * roots[None, :]
+    starts = np.concatenate(
+        [np.repeat(fibre.points, degree, axis=0), u_start.reshape(-1, 1)], axis=1
+    )
+    paths = track(
+        Homotopy(compiled, a0, a1),
+        homogeneous(starts),
+        settings=tracker.settings,
+        threads=tracker.threads,
+        end_exponent=degree,
+    )
+    return moved(paths, keep=total)
+
+
+def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
+    """Indices of the points that coincide within their errors, one array for each cluster."""
+    groups: list[list[int]] = []
+    for i in np.argsort(accuracy, kind="stable"):
+        for group in groups:
+            j = group[0]
+            scale = 1 + np.linalg.norm(points[j])
+            tolerance = max(SAME, 1e2 * (accuracy[i] + accuracy[j]))
+            if np.linalg.norm(points[i] - points[j]) < tolerance * scale:
+                group.append(int(i))
+                break
+        else:
+            groups.append([int(i)])
+    return [np.array(g) for g in groups]
+
+
+def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
+    """Which points lie where a polynomial that must not vanish does."""
+    residuals = nonzero.residuals(x)
+    limit = np.maximum(1e-8, 1e2 * accuracy)
+    return (residuals < limit[:, None]).any(axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class _Candidates:
+    """Ends of one dimension: fibres of regular ones, and single singular points."""
+
+    fibres: list[Fibre]
+    singular: np.ndarray
+    accuracy: np.ndarray
+
+
+def _collect(
+    pieces: Sequence[tuple[Cut, Moved]], n: int, d: int, nonzero: Evaluator
+) -> _Candidates:
+    fibres: list[Fibre] = []
+    seen = np.zeros((0, n), dtype=complex)
+    singular, errors = [np.zeros((0, n), dtype=complex)], [np.zeros(0)]
+    for cut, ends in pieces:
+        x = ends.points[:, :n]
+        allowed = ends.finite.copy()
+        allowed[allowed] &= ~forbidden(nonzero, x[allowed], ends.accuracy[allowed])
+        chosen = []
+        for i in np.flatnonzero(allowed & ends.regular):
+            scale = 1 + np.linalg.norm(x[i])
+            if not (np.linalg.norm(seen - x[i], axis=1) < SAME * scale).any():
+                chosen.append(i)
+                seen = np.vstack([seen, x[i]])
+        if chosen:
+            fibres.append(Fibre(cut, d, ends.points[chosen]))
+        rest = allowed & ~ends.regular
+        singular.append(x[rest])
+        errors.append(ends.accuracy[rest])
+    points, accuracy = np.vstack(singular), np.concatenate(errors)
+    groups = clusters(points, accuracy)
+    first = np.array([g[0] for g in groups], dtype=int)
+    return _Candidates(fibres, points[first], accuracy[first])
+
+
+def witness_superset(
+    equations: Sequence[Polynomial],
+    n: int,
+    nonzero: Sequence[Polynomial],
+    flag: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    progress: Progress | None = None,
+) -> Superset:
+    """Witness points of all dimensions for ``equations`` in n variables, intersected in order.
+
+    ``flag`` holds n slices; a point of dimension d lies on its first d rows. No point of a
+    component is missed unless a path failed, and the points that lie on components of higher
+    dimension are taken out again after each equation.
+    """
+    start = np.linalg.solve(flag[:, 1:], -flag[:, 0])
+    fibres: dict[int, list[Fibre]] = {n: [Fibre(Cut(n, 0, ()), n, start[None])]}
+    counts, notes = PathCounts(), []
+    avoid = Evaluator.of(nonzero, n)
+    for k, f in enumerate(equations):
+        here = Evaluator.of([f], n)
+        gamma = complex(unit_complex(rng))
+        kept: dict[int, list[Fibre]] = {}
+        pieces: dict[int, list[tuple[Cut, Moved]]] = {}
+        for d in sorted(fibres, reverse=True):
+            for fibre in fibres[d]:
+                on = here.residuals(fibre.x)[:, 0] < ON
+                if on.any():
+                    kept.setdefault(d, []).append(fibre.only(on))
+                if d > 0 and f.degree > 0 and not on.all():
+                    if progress is not None:
+                        progress("intersecting", k, len(equations))
+                    ends = intersect(fibre.only(~on), f, flag, gamma, tracker)
+                    counts += ends.counts
+                    pieces.setdefault(d - 1, []).append((fibre.cut.extended(f), ends))
+        for d in sorted(pieces, reverse=True):
+            candidates = _collect(pieces[d], n, d, avoid)
+            kept.setdefault(d, []).extend(candidates.fibres)
+            for x, accuracy in zip(candidates.singular, candidates.accuracy, strict=True):
+                so_far = equations[: k + 1]
+                if admit(x, accuracy, kept[d], so_far, flag[:d], rng, deflate=False):
+                    continue
+                answer = Membership.FOREIGN
+                for higher in sorted((e for e in kept if e > d), reverse=True):
+                    answer, used = is_member(x, accuracy, kept[higher], flag, rng, tracker)
+                    counts += used
+                    if answer is not Membership.FOREIGN:
+                        break
+                if answer is Membership.MEMBER:
+                    continue
+                if answer is Membership.UNDECIDED:
+                    notes.append(f"a point of dimension {d} could not be told from a larger set")
+                elif not admit(x, accuracy, kept[d], so_far, flag[:d], rng, deflate=True):
+                    notes.append(f"a singular point of dimension {d} could not be made regular")
+        fibres = {d: [fibre for fibre in kept[d] if len(fibre)] for d in kept}
+    return Superset(fibres, counts, tuple(notes))
