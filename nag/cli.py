@@ -135,12 +135,11 @@ def _read(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
             )
         return case, None
 
-    from nag.mechanism.graph import MechanismError
-    from nag.mechanism.model import model
+    from nag.mechanism.model import ModelError, model
 
     try:
         return case, model(case.mechanism, arguments.formulation or "auto")
-    except MechanismError as error:
+    except ModelError as error:
         raise UsageError(f"{arguments.case}: {error}") from None
 
 
@@ -180,10 +179,11 @@ def _decompose(arguments: argparse.Namespace) -> int:
         )
         points = through_points(decomposition, case, model, arguments.threads)
 
-    from nag.report.answer import answer_lines, is_complete, origin
+    from nag.report.answer import accounted, answer_lines, origin
     from nag.report.export import write_decomposition
     from nag.report.target import TargetError
 
+    decomposition = accounted(decomposition, points)
     failure = None
     if arguments.json is not None:
         try:
@@ -194,7 +194,7 @@ def _decompose(arguments: argparse.Namespace) -> int:
     _print(answer_lines(decomposition, case, model, points, seconds))
     if failure is not None:
         raise failure
-    return COMPLETE if is_complete(decomposition, points) else INCOMPLETE
+    return COMPLETE if decomposition.complete else INCOMPLETE
 
 
 def _model(arguments: argparse.Namespace) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from nag.cases import Case
     from nag.mechanism.model import Model
 
-FORMULATIONS = {"E": "E (Euler parameters)", "H": "H (half angles)"}
-
 
 @dataclass(frozen=True)
 class Through:
@@ -38,16 +36,13 @@ class Through:
         name: name of the point.
         solution: whether the point satisfies the equations.
         components: indices of the components through it.
+        doubt: why the components are not known; empty if they are.
     """
 
     name: str
     solution: bool
-    components: tuple[int, ...]
-
-    @property
-    def found(self) -> bool:
-        """Whether the components account for the point."""
-        return bool(self.components) or not self.solution
+    components: tuple[int, ...] = ()
+    doubt: str = ""
 
 
 def system_of(case: Case, model: Model | None) -> PolynomialSystem:
@@ -73,18 +68,31 @@ def through_points(
 
     found = []
     for name, point in points_of(case, model):
-        solution = all(is_zero(value) for value in decomposition.system(point))
-        indices: list[int] = []
-        if solution and decomposition.components:
-            at = np.array([complex(float(x)) for x in point])
-            indices = components_through(decomposition, at, threads=threads)
-        found.append(Through(name, solution, tuple(indices)))
+        if not all(is_zero(value) for value in decomposition.system(point)):
+            found.append(Through(name, solution=False))
+            continue
+        at = np.array([complex(float(x)) for x in point])
+        try:
+            indices = components_through(
+                decomposition,
+                at,
+                seed=decomposition.seed,
+                threads=threads,
+                settings=decomposition.settings,
+            )
+            doubt = "" if indices else "no component that was found passes through it"
+            found.append(Through(name, True, tuple(indices), doubt))
+        except ValueError as error:
+            found.append(Through(name, True, doubt=str(error)))
     return found
 
 
-def is_complete(decomposition: Decomposition, points: Sequence[Through]) -> bool:
-    """Whether nothing is left open."""
-    return decomposition.complete and all(point.found for point in points)
+def accounted(decomposition: Decomposition, points: Sequence[Through]) -> Decomposition:
+    """The decomposition, incomplete if it leaves doubt about one of ``points``."""
+    doubts = tuple(f"{point.name}: {point.doubt}" for point in points if point.doubt)
+    if not doubts:
+        return decomposition
+    return replace(decomposition, complete=False, notes=(*decomposition.notes, *doubts))
 
 
 def origin(case: Case, model: Model | None) -> Origin:
@@ -100,31 +108,35 @@ def origin(case: Case, model: Model | None) -> Origin:
     )
 
 
-def _model_row(model: Model) -> tuple[str, str]:
-    formulation = FORMULATIONS.get(model.formulation, model.formulation)
-    return "model", printable(f"{model.space}, formulation {formulation}: {model.reason}")
+def _model_rows(model: Model) -> list[tuple[str, str]]:
+    rows = [("model", printable(f"formulation {model.formulation}: {model.reason}"))]
+    if model.sign_group > 1:
+        text = f"{model.sign_group} sign changes of Euler parameters keep the equations; "
+        rows.append(("signs", text + "components that they exchange are counted one by one"))
+    return rows
 
 
 def _mobility_rows(
-    decomposition: Decomposition, case: Case, model: Model | None, points: Sequence[Through]
+    decomposition: Decomposition, model: Model | None, points: Sequence[Through]
 ) -> list[tuple[str, str]]:
     rows = []
+    free = model.structure.cut_freedoms if model else 0
     for point in points:
         components = [decomposition.components[i] for i in point.components]
         if not point.solution:
             text = f"{point.name} is no solution of the equations"
-        elif not components:
-            text = f"not known: no component that was found passes through {point.name}"
+        elif point.doubt:
+            text = f"not known at {point.name}"
         else:
-            largest = max(c.dimension for c in components)
+            largest = max(c.dimension for c in components) + free
             text = f"{largest} at {point.name}: on {in_words(kinds(components))}"
+            if free:
+                text += f", and {free} by the joints that were cut off"
             if any(c.status is not Status.IRREDUCIBLE for c in components):
                 text += ", not all of them decided"
         rows.append(("mobility" if model else "dimension", printable(text)))
-    if case.mechanism is not None:
-        from nag.mechanism.mobility import gruebler_kutzbach
-
-        rows.append(("counted", f"{gruebler_kutzbach(case.mechanism)} by Gruebler-Kutzbach"))
+    if model is not None:
+        rows.append(("counted", f"{model.gruebler_kutzbach} by Gruebler-Kutzbach"))
     return rows
 
 
@@ -138,10 +150,10 @@ def answer_lines(
     """The whole answer, line by line."""
     head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
     if model is not None:
-        head.insert(0, _model_row(model))
-    if not is_complete(decomposition, points):
+        head = _model_rows(model) + head
+    if not decomposition.complete:
         head.append(("", "INCOMPLETE, see below"))
-    tail = _mobility_rows(decomposition, case, model, points)
+    tail = _mobility_rows(decomposition, model, points)
     tail += [("open", line) for line in remarks(decomposition)]
     tail += [
         ("paths", paths_line(decomposition)),
@@ -167,7 +179,7 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     system = system_of(case, model)
     head = [("system", system_line(system))]
     if model is not None:
-        head.insert(0, _model_row(model))
+        head = _model_rows(model) + head
     lines = [printable(case.title), "", *labelled(head), "", "equations"]
     lines += [f"  {text} = 0" for text in system.text()] or ["  none"]
     if system.nonzero:

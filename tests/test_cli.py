@@ -1,0 +1,350 @@
+"""The command line: what it prints, how it ends, and that bad input gets one clear line."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import nag
+from nag.cli import main
+from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.report.export import read_export
+
+CASES = Path(__file__).parent.parent / "cases"
+
+LINES = """
+title = "Two lines"
+kind = "system"
+variables = ["x", "y"]
+equations = ["x^2 - y^2"]
+[[point]]
+name = "crossing"
+at = { x = 0, y = 0 }
+[[point]]
+name = "elsewhere"
+at = { x = 1, y = 0 }
+[[truth.component]]
+dimension = 1
+degree = 1
+count = 2
+source = "a schoolbook"
+"""
+
+
+def two_lines(system, **changes: object) -> Decomposition:
+    slice_ = Slice([[0.6, 0.8]], [1.0])
+    components = [
+        WitnessSet(slice_, [point], 1, Status.IRREDUCIBLE, 0.0, 1e-16, 1)
+        for point in ([5 / 7, 5 / 7], [-5.0, 5.0])
+    ]
+    plain = Decomposition(system, tuple(components), PathCounts(2), 0, "default", (0,), True)
+    return replace(plain, **changes)
+
+
+class Engine:
+    """Stands in for the decomposition, which has tests of its own, and remembers its calls."""
+
+    def __init__(self) -> None:
+        self.calls: list[dict[str, object]] = []
+        self.changes: dict[str, object] = {}
+        self.through: list[int] = [0, 1]
+        self.error: BaseException | None = None
+
+    def decompose(self, system, **options: object) -> Decomposition:
+        self.calls.append(options)
+        if self.error is not None:
+            raise self.error
+        return two_lines(system, **{"seed": options["seed"], **self.changes})
+
+    def components_through(self, decomposition, point, **options: object) -> list[int]:
+        assert point.tolist() == [0, 0]
+        return self.through
+
+
+@pytest.fixture
+def engine(monkeypatch) -> Engine:
+    fake = Engine()
+    for name in ("decompose", "membership"):
+        module = ModuleType(f"nag.decomposition.{name}")
+        module.decompose = fake.decompose
+        module.components_through = fake.components_through
+        monkeypatch.setitem(sys.modules, module.__name__, module)
+    return fake
+
+
+@pytest.fixture
+def case(tmp_path) -> str:
+    file = tmp_path / "lines.toml"
+    file.write_text(LINES)
+    return str(file)
+
+
+@pytest.fixture
+def complaint(capsys) -> Iterator:
+    """Runs a command line that must end with status 2, nothing printed and one line."""
+
+    def run(*argv: str) -> str:
+        assert main(argv) == 2
+        out, err = capsys.readouterr()
+        assert out == ""
+        assert err.startswith("nag: ")
+        assert err.endswith("\n") and err.count("\n") == 1
+        return err
+
+    return run
+
+
+def test_an_answer_says_all_that_it_rests_on(engine, case, capsys) -> None:
+    assert main(["decompose", case, "--seed", "7"]) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    lines = out.splitlines()
+    assert lines[0] == "Two lines"
+    rows = {line.split()[0]: " ".join(line.split()[1:]) for line in lines[1:] if line.strip()}
+    assert rows["system"] == "2 variables (x, y), 1 equation: 1 of degree 2"
+    assert rows["answer"] == "2 components of dimension 1, degree 1"
+    assert rows["1"] == "1 1 2 irreducible 0.0e+00 1.0e-16 double"
+    assert "1 at crossing: on 2 components of dimension 1, degree 1" in out
+    assert "elsewhere is no solution of the equations" in out
+    assert rows["paths"] == "2 tracked, 0 to infinity, 0 failed"
+    assert rows["run"].startswith("seed 7, settings default, ")
+    assert rows["known"] == (
+        "agrees with what is known: 2 components of dimension 1, degree 1 (a schoolbook)"
+    )
+
+
+def test_options_reach_the_decomposition(engine, case) -> None:
+    assert main(["decompose", case, "--seed=3", "--threads=2", "--settings=careful"]) == 0
+    (call,) = engine.calls
+    assert call == {"seed": 3, "threads": 2, "settings": "careful", "progress": None}
+
+
+@pytest.mark.parametrize("doubt", ["undecided", "failed paths", "point missed"])
+def test_an_incomplete_answer_ends_with_status_1_and_says_why(
+    engine, case, capsys, doubt: str, tmp_path
+) -> None:
+    target = tmp_path / "answer.json"
+    if doubt == "undecided":
+        engine.changes = {"complete": False, "notes": ("a component is undecided",)}
+    elif doubt == "failed paths":
+        engine.changes = {"complete": False, "paths": PathCounts(5, 1), "notes": ("1 path failed",)}
+    else:
+        engine.through = []
+    assert main(["decompose", case, "--json", str(target)]) == 1
+    out, _ = capsys.readouterr()
+    assert "INCOMPLETE" in out
+    expected = {
+        "undecided": "a component is undecided",
+        "failed paths": "1 path failed",
+        "point missed": "crossing: no component that was found passes through it",
+    }[doubt]
+    assert expected in out
+    content = json.loads(target.read_text())
+    assert content["complete"] is False
+    assert content["notes"] == [expected]
+
+
+def test_membership_that_cannot_be_decided_leaves_the_answer_incomplete(
+    engine, case, capsys, monkeypatch
+) -> None:
+    def undecided(*_: object, **__: object) -> list[int]:
+        raise ValueError("could not be decided")
+
+    monkeypatch.setattr(
+        sys.modules["nag.decomposition.membership"], "components_through", undecided
+    )
+    assert main(["decompose", case]) == 1
+    assert "crossing: could not be decided" in capsys.readouterr().out
+
+
+def test_the_export_is_the_answer_and_names_no_place_and_no_time(
+    engine, case, tmp_path, capsys
+) -> None:
+    first, second = tmp_path / "1.json", tmp_path / "2.json"
+    assert main(["decompose", case, "--json", str(first), "--threads", "1"]) == 0
+    assert main(["decompose", case, "--json", str(second), "--threads", "2"]) == 0
+    assert first.read_bytes() == second.read_bytes()
+    export = read_export(first)
+    assert export.origin.title == "Two lines"
+    assert export.origin.file == "lines.toml"
+    assert export.origin.kind == "system"
+    assert export.decomposition == two_lines(export.decomposition.system)
+    assert str(tmp_path) not in first.read_text()
+
+
+def test_the_model_of_a_system_is_the_system(case, capsys) -> None:
+    assert main(["model", case]) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    assert "  x^2 - y^2 = 0\n" in out
+    assert "crossing\n  x = 0, y = 0\n" in out
+
+
+@pytest.mark.parametrize(
+    ("argv", "part"),
+    [
+        ([], "COMMAND"),
+        (["frobnicate"], "invalid choice"),
+        (["decompose"], "CASE"),
+        (["decompose", "{case}", "extra"], "unrecognized arguments"),
+        (["decompose", "{case}", "--frob"], "unrecognized arguments"),
+        (["decompose", "{case}", "--see", "1"], "unrecognized arguments"),
+        (["decompose", "{case}", "--seed"], "expected one argument"),
+        (["decompose", "{case}", "--seed", "-1"], "--seed"),
+        (["decompose", "{case}", "--seed", "1.5"], "not a whole number"),
+        (["decompose", "{case}", "--seed", "9" * 5000], "not a whole number"),
+        (["decompose", "{case}", "--seed", str(2**63)], "is not between"),
+        (["decompose", "{case}", "--threads", "0"], "is not between 1"),
+        (["decompose", "{case}", "--threads", "\u0663"], "not a whole number"),
+        (["decompose", "{case}", "--settings", "sloppy"], "invalid choice"),
+        (["decompose", "{case}", "--formulation", "X"], "invalid choice"),
+        (["decompose", "{case}", "--formulation", "E"], "is for mechanisms"),
+        (["decompose", "{folder}/none.toml"], "none.toml"),
+        (["decompose", "{folder}"], "directory"),
+        (["decompose", ""], ""),
+        (["decompose", "a\0b"], ""),
+        (["decompose", "a\nb\x1b[31m"], "a\\nb\\x1b[31m"),
+        (["decompose", "x" * 5000], "too long"),
+        (["model", "{folder}/none.toml"], "none.toml"),
+        (["decompose", "{case}", "--json", "{folder}"], "is a directory"),
+        (["decompose", "{case}", "--json", "{folder}/none/a.json"], "there is no directory"),
+        (["decompose", "{case}", "--json", "{case}/a.json"], "there is no directory"),
+        (["decompose", "{case}", "--json", "{case}"], "is the case file"),
+        (["decompose", "{case}", "--json", ""], "is a directory"),
+        (["decompose", "{case}", "--json", "a\0b"], "is not a file name"),
+    ],
+)
+def test_bad_input_gets_one_line(engine, case, complaint, argv, part) -> None:
+    folder = str(Path(case).parent)
+    message = complaint(*(word.format(case=case, folder=folder) for word in argv))
+    assert part in message
+    assert engine.calls == []
+    assert Path(case).read_text() == LINES
+    assert os.listdir(folder) == ["lines.toml"]
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may read and write all")
+def test_files_without_permission_get_one_line(engine, case, complaint, tmp_path) -> None:
+    target = tmp_path / "answer.json"
+    target.write_text("old")
+    target.chmod(0o444)
+    assert "Permission denied" in complaint("decompose", case, "--json", str(target))
+    assert target.read_text() == "old"
+    Path(case).chmod(0)
+    assert "Permission denied" in complaint("decompose", case)
+
+
+def test_an_answer_is_printed_even_if_the_export_fails_at_the_end(
+    engine, case, tmp_path, capsys, monkeypatch
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("nag.report.target.os.fsync", full)
+    assert main(["decompose", case, "--json", str(tmp_path / "answer.json")]) == 2
+    out, err = capsys.readouterr()
+    assert "2 components of dimension 1, degree 1" in out
+    assert err.endswith("answer.json: cannot be written: No space left on device\n")
+    assert os.listdir(tmp_path) == ["lines.toml"]
+
+
+def test_interruption_is_one_line_and_status_130(engine, case, capsys) -> None:
+    engine.error = KeyboardInterrupt()
+    assert main(["decompose", case]) == 130
+    assert capsys.readouterr() == ("", "nag: interrupted\n")
+
+
+def test_too_little_memory_is_one_line_and_status_1(engine, case, capsys) -> None:
+    engine.error = MemoryError()
+    assert main(["decompose", case]) == 1
+    assert capsys.readouterr() == ("", "nag: not enough memory for this case\n")
+
+
+def test_a_mistake_of_our_own_is_not_passed_off_as_bad_input(engine, case) -> None:
+    engine.error = ValueError("a bug")
+    with pytest.raises(ValueError, match="a bug"):
+        main(["decompose", case])
+
+
+@pytest.mark.parametrize("argv", [["--help"], ["decompose", "--help"], ["model", "--help"]])
+def test_help_is_printed(argv, capsys) -> None:
+    assert main(argv) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("usage: nag") and err == ""
+
+
+def test_version_is_printed(capsys) -> None:
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out == f"nag {nag.__version__}\n"
+
+
+def _nag(*argv: str, **options: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "nag", *argv], text=True, timeout=120, check=False, **options
+    )
+
+
+def test_a_reader_that_goes_away_is_no_error(case) -> None:
+    read, write = os.pipe()
+    os.close(read)
+    done = _nag("model", case, stdout=write, stderr=subprocess.PIPE)
+    os.close(write)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is always full")
+def test_a_full_disk_under_standard_output_is_one_line(case) -> None:
+    with open("/dev/full", "w") as full:
+        done = _nag("model", case, stdout=full, stderr=subprocess.PIPE)
+    assert done.returncode == 2
+    assert done.stderr == "nag: standard output cannot be written: No space left on device\n"
+
+
+def test_titles_that_the_terminal_cannot_show_are_escaped(tmp_path) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(LINES.replace("Two lines", "Zwei Gerädén \\u001b[31m"), encoding="utf-8")
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = _nag("model", str(file), env=environment, capture_output=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("Zwei Ger\\xe4d\\xe9n \\x1b[31m\n")
+
+
+def test_help_loads_nothing_heavy() -> None:
+    code = (
+        "import sys, nag.cli; nag.cli.main(['--help']); "
+        "print(*sorted({'numpy', 'numba', 'scipy', 'mpmath', 'networkx'} & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert done.stdout.endswith("\n\n")
+
+
+def test_ctrl_c_ends_a_process_with_status_130_and_one_line(case, tmp_path) -> None:
+    script = tmp_path / "run.py"
+    script.write_text(
+        "import sys, time\n"
+        "import nag.cli\n"
+        "def wait(arguments):\n"
+        "    print('ready', flush=True)\n"
+        "    time.sleep(60)\n"
+        "nag.cli._model = wait\n"
+        "sys.exit(nag.cli.main(['model', 'x']))\n"
+    )
+    process = subprocess.Popen(
+        [sys.executable, str(script)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "ready\n"
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=30)
+    assert (process.returncode, err) == (130, "nag: interrupted\n")

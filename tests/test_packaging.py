@@ -1,0 +1,98 @@
+"""What is shipped is complete, and the README's commands are the ones that are checked."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+import nag
+from nag.report.export import FORMAT, VERSION, schema
+
+ROOT = Path(__file__).parent.parent
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+
+
+@pytest.mark.parametrize("name", nag.__all__)
+def test_public_names_are_there(name: str) -> None:
+    assert getattr(nag, name) is not None
+    assert name in dir(nag)
+
+
+def test_unknown_names_are_attribute_errors() -> None:
+    with pytest.raises(AttributeError, match="frobnicate"):
+        _ = nag.frobnicate
+
+
+@pytest.mark.parametrize(
+    "package",
+    ["nag", "nag.algebra", "nag.decomposition", "nag.mechanism", "nag.report", "nag.tracking"],
+)
+def test_packages_load_nothing_heavy(package: str) -> None:
+    code = (
+        f"import sys, {package}; "
+        "print(*sorted({'numba', 'scipy', 'networkx', 'matplotlib'} & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert done.stdout == "\n"
+
+
+def test_schema_is_a_schema_of_the_format_that_is_written() -> None:
+    jsonschema.Draft202012Validator.check_schema(schema())
+    assert schema()["properties"]["format"]["const"] == FORMAT
+    assert schema()["properties"]["version"]["const"] == VERSION
+
+
+def test_every_file_that_is_no_module_is_declared_as_package_data() -> None:
+    data = PROJECT["tool"]["setuptools"]["package-data"]
+    declared = {
+        file
+        for package, patterns in data.items()
+        for pattern in patterns
+        for file in ROOT.joinpath(*package.split(".")).glob(pattern)
+    }
+    there = {
+        file
+        for file in (ROOT / "nag").rglob("*")
+        if file.is_file() and file.suffix != ".py" and "__pycache__" not in file.parts
+    }
+    assert there == declared
+
+
+def test_every_folder_of_modules_is_a_package() -> None:
+    folders = {file.parent for file in (ROOT / "nag").rglob("*.py")}
+    assert [folder for folder in folders if not (folder / "__init__.py").is_file()] == []
+
+
+def test_every_core_dependency_is_imported_somewhere() -> None:
+    source = "\n".join(file.read_text("utf-8") for file in (ROOT / "nag").rglob("*.py"))
+    for requirement in PROJECT["project"]["dependencies"]:
+        name = requirement.split(">=")[0]
+        assert f"import {name}" in source or f"from {name}" in source, name
+
+
+def test_the_command_is_the_function_main() -> None:
+    module, function = PROJECT["project"]["scripts"]["nag"].split(":")
+    assert callable(getattr(importlib.import_module(module), function))
+
+
+def test_the_check_runs_the_commands_of_the_readme() -> None:
+    check = ROOT / ".ci" / "run"
+    assert os.access(check, os.X_OK)
+    script = check.read_text("utf-8").replace(" --quiet", "")
+    readme = (ROOT / "README.md").read_text("utf-8")
+    for line in (
+        "python -m pip install . && nag decompose cases/bennett.toml",
+        'python -m pip install -e ".[test]" && python -m pytest',
+    ):
+        assert line in readme
+        for command in line.split(" && "):
+            assert f"step {command}\n" in script
