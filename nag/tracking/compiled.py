@@ -1,0 +1,251 @@
+"""Polynomials compiled to flat arrays: products, and rows over them.
+
+A monomial is a product of two earlier ones, so powers are shared between the values and the
+Jacobian. Value slot ``j < N`` is coordinate ``j``, slot ``N`` is the constant 1, slot ``N + 1 + k``
+is product ``k``. A row is a sum of parts, each a sparse polynomial ``S_p`` with coefficients
+that do not depend on t; a homotopy multiplies part ``p`` by ``alpha_p + t beta_p``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import frexp
+from typing import NamedTuple
+
+import numpy as np
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Exponents, Polynomial
+
+Terms = Mapping[Exponents, Number | complex]
+
+
+class Tape(NamedTuple):
+    """The arrays that the kernels read; see `compile_rows`.
+
+    ``first, second``: slots of the factors of each product; the first ``value_products`` products
+    suffice for the values, all are needed for the Jacobian.
+    ``value_*`` and ``jacobian_*``: blocks of terms; block ``b`` adds
+    ``sum(coefficient[q] * slot[q] for q in range(start[b], start[b + 1]))`` times its part's factor
+    to row ``place[b]`` of the values, or to entry ``place[b] = row * N + column`` of the Jacobian.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    value_products: int
+    value_place: np.ndarray
+    value_part: np.ndarray
+    value_start: np.ndarray
+    value_slot: np.ndarray
+    value_coefficient: np.ndarray
+    jacobian_place: np.ndarray
+    jacobian_part: np.ndarray
+    jacobian_start: np.ndarray
+    jacobian_slot: np.ndarray
+    jacobian_coefficient: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class CompiledRows:
+    """Homogeneous polynomial rows in ``N`` projective coordinates.
+
+    Attributes:
+        N: number of coordinates, homogenising ones included.
+        parts: for each row a tuple of ``(part, terms)``; ``terms`` maps exponents of all ``N``
+            coordinates to exact numbers (or complex ones).
+        groups: the partition of the coordinates into groups, each with its homogenising coordinate.
+        infinity: the homogenising coordinates.
+        degrees: degree of each row in each group, shape ``(rows, groups)``.
+    """
+
+    N: int
+    parts: tuple[tuple[tuple[int, Terms], ...], ...]
+    groups: tuple[tuple[int, ...], ...]
+    infinity: tuple[int, ...]
+    degrees: np.ndarray
+    _cache: dict[str, object] = field(default_factory=dict, repr=False, compare=False)
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+    @cached_property
+    def part_count(self) -> int:
+        """Number of parts that the rows refer to."""
+        return 1 + max((p for row in self.parts for p, _ in row), default=0)
+
+    @cached_property
+    def scales(self) -> np.ndarray:
+        """Powers of two by which the compiled rows are divided, for rows of comparable size."""
+        sizes = []
+        for row in self.parts:
+            size = max((abs(complex(c)) for _, terms in row for c in terms.values()), default=1.0)
+            sizes.append(2.0 ** (frexp(size)[1] - 1))
+        return np.array(sizes, dtype=float)
+
+    @cached_property
+    def tape(self) -> Tape:
+        """The arrays for the kernels."""
+        return _tape(self)
+
+    def select(self, indices: Iterable[int]) -> CompiledRows:
+        """The rows at ``indices``, in that order."""
+        indices = list(indices)
+        return CompiledRows(
+            self.N,
+            tuple(self.parts[i] for i in indices),
+            self.groups,
+            self.infinity,
+            self.degrees[indices],
+        )
+
+    def join(self, other: CompiledRows) -> CompiledRows:
+        """The rows of both, one after the other; both live in the same coordinates.
+
+        Raises:
+            ValueError: if the coordinates or groups differ.
+        """
+        if (self.N, self.groups, self.infinity) != (other.N, other.groups, other.infinity):
+            raise ValueError("rows in different coordinates cannot be joined")
+        return CompiledRows(
+            self.N,
+            self.parts + other.parts,
+            self.groups,
+            self.infinity,
+            np.concatenate([self.degrees, other.degrees]),
+        )
+
+
+def compile_rows(
+    polynomials: Sequence[Polynomial],
+    *,
+    homogenize: bool = True,
+    groups: Sequence[Sequence[int]] = (),
+    n: int | None = None,
+) -> CompiledRows:
+    """Compile polynomials, homogenised exactly.
+
+    Args:
+        polynomials: polynomials in the same ``n`` affine variables (or ``N`` projective
+            coordinates if ``homogenize`` is False).
+        homogenize: put one new coordinate a group in front of the variables: x0 for one group,
+            ``x0 .. x(G-1)`` for ``G`` groups, so that variable ``i`` becomes coordinate ``G + i``.
+        groups: partition of the indices of the polynomials' own variables; default: one group.
+        n: number of variables, needed only if there is no polynomial.
+
+    Raises:
+        ValueError: if variables do not match, the groups are no partition, or, with
+            ``homogenize=False``, a polynomial is not homogeneous in a group.
+    """
+    n = polynomials[0].n if n is None else n
+    if any(f.n != n for f in polynomials):
+        raise ValueError("the polynomials have different numbers of variables")
+    partition = tuple(tuple(g) for g in groups) or (tuple(range(n)),)
+    if sorted(i for g in partition for i in g) != list(range(n)):
+        raise ValueError("the groups are not a partition of the variables")
+    degrees = np.array(
+        [[max(f.degree_in(g), 0) for g in partition] for f in polynomials], dtype=np.int64
+    ).reshape(len(polynomials), len(partition))
+    rows = []
+    for f, row_degrees in zip(polynomials, degrees, strict=True):
+        terms = {}
+        for e, c in f.terms.items():
+            missing = tuple(
+                int(d) - sum(e[i] for i in g) for g, d in zip(partition, row_degrees, strict=True)
+            )
+            if not homogenize and any(missing):
+                raise ValueError(f"{f} is not homogeneous in its groups of variables")
+            terms[missing + e if homogenize else e] = c
+        rows.append(((0, terms),))
+    if not homogenize:
+        return CompiledRows(n, tuple(rows), partition, (0,), degrees)
+    shift = len(partition)
+    homogenized = tuple((k, *(i + shift for i in g)) for k, g in enumerate(partition))
+    return CompiledRows(n + shift, tuple(rows), homogenized, tuple(range(shift)), degrees)
+
+
+def blend(first: CompiledRows, second: CompiledRows) -> CompiledRows:
+    """Rows ``S_0 + S_1`` with the parts of ``first`` before those of ``second``.
+
+    Raises:
+        ValueError: if numbers of rows, coordinates or degrees differ.
+    """
+    if (first.N, first.groups, len(first)) != (second.N, second.groups, len(second)):
+        raise ValueError("the two systems differ in coordinates, groups or number of rows")
+    if not np.array_equal(first.degrees, second.degrees):
+        raise ValueError("the two systems differ in the degrees of their rows")
+    shift = first.part_count
+    rows = tuple(
+        row + tuple((p + shift, terms) for p, terms in other)
+        for row, other in zip(first.parts, second.parts, strict=True)
+    )
+    return CompiledRows(first.N, rows, first.groups, first.infinity, first.degrees)
+
+
+class _Products:
+    """Slots of monomials, created as products of earlier ones."""
+
+    def __init__(self, N: int) -> None:
+        self.N = N
+        self.slots: dict[Exponents, int] = {(0,) * N: N}
+        for j in range(N):
+            self.slots[tuple(int(i == j) for i in range(N))] = j
+        self.factors: list[tuple[int, int]] = []
+
+    def slot(self, exponents: Exponents) -> int:
+        found = self.slots.get(exponents)
+        if found is not None:
+            return found
+        last = max(j for j, k in enumerate(exponents) if k)
+        parent = exponents[:last] + (exponents[last] - 1,) + exponents[last + 1 :]
+        factors = (self.slot(parent), last)
+        self.factors.append(factors)
+        self.slots[exponents] = self.N + len(self.factors)
+        return self.slots[exponents]
+
+
+def _tape(rows: CompiledRows) -> Tape:
+    N = rows.N
+    products = _Products(N)
+    values: list[tuple[int, int, list[tuple[int, complex]]]] = []
+    jacobian: list[tuple[int, int, list[tuple[Exponents, complex]]]] = []
+    for r, row in enumerate(rows.parts):
+        for part, terms in row:
+            block = []
+            derivatives: dict[int, list[tuple[Exponents, complex]]] = {}
+            for e in sorted(terms, reverse=True):
+                c = complex(terms[e]) / rows.scales[r]
+                block.append((products.slot(e), c))
+                for j, k in enumerate(e):
+                    if k:
+                        lowered = e[:j] + (k - 1,) + e[j + 1 :]
+                        derivatives.setdefault(j, []).append((lowered, c * k))
+            values.append((r, part, block))
+            jacobian += [(r * N + j, part, derivatives[j]) for j in sorted(derivatives)]
+    value_products = len(products.factors)
+    jacobian.sort(key=lambda entry: (entry[0], entry[1]))
+    jacobian_blocks = [
+        (p, q, [(products.slot(e), c) for e, c in block]) for p, q, block in jacobian
+    ]
+    factors = np.array(products.factors, dtype=np.int64).reshape(-1, 2)
+    return Tape(
+        np.ascontiguousarray(factors[:, 0]),
+        np.ascontiguousarray(factors[:, 1]),
+        value_products,
+        *_blocks(values),
+        *_blocks(jacobian_blocks),
+    )
+
+
+def _blocks(
+    blocks: list[tuple[int, int, list[tuple[int, complex]]]],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    terms = [term for _, _, block in blocks for term in block]
+    return (
+        np.array([place for place, _, _ in blocks], dtype=np.int64),
+        np.array([part for _, part, _ in blocks], dtype=np.int64),
+        np.cumsum([0] + [len(block) for _, _, block in blocks], dtype=np.int64),
+        np.array([slot for slot, _ in terms], dtype=np.int64),
+        np.array([c for _, c in terms], dtype=np.complex128),
+    )

@@ -1,0 +1,289 @@
+"""Cauchy endgame: which point to track to next, and when the end of a path is known.
+
+The kernel tracks each lane along straight segments. When a lane arrives, `arrived` looks at its
+phase and either names the next target or closes the path. The endgame variable is
+``sigma = (t / (1 - t)) ** d``, in which loops are counted (Morgan, Sommese & Wampler 1991; the
+judgement of convergence by the Fourier modes of negative order is explained at `_analyze`).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numba
+import numpy as np
+
+MAIN, SHORTCUT, LOOP, SHRINK = 0, 1, 2, 3
+# Outcomes of a path.
+FAILED, STRAIGHT, CAUCHY = 0, 1, 2
+# Reasons of failure.
+NO_REASON, STEP_SIZE, STEPS, START, ENDGAME, NOT_FINITE = 0, 1, 2, 3, 4, 5
+
+
+class Endgame(NamedTuple):
+    """State of the endgame for the eight paths of a batch (first axis) and its settings.
+
+    ``samples``: normalised points round the current loop. ``patch``: linear forms that normalise
+    them. ``best``: best estimate of the end point so far; ``saved``: the point at the endgame's
+    first radius. ``real`` and ``whole``: scalars by lane, see the index constants.
+    """
+
+    samples: np.ndarray
+    patch: np.ndarray
+    best: np.ndarray
+    saved: np.ndarray
+    real: np.ndarray
+    whole: np.ndarray
+    exponent: int
+    active: bool
+    shortcut: bool
+    radius: float
+    per_loop: int
+    max_winding: int
+    levels: int
+
+
+# Columns of Endgame.real.
+RADIUS, ANGLE, BEST_ERROR, LAST_RATIO, SAVED_RATIO, SAVED_TIME, NEXT_RE, NEXT_IM, NOISE, HINT = (
+    range(10)
+)
+# Columns of Endgame.whole.
+PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, STALLED, SHORT_STEPS = range(7)
+
+
+def endgame_state(
+    N: int,
+    exponent: int,
+    active: bool,
+    shortcut: bool,
+    radius: float,
+    per_loop: int,
+    max_winding: int,
+    levels: int,
+) -> Endgame:
+    """Fresh state for eight lanes in ``N`` coordinates."""
+    return Endgame(
+        np.zeros((8, per_loop * max_winding + 1 if active else 1, N), dtype=np.complex128),
+        np.zeros((8, N), dtype=np.complex128),
+        np.zeros((8, N), dtype=np.complex128),
+        np.zeros((8, N), dtype=np.complex128),
+        np.zeros((8, 10)),
+        np.zeros((8, 7), dtype=np.int64),
+        exponent,
+        active,
+        shortcut,
+        radius ** (1.0 / exponent),
+        per_loop,
+        max_winding,
+        levels,
+    )
+
+
+@numba.njit(nogil=True)
+def _aim(e, lane):
+    radius = e.real[lane, RADIUS]
+    angle = e.real[lane, ANGLE]
+    s = complex(radius * math.cos(angle), radius * math.sin(angle))
+    t = s / (1.0 + s)
+    e.real[lane, NEXT_RE] = t.real
+    e.real[lane, NEXT_IM] = t.imag
+
+
+@numba.njit(nogil=True)
+def begin(e, lane):
+    """Phase and first target of a path that starts at t = 1."""
+    e.whole[lane, :] = 0
+    e.real[lane, :] = 0.0
+    e.real[lane, BEST_ERROR] = 1e300
+    e.real[lane, LAST_RATIO] = 1e300
+    e.whole[lane, PHASE] = MAIN
+    if e.active:
+        e.real[lane, RADIUS] = e.radius
+        _aim(e, lane)
+
+
+@numba.njit(nogil=True)
+def _begin_loop(s, e, lane, x):
+    e.whole[lane, PHASE] = LOOP
+    e.whole[lane, SAMPLE] = 0
+    last = s.N - 1 if e.exponent > 1 else s.N
+    for g in range(s.groups):
+        total = 0.0
+        for j in range(last):
+            if s.group_of[j] == g:
+                total += abs(x[j]) ** 2
+        for j in range(s.N):
+            if s.group_of[j] == g:
+                e.patch[lane, j] = x[j].conjugate() / total if j < last else 0.0
+
+
+@numba.njit(nogil=True)
+def _keep_sample(s, e, lane, x):
+    k = e.whole[lane, SAMPLE]
+    for g in range(s.groups):
+        scale = 0j
+        for j in range(s.N):
+            if s.group_of[j] == g:
+                scale += e.patch[lane, j] * x[j]
+        for j in range(s.N):
+            if s.group_of[j] == g:
+                e.samples[lane, k, j] = x[j] / scale
+    if e.exponent > 1:
+        e.samples[lane, k, s.N - 1] = 0.0
+    e.whole[lane, SAMPLE] = k + 1
+    e.real[lane, ANGLE] += 2.0 * math.pi / (e.per_loop * e.exponent)
+    _aim(e, lane)
+
+
+@numba.njit(nogil=True)
+def _closed(s, e, lane, last):
+    """Whether sample ``last`` is the first one again."""
+    distance = 0.0
+    spread = 0.0
+    for j in range(s.N):
+        distance = max(distance, abs(e.samples[lane, last, j] - e.samples[lane, 0, j]))
+        for k in range(1, last):
+            spread = max(spread, abs(e.samples[lane, k, j] - e.samples[lane, 0, j]))
+    return distance <= max(20.0 * e.real[lane, NOISE], 1e-6 * spread)
+
+
+@numba.njit(nogil=True)
+def _analyze(s, e, lane, count):
+    """Mean of the samples, and the sizes of their modes of negative and positive order.
+
+    Round a loop that encloses no branch point but the centre, a branch is a power series in
+    ``sigma ** (1 / w)``: no mode of negative order. Agreement of the means at two radii proves
+    less: both loops may lie between inner and outer branch points.
+    """
+    negative = 0.0
+    total = 0.0
+    mean = np.zeros(s.N, dtype=np.complex128)
+    for k in range(count):
+        for j in range(s.N):
+            mean[j] += e.samples[lane, k, j]
+    for j in range(s.N):
+        mean[j] /= count
+    for k in range(count):
+        for j in range(s.N):
+            z = e.samples[lane, k, j] - mean[j]
+            total += z.real * z.real + z.imag * z.imag
+    total /= count
+    turn = np.empty(count, dtype=np.complex128)
+    for k in range(count):
+        turn[k] = complex(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
+    for m in range(1, (count + 1) // 2):
+        for j in range(s.N):
+            c = 0j
+            for k in range(count):
+                c += (e.samples[lane, k, j] - mean[j]) * turn[(m * k) % count]
+            c /= count
+            negative += c.real * c.real + c.imag * c.imag
+    return mean, math.sqrt(negative), math.sqrt(max(total - negative, 0.0))
+
+
+@numba.njit(nogil=True)
+def _shrink(e, lane):
+    e.whole[lane, LEVEL] += 1
+    if e.whole[lane, LEVEL] >= e.levels:
+        return False
+    e.whole[lane, PHASE] = SHRINK
+    e.real[lane, RADIUS] *= 0.1 ** (1.0 / e.exponent)
+    # The last sample's successor was aimed at already; go back to where the path is.
+    e.real[lane, ANGLE] -= 2.0 * math.pi / (e.per_loop * e.exponent)
+    _aim(e, lane)
+    return True
+
+
+@numba.njit(nogil=True)
+def give_up(e, lane):
+    """Outcome of a path that cannot go on: its best estimate, if one was judged converged."""
+    if e.real[lane, BEST_ERROR] < 1e-6:
+        return CAUCHY
+    return FAILED
+
+
+@numba.njit(nogil=True)
+def arrived(s, e, lane, x, noise, hint, radius, time):
+    """A lane arrived at its target.
+
+    Args:
+        s: the system; e: endgame state; lane: which one.
+        x: the point, shape (N,); ``best`` of the lane receives the end point.
+        noise: estimated error of ``x``; hint: pivot ratio of its Jacobian.
+        radius: radius of convergence of the Taylor series at ``x``; time: |t|.
+
+    Returns:
+        0 to go on to the target ``NEXT_RE, NEXT_IM``; -1 to go back to the point ``saved`` first;
+        else 10 plus the outcome.
+    """
+    phase = e.whole[lane, PHASE]
+    e.real[lane, NOISE] = max(noise, 1e-15)
+    if phase == MAIN:
+        if not e.active:
+            e.best[lane, :] = x
+            e.real[lane, BEST_ERROR] = noise
+            e.whole[lane, WINDING] = 1
+            e.real[lane, HINT] = hint
+            return 10 + STRAIGHT
+        e.saved[lane, :] = x
+        e.real[lane, SAVED_RATIO] = hint
+        e.real[lane, SAVED_TIME] = time
+        if e.shortcut and radius > 1.5 * time:
+            e.whole[lane, PHASE] = SHORTCUT
+            e.real[lane, NEXT_RE] = 0.0
+            e.real[lane, NEXT_IM] = 0.0
+            return 0
+        _begin_loop(s, e, lane, x)
+    elif phase == SHORTCUT:
+        if hint > 1e-3 * e.real[lane, SAVED_RATIO] and noise < 1e-8:
+            e.best[lane, :] = x
+            e.real[lane, BEST_ERROR] = noise
+            e.real[lane, HINT] = hint
+            e.whole[lane, WINDING] = 1
+            return 10 + STRAIGHT
+        return retreat(s, e, lane)
+    elif phase == SHRINK:
+        _begin_loop(s, e, lane, x)
+    _keep_sample(s, e, lane, x)
+    last = e.whole[lane, SAMPLE] - 1
+    if last == 0 or last % e.per_loop != 0:
+        return 0
+    if not _closed(s, e, lane, last):
+        if last < e.per_loop * e.max_winding:
+            return 0
+        e.real[lane, LAST_RATIO] = 1e300
+        if _shrink(e, lane):
+            return 0
+        return 10 + give_up(e, lane)
+    winding = last // e.per_loop
+    mean, negative, positive = _analyze(s, e, lane, last)
+    error = max(negative, e.real[lane, NOISE] / math.sqrt(last))
+    quiet = negative <= 3.0 * e.real[lane, NOISE]
+    ratio = negative / positive if positive > 0.0 else 0.0
+    same = winding == e.whole[lane, LAST_WINDING]
+    trusted = ratio < 1e-6 or quiet or (ratio < 1e-4 and same and e.real[lane, LAST_RATIO] < 1e-4)
+    if trusted:
+        if error < e.real[lane, BEST_ERROR]:
+            e.best[lane, :] = mean
+            e.real[lane, BEST_ERROR] = error
+            e.whole[lane, WINDING] = winding
+            e.whole[lane, STALLED] = 0
+        else:
+            e.whole[lane, STALLED] += 1
+        if e.real[lane, BEST_ERROR] < 1e-12 or e.whole[lane, STALLED] >= 1:
+            return 10 + CAUCHY
+    e.real[lane, LAST_RATIO] = ratio
+    e.whole[lane, LAST_WINDING] = winding
+    if _shrink(e, lane):
+        return 0
+    return 10 + give_up(e, lane)
+
+
+@numba.njit(nogil=True)
+def retreat(s, e, lane):
+    """Give the shortcut up and begin to loop at the point saved where it began."""
+    e.whole[lane, PHASE] = LOOP
+    _begin_loop(s, e, lane, e.saved[lane])
+    _keep_sample(s, e, lane, e.saved[lane])
+    return -1

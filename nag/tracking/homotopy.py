@@ -1,0 +1,175 @@
+"""Homotopies H(x, t) in projective coordinates, tracked from t = 1 to t = 0."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from nag.tracking.compiled import CompiledRows, blend
+
+Factors = tuple[tuple[complex, complex], ...]
+
+
+def _frozen(array: np.ndarray | None, N: int) -> np.ndarray:
+    array = np.zeros((0, N)) if array is None else array
+    array = np.array(array, dtype=np.complex128).reshape(-1, N)
+    array.setflags(write=False)
+    return array
+
+
+@dataclass(frozen=True, eq=False)
+class Homotopy:
+    """Polynomial rows, linear rows, and one patch for each group of coordinates.
+
+    Attributes:
+        rows: compiled polynomial rows; part ``p`` is multiplied by ``a + t b``,
+            ``(a, b) = factors[p]``.
+        A0, A1: linear rows ``(A0 + t A1) x``, complex, shape ``(k, N)``.
+        factors: one pair for each part; default ``(1, 0)``: rows that do not depend on t.
+        infinity: coordinates whose vanishing means that a point is at infinity.
+
+    The number of polynomial rows, linear rows and groups together is ``N``.
+    """
+
+    rows: CompiledRows
+    A0: np.ndarray | None = None
+    A1: np.ndarray | None = None
+    factors: Factors = ()
+    infinity: tuple[int, ...] | None = None
+
+    def __post_init__(self) -> None:
+        N = self.rows.N
+        A0 = _frozen(self.A0, N)
+        A1 = _frozen(np.zeros_like(A0) if self.A1 is None else self.A1, N)
+        if A0.shape != A1.shape:
+            raise ValueError(f"A0 has {len(A0)} rows, A1 has {len(A1)}")
+        object.__setattr__(self, "A0", A0)
+        object.__setattr__(self, "A1", A1)
+        factors = tuple(self.factors) or ((1.0, 0.0),) * self.rows.part_count
+        if len(factors) < self.rows.part_count:
+            raise ValueError(f"{self.rows.part_count} pairs of factors are needed")
+        object.__setattr__(self, "factors", tuple((complex(a), complex(b)) for a, b in factors))
+        if self.infinity is None:
+            object.__setattr__(self, "infinity", self.rows.infinity)
+        if len(self.rows) + len(A0) + len(self.groups) != N:
+            raise ValueError(
+                f"{len(self.rows)} polynomial rows, {len(A0)} linear rows and {len(self.groups)}"
+                f" patches do not make {N} rows"
+            )
+
+    @property
+    def N(self) -> int:
+        """Number of coordinates."""
+        return self.rows.N
+
+    @property
+    def groups(self) -> tuple[tuple[int, ...], ...]:
+        """Groups of coordinates; points live in the product of their projective spaces."""
+        return self.rows.groups
+
+    @cached_property
+    def group_of(self) -> np.ndarray:
+        """Group of each coordinate, shape ``(N,)``."""
+        group_of = np.zeros(self.N, dtype=np.int64)
+        for g, indices in enumerate(self.groups):
+            group_of[list(indices)] = g
+        return group_of
+
+    def normalized(self, points: np.ndarray) -> np.ndarray:
+        """The same projective points with unit norm in each group, shape ``(P, N)``."""
+        points = np.array(points, dtype=np.complex128).reshape(-1, self.N)
+        for indices in self.groups:
+            block = points[:, list(indices)]
+            points[:, list(indices)] = block / np.linalg.norm(block, axis=1, keepdims=True)
+        return points
+
+    def patch(self, points: np.ndarray) -> np.ndarray:
+        """Patch rows: each group's coordinates conjugated, shape ``(P, groups, N)``."""
+        rows = np.zeros((len(points), len(self.groups), self.N), dtype=np.complex128)
+        for g, indices in enumerate(self.groups):
+            rows[:, g, list(indices)] = points[:, list(indices)].conj()
+        return rows
+
+    def values(self, points: np.ndarray, t: complex | np.ndarray) -> np.ndarray:
+        """Values of polynomial and linear rows, in the precision of ``points`` (P, N)."""
+        tape = self.rows.tape
+        t = np.broadcast_to(np.asarray(t, dtype=points.dtype), (len(points),))
+        slots = _slots(tape, points, tape.value_products)
+        result = np.zeros((len(points), len(self.rows) + len(self.A0)), dtype=points.dtype)
+        for b, (row, part) in enumerate(zip(tape.value_place, tape.value_part, strict=True)):
+            q = slice(tape.value_start[b], tape.value_start[b + 1])
+            total = slots[:, tape.value_slot[q]] @ tape.value_coefficient[q].astype(points.dtype)
+            a, c = self.factors[part]
+            result[:, row] += (a + t * c) * total
+        m = len(self.rows)
+        for k in range(len(self.A0)):
+            row = self.A0[k].astype(points.dtype) + t[:, None] * self.A1[k].astype(points.dtype)
+            result[:, m + k] = (row * points).sum(axis=1)
+        return result
+
+    def jacobian(self, points: np.ndarray, t: complex | np.ndarray) -> np.ndarray:
+        """Jacobian of polynomial and linear rows, shape ``(P, rows, N)``, complex128."""
+        tape = self.rows.tape
+        points = np.asarray(points, dtype=np.complex128)
+        t = np.broadcast_to(np.asarray(t, dtype=np.complex128), (len(points),))
+        slots = _slots(tape, points, len(tape.first))
+        result = np.zeros((len(points), len(self.rows) + len(self.A0), self.N), np.complex128)
+        for b, (place, part) in enumerate(
+            zip(tape.jacobian_place, tape.jacobian_part, strict=True)
+        ):
+            q = slice(tape.jacobian_start[b], tape.jacobian_start[b + 1])
+            total = slots[:, tape.jacobian_slot[q]] @ tape.jacobian_coefficient[q]
+            a, c = self.factors[part]
+            result[:, place // self.N, place % self.N] += (a + t * c) * total
+        result[:, len(self.rows) :] = self.A0 + t[:, None, None] * self.A1
+        return result
+
+    def time_derivative(self, points: np.ndarray) -> np.ndarray:
+        """Derivative of polynomial and linear rows with respect to t, shape ``(P, rows)``."""
+        tape = self.rows.tape
+        slots = _slots(tape, points, tape.value_products)
+        result = np.zeros((len(points), len(self.rows) + len(self.A0)), dtype=points.dtype)
+        for b, (row, part) in enumerate(zip(tape.value_place, tape.value_part, strict=True)):
+            q = slice(tape.value_start[b], tape.value_start[b + 1])
+            total = slots[:, tape.value_slot[q]] @ tape.value_coefficient[q]
+            result[:, row] += self.factors[part][1] * total
+        result[:, len(self.rows) :] = points @ self.A1.T
+        return result
+
+
+def _slots(tape, points: np.ndarray, products: int) -> np.ndarray:
+    P, N = points.shape
+    slots = np.empty((P, N + 1 + products), dtype=points.dtype)
+    slots[:, :N] = points
+    slots[:, N] = 1
+    for k in range(products):
+        slots[:, N + 1 + k] = slots[:, tape.first[k]] * slots[:, tape.second[k]]
+    return slots
+
+
+def straight_line(
+    start: CompiledRows,
+    target: CompiledRows,
+    gamma: complex,
+    A0: np.ndarray | None = None,
+    A1: np.ndarray | None = None,
+) -> Homotopy:
+    """``gamma t start + (1 - t) target``, with linear rows ``A0 + t A1`` besides.
+
+    Raises:
+        ValueError: if the systems differ in coordinates, groups, number or degrees of rows.
+    """
+    factors = ((0.0, gamma),) * start.part_count + ((1.0, -1.0),) * target.part_count
+    return Homotopy(blend(start, target), A0, A1, factors)
+
+
+def parameter_homotopy(
+    start: CompiledRows,
+    target: CompiledRows,
+    A0: np.ndarray | None = None,
+    A1: np.ndarray | None = None,
+) -> Homotopy:
+    """``t start + (1 - t) target``: coefficients move on a straight line."""
+    return straight_line(start, target, 1.0, A0, A1)

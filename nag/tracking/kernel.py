@@ -1,0 +1,466 @@
+"""The path tracker's kernel: eight paths at a time, refilled from a queue."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+
+from nag.tracking.endgame import (
+    BEST_ERROR,
+    ENDGAME,
+    FAILED,
+    MAIN,
+    NEXT_IM,
+    NEXT_RE,
+    NOT_FINITE,
+    PHASE,
+    SAVED_TIME,
+    SHORT_STEPS,
+    SHORTCUT,
+    START,
+    STEP_SIZE,
+    STEPS,
+    WINDING,
+    arrived,
+    begin,
+    endgame_state,
+    give_up,
+    retreat,
+)
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.jets import (
+    _clear,
+    _right_side,
+    _slot_jet_1,
+    _slot_jet_2,
+    _slot_jet_3,
+    factors_at,
+    jacobian,
+    normalize,
+    products,
+    values,
+)
+from nag.tracking.lanes import fma, fnma, load, select_less, splat, store
+from nag.tracking.linear_algebra import factorize, pivot_ratio, substitute
+
+PREDICT, CORRECT, AGAIN = 0.0, 1.0, 2.0
+
+
+@numba.njit(nogil=True)
+def _predict(s, w, mode, zr, zi):
+    """Pade (2, 1) from the base point's Taylor coefficients, in the lanes that predict."""
+    n = s.N
+    half = splat(0.5)
+    two = splat(2.0)
+    hr = load(zr, 0)
+    hi = load(zi, 0)
+    m = load(mode, 0)
+    limit = splat(0.5625)
+    for j in range(n):
+        x1r, x1i = load(w.base, 2 * n + j), load(w.base, 3 * n + j)
+        x2r, x2i = load(w.base, 4 * n + j), load(w.base, 5 * n + j)
+        x3r, x3i = load(w.base, 6 * n + j), load(w.base, 7 * n + j)
+        qr = fnma(hi, x3i, hr * x3r)
+        qi = fma(hi, x3r, hr * x3i)
+        q2 = fma(qr, qr, qi * qi)
+        size = fma(x2r, x2r, x2i * x2i)
+        taylor_r = x2r + qr
+        taylor_i = x2i + qi
+        dr = x2r - qr
+        di = x2i - qi
+        inverse = splat(1.0) / fma(dr, dr, di * di)
+        sr = fnma(x2i, x2i, x2r * x2r)
+        si = two * x2r * x2i
+        pade_r = fma(si, di, sr * dr) * inverse
+        pade_i = fnma(sr, di, si * dr) * inverse
+        ar = select_less(q2, limit * size, pade_r, taylor_r)
+        ai = select_less(q2, limit * size, pade_i, taylor_i)
+        br = x1r + fnma(hi, ai, hr * ar)
+        bi = x1i + fma(hi, ar, hr * ai)
+        xr = load(w.base, j) + fnma(hi, bi, hr * br)
+        xi = load(w.base, n + j) + fma(hi, br, hr * bi)
+        store(w.vr, j, select_less(m, half, xr, load(w.vr, j)))
+        store(w.vi, j, select_less(m, half, xi, load(w.vi, j)))
+
+
+@numba.njit(nogil=True)
+def _correct(s, w, norms, k):
+    """Add the solution to the point; squared norm of it, the largest of the groups."""
+    zero = splat(0.0)
+    largest = zero
+    for g in range(s.groups):
+        total = zero
+        for j in range(s.N):
+            if s.group_of[j] == g:
+                x = load(w.br, j)
+                y = load(w.bi, j)
+                total = fma(x, x, fma(y, y, total))
+        largest = select_less(total, largest, largest, total)
+    for j in range(s.N):
+        store(w.vr, j, load(w.vr, j) + load(w.br, j))
+        store(w.vi, j, load(w.vi, j) + load(w.bi, j))
+    store(norms, k, largest)
+
+
+@numba.njit(nogil=True)
+def _keep(s, w, order, jr, ji, norms):
+    """Keep the solution as Taylor coefficient of that order; squared norm of it."""
+    total = splat(0.0)
+    for j in range(s.N):
+        x = load(w.br, j)
+        y = load(w.bi, j)
+        store(jr, j, x)
+        store(ji, j, y)
+        total = fma(x, x, fma(y, y, total))
+    store(norms, 2 + order, total)
+
+
+@numba.njit(nogil=True)
+def _newton_and_jets(s, w, norms):
+    """One Newton step, one simplified one, and the Taylor coefficients of the path."""
+    n = s.N
+    normalize(s, w)
+    factors_at(s, w)
+    products(s, w, 0, len(s.first))
+    values(s, w)
+    jacobian(s, w)
+    factorize(n, w.jr, w.ji, w.pivots)
+    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+    _correct(s, w, norms, 0)
+    products(s, w, 0, s.value_products)
+    values(s, w)
+    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+    _right = norms
+    # The slots stay those of the point before this correction, which is far smaller than the
+    # error of the Taylor coefficients.
+    _correct(s, w, _right, 1)
+    _right_side(s, w, w.vr, w.vi, w.vr, w.vi, False)
+    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+    _keep(s, w, 1, w.v1r, w.v1i, norms)
+    _slot_jet_1(s, w)
+    _clear(n, w.v2r, w.v2i)
+    _slot_jet_2(s, w)
+    _right_side(s, w, w.v2r, w.v2i, w.v1r, w.v1i, True)
+    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+    _keep(s, w, 2, w.v2r, w.v2i, norms)
+    _slot_jet_2(s, w)
+    _clear(n, w.v3r, w.v3i)
+    _slot_jet_3(s, w)
+    _right_side(s, w, w.v3r, w.v3i, w.v2r, w.v2i, True)
+    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+    _keep(s, w, 3, w.v3r, w.v3i, norms)
+
+
+@numba.njit(nogil=True)
+def _accept(s, w, accepted):
+    n = s.N
+    half = splat(0.5)
+    a = load(accepted, 0)
+    for j in range(n):
+        store(w.base, j, select_less(half, a, load(w.vr, j), load(w.base, j)))
+        store(w.base, n + j, select_less(half, a, load(w.vi, j), load(w.base, n + j)))
+        store(w.base, 2 * n + j, select_less(half, a, load(w.v1r, j), load(w.base, 2 * n + j)))
+        store(w.base, 3 * n + j, select_less(half, a, load(w.v1i, j), load(w.base, 3 * n + j)))
+        store(w.base, 4 * n + j, select_less(half, a, load(w.v2r, j), load(w.base, 4 * n + j)))
+        store(w.base, 5 * n + j, select_less(half, a, load(w.v2i, j), load(w.base, 5 * n + j)))
+        store(w.base, 6 * n + j, select_less(half, a, load(w.v3r, j), load(w.base, 6 * n + j)))
+        store(w.base, 7 * n + j, select_less(half, a, load(w.v3i, j), load(w.base, 7 * n + j)))
+
+
+# Rows of the lanes' scalars.
+T_RE, T_IM, GOAL_RE, GOAL_IM, H, H_USED, FIRST, ACCURACY, RADIUS = range(9)
+# Rows of the lanes' counters.
+PATH, ROUNDS, TAKEN, REJECTED, STATE = range(5)
+
+
+@numba.njit(nogil=True)
+def _put(s, w, lane, x):
+    for j in range(s.N):
+        w.vr[8 * j + lane] = x[j].real
+        w.vi[8 * j + lane] = x[j].imag
+
+
+@numba.njit(nogil=True)
+def _fill(s, w, e, f, c, lane, path, start):
+    """Put a path into a lane."""
+    _put(s, w, lane, start)
+    f[:, lane] = 0.0
+    c[:, lane] = 0
+    f[T_RE, lane] = 1.0
+    c[PATH, lane] = path
+    c[STATE, lane] = 1
+    begin(e, lane)
+    f[GOAL_RE, lane] = e.real[lane, NEXT_RE]
+    f[GOAL_IM, lane] = e.real[lane, NEXT_IM]
+
+
+@numba.njit(nogil=True)
+def _restart(s, w, e, f, c, lane):
+    """Go back to the point that the endgame saved."""
+    _put(s, w, lane, e.saved[lane])
+    f[T_RE, lane] = e.real[lane, SAVED_TIME]
+    f[T_IM, lane] = 0.0
+    f[GOAL_RE, lane] = e.real[lane, NEXT_RE]
+    f[GOAL_IM, lane] = e.real[lane, NEXT_IM]
+    c[STATE, lane] = 1
+    c[ROUNDS, lane] = 0
+    c[REJECTED, lane] = 0
+
+
+@numba.njit(nogil=True, cache=True)
+def track_batch(
+    s,
+    w,
+    e,
+    parameters,
+    starts,
+    first,
+    stride,
+    points,
+    outcome,
+    winding,
+    error,
+    steps,
+    reason,
+):
+    """Track the paths ``first, first + stride, ..`` of ``starts``; results into the arrays."""
+    tolerance, newton, floor, radius_factor, safety, max_steps = parameters
+    n = s.N
+    count = len(starts)
+    f = np.zeros((9, 8))
+    c = np.zeros((5, 8), dtype=np.int64)
+    vectors = np.zeros(8 * 10 + 8)
+    offset = (-vectors.ctypes.data % 64) // 8
+    vectors = vectors[offset : offset + 80]
+    norms = vectors[0:48]
+    mode = vectors[48:56]
+    zr = vectors[56:64]
+    zi = vectors[64:72]
+    accepted = vectors[72:80]
+    x = np.zeros(n, dtype=np.complex128)
+    following = first
+    busy = 0
+    for lane in range(8):
+        c[STATE, lane] = -1
+        _put(s, w, lane, starts[first])
+        if following < count:
+            _fill(s, w, e, f, c, lane, following, starts[following])
+            following += stride
+            busy += 1
+    while busy:
+        for lane in range(8):
+            state = c[STATE, lane]
+            mode[lane] = PREDICT if state == 0 else CORRECT
+            if state == 0:
+                dr = f[GOAL_RE, lane] - f[T_RE, lane]
+                di = f[GOAL_IM, lane] - f[T_IM, lane]
+                length = (dr * dr + di * di) ** 0.5
+                h = f[H, lane]
+                if h >= length:
+                    h = length
+                    zr[lane] = dr
+                    zi[lane] = di
+                    w.tr[lane] = f[GOAL_RE, lane]
+                    w.ti[lane] = f[GOAL_IM, lane]
+                else:
+                    # A step that would leave a crumb is halved instead.
+                    if h > 0.7 * length:
+                        h = 0.5 * length
+                    zr[lane] = dr / length * h
+                    zi[lane] = di / length * h
+                    w.tr[lane] = f[T_RE, lane] + zr[lane]
+                    w.ti[lane] = f[T_IM, lane] + zi[lane]
+                f[H_USED, lane] = h
+            elif state == 1:
+                w.tr[lane] = f[T_RE, lane]
+                w.ti[lane] = f[T_IM, lane]
+        _predict(s, w, mode, zr, zi)
+        _newton_and_jets(s, w, norms)
+        for lane in range(8):
+            accepted[lane] = 0.0
+            state = c[STATE, lane]
+            if state < 0:
+                continue
+            c[TAKEN, lane] += 1
+            n0 = norms[lane] ** 0.5
+            n1 = norms[8 + lane] ** 0.5
+            ending = e.whole[lane, PHASE] != MAIN
+            finite = n0 < 1e100 and n1 < 1e100
+            ok = finite
+            if finite:
+                theta = n1 / n0 if n0 > 0.0 else 0.0
+                left = min(theta, 1.0) * n1
+                if state == 0:
+                    f[FIRST, lane] = n0
+                    c[ROUNDS, lane] = 0
+                    ok = n0 <= tolerance and (theta <= 0.25 or n1 <= 1e-11)
+                else:
+                    c[ROUNDS, lane] += 1
+                    ok = n0 <= 0.1 and (theta <= 0.5 or n1 <= floor)
+                if ok:
+                    if left <= newton or (c[ROUNDS, lane] >= 3 and n1 <= floor):
+                        accepted[lane] = 1.0
+                    elif c[ROUNDS, lane] >= 5:
+                        ok = False
+            if accepted[lane] > 0.5:
+                f[ACCURACY, lane] = left if left > 1e-15 else 1e-15
+                if c[ROUNDS, lane] >= 3 and n1 > f[ACCURACY, lane]:
+                    f[ACCURACY, lane] = n1
+                x1 = norms[24 + lane] ** 0.5
+                x2 = norms[32 + lane] ** 0.5
+                x3 = norms[40 + lane] ** 0.5
+                radius = 1e6
+                if x3 > 0.0:
+                    radius = min(radius, max(x2 / x3, (x1 / x3) ** 0.5))
+                f[RADIUS, lane] = radius
+                guess = (safety * tolerance * radius / x3) ** 0.25 if x3 > 0.0 else 1e6
+                h = min(radius_factor * radius, guess)
+                if state != 1:
+                    used = f[H_USED, lane]
+                    aim = safety * tolerance
+                    ratio = (aim / max(f[FIRST, lane], 1e-300)) ** 0.25
+                    h = min(radius_factor * radius, used * min(ratio, 4.0))
+                f[H, lane] = h
+                f[T_RE, lane] = w.tr[lane]
+                f[T_IM, lane] = w.ti[lane]
+                c[STATE, lane] = 0
+                c[REJECTED, lane] = 0
+            elif ok:
+                # Converging, but not there yet: another Newton step at the same t.
+                c[STATE, lane] = 2 if state != 1 else 1
+            elif state == 1:
+                c[STATE, lane] = -2
+                reason[c[PATH, lane]] = START if not ending else ENDGAME
+            else:
+                c[REJECTED, lane] += 1
+                shrink = 0.5
+                if finite and state == 0 and f[FIRST, lane] > tolerance:
+                    shrink = (safety * tolerance / f[FIRST, lane]) ** 0.25
+                    shrink = min(max(shrink, 0.1), 0.6)
+                f[H, lane] = f[H_USED, lane] * shrink
+                c[STATE, lane] = 0
+                size = (f[T_RE, lane] ** 2 + f[T_IM, lane] ** 2) ** 0.5
+                if not f[H, lane] > 1e-10 * size:
+                    c[STATE, lane] = -2
+                    reason[c[PATH, lane]] = STEP_SIZE if finite else NOT_FINITE
+            if c[TAKEN, lane] >= max_steps and accepted[lane] < 0.5 and c[STATE, lane] >= 0:
+                c[STATE, lane] = -2
+                reason[c[PATH, lane]] = STEPS
+            if e.whole[lane, PHASE] == SHORTCUT:
+                e.whole[lane, SHORT_STEPS] += 1
+                if (e.whole[lane, SHORT_STEPS] > 12 and accepted[lane] < 0.5) or c[
+                    STATE, lane
+                ] == -2:
+                    accepted[lane] = 0.0
+                    c[STATE, lane] = -3
+        _accept(s, w, accepted)
+        for lane in range(8):
+            state = c[STATE, lane]
+            if state == -1:
+                continue
+            done = 0
+            path = c[PATH, lane]
+            if state == -3:
+                retreat(s, e, lane)
+                _restart(s, w, e, f, c, lane)
+                continue
+            if state == -2:
+                done = 10 + give_up(e, lane)
+            elif (
+                accepted[lane] > 0.5
+                and f[T_RE, lane] == f[GOAL_RE, lane]
+                and f[T_IM, lane] == f[GOAL_IM, lane]
+            ):
+                for j in range(n):
+                    x[j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
+                time = (f[T_RE, lane] ** 2 + f[T_IM, lane] ** 2) ** 0.5
+                hint = pivot_ratio(n, w.jr, w.ji, lane)
+                done = arrived(s, e, lane, x, f[ACCURACY, lane], hint, f[RADIUS, lane], time)
+                if done == -1:
+                    _restart(s, w, e, f, c, lane)
+                    continue
+                f[GOAL_RE, lane] = e.real[lane, NEXT_RE]
+                f[GOAL_IM, lane] = e.real[lane, NEXT_IM]
+                if done == 0 and c[TAKEN, lane] >= max_steps:
+                    reason[path] = STEPS
+                    done = 10 + give_up(e, lane)
+            if done >= 10:
+                outcome[path] = done - 10
+                steps[path] = c[TAKEN, lane]
+                if done - 10 == FAILED:
+                    if reason[path] == 0:
+                        reason[path] = ENDGAME
+                    for j in range(n):
+                        points[path, j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
+                    error[path] = np.inf
+                else:
+                    reason[path] = 0
+                    points[path, :] = e.best[lane]
+                    winding[path] = e.whole[lane, WINDING]
+                    error[path] = e.real[lane, BEST_ERROR]
+                busy -= 1
+                c[STATE, lane] = -1
+                if following < count:
+                    _fill(s, w, e, f, c, lane, following, starts[following])
+                    following += stride
+                    busy += 1
+
+
+def _example() -> tuple:
+    """Arguments of the types with which the kernel is compiled."""
+    import numpy as np
+
+    from nag.algebra.polynomial import Polynomial
+    from nag.tracking.compiled import compile_rows
+    from nag.tracking.jets import system, work
+
+    x = Polynomial.variable(1, 0)
+    homotopy = Homotopy(compile_rows([x * x - 1]))
+    one = np.ones((1, 2), dtype=np.complex128)
+    whole = np.zeros(1, dtype=np.int64)
+    return (
+        system(homotopy),
+        work(homotopy),
+        endgame_state(2, 1, True, True, 0.1, 8, 2, 2),
+        (1e-4, 1e-9, 1e-6, 0.5, 0.2, 100.0),
+        one,
+        0,
+        1,
+        one,
+        whole,
+        whole,
+        np.zeros(1),
+        whole,
+        whole,
+    )
+
+
+def _stamp() -> tuple[int, int]:
+    """Stamp of all sources that the kernel is made of, for numba's cache knows of one file only."""
+    files = sorted(Path(__file__).parent.glob("*.py"))
+    return max(f.stat().st_mtime_ns for f in files), sum(f.stat().st_size for f in files)
+
+
+@cache
+def _signature() -> tuple:
+    track_batch._cache._cache_file._source_stamp = _stamp()
+    return tuple(numba.typeof(argument) for argument in _example())
+
+
+def compiled() -> bool:
+    """Whether the kernel is compiled already, here or in the cache on disk."""
+    if track_batch.signatures:
+        return True
+    overload = track_batch._cache.load_overload(_signature(), track_batch.targetctx)
+    return overload is not None
+
+
+def ready() -> Any:
+    """The compiled kernel; compiles it, or loads it from the cache, if need be."""
+    if not track_batch.signatures:
+        track_batch.compile(_signature())
+    return track_batch

@@ -1,0 +1,115 @@
+"""Complex LU decomposition in lanes: partial pivoting decided in each lane on its own."""
+
+from __future__ import annotations
+
+import numba
+
+from nag.tracking.lanes import any_less, fma, fnma, load, select_less, splat, store
+
+
+@numba.njit(nogil=True)
+def factorize(n, ar, ai, pivots):
+    """Overwrite the matrix by its factors; the diagonal holds the inverse pivots.
+
+    Args:
+        n: size.
+        ar, ai: real and imaginary parts, vector ``i * n + j`` is entry ``(i, j)``.
+        pivots: receives the row that was exchanged with row ``k``, as a double.
+    """
+    one = splat(1.0)
+    quarter = splat(0.25)
+    for k in range(n):
+        re = load(ar, k * n + k)
+        im = load(ai, k * n + k)
+        best = fma(re, re, im * im)
+        chosen = splat(float(k))
+        for i in range(k + 1, n):
+            re = load(ar, i * n + k)
+            im = load(ai, i * n + k)
+            size = fma(re, re, im * im)
+            chosen = select_less(best, size, splat(float(i)), chosen)
+            best = select_less(best, size, size, best)
+        store(pivots, k, chosen)
+        for i in range(k + 1, n):
+            difference = chosen - splat(float(i))
+            distance = difference * difference
+            if any_less(distance, quarter):
+                for j in range(n):
+                    upper = load(ar, k * n + j)
+                    lower = load(ar, i * n + j)
+                    store(ar, k * n + j, select_less(distance, quarter, lower, upper))
+                    store(ar, i * n + j, select_less(distance, quarter, upper, lower))
+                    upper = load(ai, k * n + j)
+                    lower = load(ai, i * n + j)
+                    store(ai, k * n + j, select_less(distance, quarter, lower, upper))
+                    store(ai, i * n + j, select_less(distance, quarter, upper, lower))
+        inverse = one / best
+        pr = load(ar, k * n + k) * inverse
+        pi = splat(0.0) - load(ai, k * n + k) * inverse
+        store(ar, k * n + k, pr)
+        store(ai, k * n + k, pi)
+        for i in range(k + 1, n):
+            re = load(ar, i * n + k)
+            im = load(ai, i * n + k)
+            lr = fnma(im, pi, re * pr)
+            li = fma(im, pr, re * pi)
+            store(ar, i * n + k, lr)
+            store(ai, i * n + k, li)
+            for j in range(k + 1, n):
+                ur = load(ar, k * n + j)
+                ui = load(ai, k * n + j)
+                store(ar, i * n + j, fma(li, ui, fnma(lr, ur, load(ar, i * n + j))))
+                store(ai, i * n + j, fnma(li, ur, fnma(lr, ui, load(ai, i * n + j))))
+
+
+@numba.njit(nogil=True)
+def substitute(n, ar, ai, pivots, br, bi):
+    """Overwrite the right-hand side by the solution, with the factors of `factorize`."""
+    for k in range(n):
+        for lane in range(8):
+            p = int(pivots[8 * k + lane])
+            if p != k:
+                a, b = 8 * k + lane, 8 * p + lane
+                br[a], br[b] = br[b], br[a]
+                bi[a], bi[b] = bi[b], bi[a]
+    for i in range(1, n):
+        re = load(br, i)
+        im = load(bi, i)
+        for j in range(i):
+            lr = load(ar, i * n + j)
+            li = load(ai, i * n + j)
+            xr = load(br, j)
+            xi = load(bi, j)
+            re = fma(li, xi, fnma(lr, xr, re))
+            im = fnma(li, xr, fnma(lr, xi, im))
+        store(br, i, re)
+        store(bi, i, im)
+    for i in range(n - 1, -1, -1):
+        re = load(br, i)
+        im = load(bi, i)
+        for j in range(i + 1, n):
+            ur = load(ar, i * n + j)
+            ui = load(ai, i * n + j)
+            xr = load(br, j)
+            xi = load(bi, j)
+            re = fma(ui, xi, fnma(ur, xr, re))
+            im = fnma(ui, xr, fnma(ur, xi, im))
+        pr = load(ar, i * n + i)
+        pi = load(ai, i * n + i)
+        store(br, i, fnma(im, pi, re * pr))
+        store(bi, i, fma(im, pr, re * pi))
+
+
+@numba.njit(nogil=True)
+def pivot_ratio(n, ar, ai, lane):
+    """Smallest over largest pivot in one lane: a cheap hint at the condition."""
+    low, high = 1e300, 0.0
+    for k in range(n):
+        a = ar[8 * (k * n + k) + lane]
+        b = ai[8 * (k * n + k) + lane]
+        size = a * a + b * b
+        low = min(low, size)
+        high = max(high, size)
+    if not low > 0.0:
+        return 0.0
+    return (low / high) ** 0.5 if high < 1e300 else 0.0

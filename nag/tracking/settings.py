@@ -1,0 +1,76 @@
+"""Named settings of the tracker."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Knobs of step control, corrector and endgame.
+
+    Attributes:
+        tolerance: largest first Newton correction after a prediction, relative to the point; the
+            tests that saw no path jump used at most 1e-4.
+        newton: estimated relative error at which the corrector stops.
+        floor: relative Newton correction that is still accepted where rounding lets nothing
+            smaller be reached.
+        radius_factor: largest step as part of the radius of convergence that the Taylor
+            coefficients indicate (beta_tau of Timme 2021).
+        safety: part of ``tolerance`` that the step control aims at.
+        max_steps: steps after which a path fails.
+        endgame_radius: radius at which the endgame starts, in ``(t / (1 - t)) ** end_exponent``.
+        max_winding: largest winding number.
+        samples: samples a loop of the Cauchy endgame.
+        levels: largest number of radii of the endgame, each a tenth of the one before.
+        shortcut: whether paths may run straight to t = 0 where their Taylor series converges.
+        retries: how often failed paths are tracked again with ever tighter control.
+    """
+
+    tolerance: float = 1e-4
+    newton: float = 1e-9
+    floor: float = 1e-6
+    radius_factor: float = 0.5
+    safety: float = 0.2
+    max_steps: int = 4000
+    endgame_radius: float = 0.1
+    max_winding: int = 20
+    samples: int = 8
+    levels: int = 12
+    shortcut: bool = True
+    retries: int = 2
+
+
+NAMED = {
+    "fast": Settings(tolerance=1e-3, radius_factor=0.65, safety=0.3),
+    "default": Settings(),
+    "careful": Settings(tolerance=1e-6, radius_factor=0.35, newton=1e-10, max_steps=20000),
+}
+
+
+def named(settings: Settings | str) -> Settings:
+    """``settings`` itself, or the one of that name.
+
+    Raises:
+        ValueError: if there is no such name.
+    """
+    if isinstance(settings, Settings):
+        return settings
+    if settings not in NAMED:
+        raise ValueError(f"no settings {settings!r}; there are {', '.join(NAMED)}")
+    return NAMED[settings]
+
+
+def tighter(settings: Settings) -> Settings:
+    """The next tighter settings, for a path that failed."""
+    from dataclasses import replace
+
+    return replace(
+        settings,
+        tolerance=settings.tolerance * 1e-2,
+        newton=max(settings.newton * 1e-1, 1e-12),
+        radius_factor=settings.radius_factor * 0.6,
+        max_steps=settings.max_steps * 4,
+        endgame_radius=settings.endgame_radius * 0.3,
+        shortcut=False,
+    )

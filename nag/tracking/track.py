@@ -1,0 +1,248 @@
+"""Track all paths of a homotopy from t = 1 to t = 0 and say how each ends."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.newton import refine
+from nag.tracking.paths import Paths, PathStatus, Reason
+from nag.tracking.settings import Settings, named, tighter
+
+STRAIGHT, CAUCHY = 1, 2
+# Below so many paths a second thread costs more than it brings.
+PATHS_PER_THREAD = 64
+
+
+def track(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    settings: Settings | str = "default",
+    threads: int = 1,
+    *,
+    endgame: bool = True,
+    end_exponent: int = 1,
+    distinct: bool = True,
+) -> Paths:
+    """Track ``starts`` from t = 1 to t = 0.
+
+    Args:
+        homotopy: what to track.
+        starts: points at t = 1, regular, shape ``(P, N)``.
+        settings: `Settings`, or ``"fast"``, ``"default"``, ``"careful"``.
+        threads: number of threads; the result does not depend on it.
+        endgame: False where every end is known to be regular: no endgame is run, and an end that
+            does not look regular is failed.
+        end_exponent: ``d`` where paths are analytic in ``(t / (1 - t)) ** d`` near t = 0; then the
+            last coordinate is taken to turn by ``exp(2 pi i / d)`` and to vanish at t = 0.
+        distinct: the starts are pairwise distinct, so that equal regular ends betray a path jump;
+            such paths are tracked again with tighter control.
+
+    Raises:
+        ValueError: if the starts have a wrong shape, or settings an unknown name.
+    """
+    chosen = named(settings)
+    starts = np.asarray(starts, dtype=np.complex128)
+    if starts.ndim != 2 or starts.shape[1] != homotopy.N:
+        raise ValueError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
+    starts = homotopy.normalized(starts)
+    paths = _attempt(homotopy, starts, chosen, threads, endgame, end_exponent)
+    for _ in range(chosen.retries):
+        again = set(paths.where(PathStatus.FAILED).tolist())
+        if distinct:
+            again |= set(collisions(homotopy, paths).tolist())
+        if not again:
+            break
+        chosen = tighter(chosen)
+        indices = np.array(sorted(again))
+        new = _attempt(homotopy, starts[indices], chosen, threads, endgame, end_exponent)
+        paths = _merged(paths, new, indices)
+    return paths
+
+
+@dataclass(frozen=True, eq=False)
+class _Raw:
+    points: np.ndarray
+    outcome: np.ndarray
+    winding: np.ndarray
+    error: np.ndarray
+    steps: np.ndarray
+    reason: np.ndarray
+
+
+def _attempt(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    settings: Settings,
+    threads: int,
+    endgame: bool,
+    end_exponent: int,
+) -> Paths:
+    raw = _run(homotopy, starts, settings, threads, endgame, end_exponent)
+    return _classified(homotopy, raw, endgame)
+
+
+def _run(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    settings: Settings,
+    threads: int,
+    endgame: bool,
+    end_exponent: int,
+) -> _Raw:
+    from nag.tracking import jets, kernel
+    from nag.tracking.endgame import endgame_state
+
+    P = len(starts)
+    raw = _Raw(
+        np.zeros((P, homotopy.N), dtype=np.complex128),
+        np.zeros(P, dtype=np.int64),
+        np.zeros(P, dtype=np.int64),
+        np.full(P, np.inf),
+        np.zeros(P, dtype=np.int64),
+        np.zeros(P, dtype=np.int64),
+    )
+    if P == 0:
+        return raw
+    run = kernel.ready()
+    arrays = jets.system(homotopy)
+    batches = max(1, min(threads, P // PATHS_PER_THREAD))
+    parameters = (
+        settings.tolerance,
+        settings.newton,
+        settings.floor,
+        settings.radius_factor,
+        settings.safety,
+        float(settings.max_steps),
+    )
+
+    def batch(first: int) -> None:
+        state = endgame_state(
+            homotopy.N,
+            end_exponent,
+            endgame,
+            settings.shortcut,
+            settings.endgame_radius,
+            settings.samples,
+            settings.max_winding,
+            settings.levels,
+        )
+        run(
+            arrays,
+            jets.work(homotopy),
+            state,
+            parameters,
+            starts,
+            first,
+            batches,
+            raw.points,
+            raw.outcome,
+            raw.winding,
+            raw.error,
+            raw.steps,
+            raw.reason,
+        )
+
+    if batches == 1:
+        batch(0)
+    else:
+        with ThreadPoolExecutor(batches) as pool:
+            list(pool.map(batch, range(batches)))
+    return raw
+
+
+def _classified(homotopy: Homotopy, raw: _Raw, endgame: bool) -> Paths:
+    P = len(raw.points)
+    points = raw.points.copy()
+    status = np.full(P, PathStatus.FAILED, dtype=np.int8)
+    accuracy = np.full(P, np.inf)
+    smallest = np.zeros(P)
+    condition = np.full(P, np.inf)
+    reason = raw.reason.astype(np.int8)
+    precision = np.full(P, 16, dtype=np.int16)
+    ended = np.flatnonzero(raw.outcome > 0)
+    if len(ended):
+        rough = homotopy.normalized(points[ended])
+        error = np.maximum(raw.error[ended], 1e-15)
+        plain = refine(homotopy, None, rough, iterations=0)
+        sharp = refine(homotopy, None, rough)
+        regular = (
+            (raw.winding[ended] == 1)
+            & (plain.smallest > 300 * error)
+            & (sharp.moved <= 1e3 * error + 1e-11)
+            & (sharp.smallest > 0.5 * plain.smallest)
+            & (sharp.error < 1e-8)
+        )
+        points[ended] = np.where(regular[:, None], sharp.points, rough)
+        accuracy[ended] = np.where(regular, sharp.error, error)
+        smallest[ended] = np.where(regular, sharp.smallest, plain.smallest)
+        condition[ended] = np.where(regular, sharp.condition, plain.condition)
+        precision[ended[regular]] = 32
+        sizes = np.abs(points[ended][:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
+        limit = np.where(
+            regular, np.maximum(1e3 * sharp.error, 1e-13), np.maximum(100 * error, 1e-8)
+        )
+        far = (sizes <= limit) & endgame
+        status[ended] = np.where(
+            far, PathStatus.AT_INFINITY, np.where(regular, PathStatus.REGULAR, PathStatus.SINGULAR)
+        )
+        if not endgame:
+            lost = ended[~regular]
+            status[lost] = PathStatus.FAILED
+            reason[lost] = Reason.ENDGAME
+    winding = np.where(status == PathStatus.FAILED, 0, raw.winding)
+    return Paths(
+        points, status, winding, accuracy, smallest, condition, raw.steps, precision, reason
+    )
+
+
+def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
+    """Indices of the paths with regular ends that coincide with another one's."""
+    regular = paths.where(PathStatus.REGULAR)
+    if len(regular) < 2:
+        return regular[:0]
+    points = paths.points[regular]
+    # Projectively invariant coordinates: |<v, x>|^2 for a fixed v sorts the points, so that equal
+    # ones are neighbours in a window of that coordinate.
+    generator = np.random.default_rng(0)
+    key = np.zeros(len(regular))
+    for indices in homotopy.groups:
+        v = generator.normal(size=(2, len(indices)))
+        key += np.abs(points[:, list(indices)] @ (v[0] + 1j * v[1])) ** 2
+    order = np.argsort(key, kind="stable")
+    found: set[int] = set()
+    tolerance = np.maximum(1e-10, 1e3 * paths.accuracy[regular])
+    for a in range(len(order)):
+        i = order[a]
+        for b in range(a + 1, len(order)):
+            j = order[b]
+            if key[j] - key[i] > 1e-6:
+                break
+            if _distance(homotopy, points[i], points[j]) <= max(tolerance[i], tolerance[j]):
+                found |= {int(regular[i]), int(regular[j])}
+    return np.array(sorted(found), dtype=np.int64)
+
+
+def _distance(homotopy: Homotopy, x: np.ndarray, y: np.ndarray) -> float:
+    largest = 0.0
+    for indices in homotopy.groups:
+        g = list(indices)
+        a, b = x[g], y[g]
+        product = np.vdot(b, a)
+        size = abs(product)
+        largest = max(largest, float(np.linalg.norm(a - b * (product / size if size else 1))))
+    return largest
+
+
+def _merged(old: Paths, new: Paths, indices: np.ndarray) -> Paths:
+    """``old`` with the paths at ``indices`` replaced; steps add up."""
+    fields = {}
+    for name in old.__dataclass_fields__:
+        array = getattr(old, name).copy()
+        values = getattr(new, name)
+        array[indices] = array[indices] + values if name == "steps" else values
+        fields[name] = array
+    return replace(old, **fields)
