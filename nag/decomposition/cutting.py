@@ -29,6 +29,18 @@ NEWTON_STEPS = 12
 
 
 @dataclass(frozen=True, eq=False)
+class Equations:
+    """The equations that hold so far, in ``n`` variables."""
+
+    polynomials: tuple[Polynomial, ...]
+    n: int
+
+    @cached_property
+    def evaluator(self) -> Evaluator:
+        return Evaluator.of(self.polynomials, self.n)
+
+
+@dataclass(frozen=True, eq=False)
 class Level:
     """One deflation step: ``J(z) (Q1 + Q2 L) = 0`` in new unknowns ``L``, column by column."""
 
@@ -191,8 +203,7 @@ def _deflated(
 
 
 def find_cut(
-    equations: Sequence[Polynomial],
-    n: int,
+    equations: Equations,
     rows: np.ndarray,
     x: np.ndarray,
     accuracy: float,
@@ -205,9 +216,9 @@ def find_cut(
     through ``x`` is reduced. The random numbers of a deflation are dyadic with eight bits, so that
     the deflated equations are exact. Returns None where no cut is found.
     """
-    polynomials, total, z, levels = list(equations), n, x, []
+    n, evaluator = equations.n, equations.evaluator
+    polynomials, total, z, levels = list(equations.polynomials), n, x, []
     for _ in range(MOST_DEFLATIONS if deflate else 1):
-        evaluator = Evaluator.of(polynomials, total)
         sharpened = sharpen(evaluator, rows, z)
         # A regular zero is where the path ended, not somewhere in its neighbourhood.
         distance = np.linalg.norm(sharpened.z[:n] - x) / (1 + np.linalg.norm(x))
@@ -230,5 +241,6 @@ def find_cut(
         polynomials = _deflated(polynomials, total, level.q1, level.q2)
         z = np.concatenate([z, level.unknowns(z)])
         total = len(z)
+        evaluator = Evaluator.of(polynomials, total)
         levels.append(level)
     return None

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
-from nag.algebra.polynomial import Polynomial
-from nag.decomposition.cutting import ON, Cut, find_cut, regular_on, sharpen
+from nag.decomposition.cutting import ON, Cut, Equations, find_cut, regular_on, sharpen
 from nag.decomposition.slices import padded
 from nag.decomposition.witness import PathCounts
 from nag.tracking.homotopy import Homotopy
@@ -136,14 +133,13 @@ def admit(
     x: np.ndarray,
     accuracy: float,
     fibres: list[Fibre],
-    equations: Sequence[Polynomial],
+    equations: Equations,
     rows: np.ndarray,
     rng: np.random.Generator,
     deflate: bool,
 ) -> bool:
     """Put a singular end into the fibre whose cut makes it regular; find a cut if there is none."""
     n = len(x)
-    everything = Evaluator.of(equations, n)
     for i, fibre in enumerate(fibres):
         if (fibre.cut.aux > 0) != deflate:
             continue
@@ -154,14 +150,14 @@ def admit(
             sharpened.converged
             and near
             and regular_on(fibre.cut.evaluator, rows, sharpened)
-            and everything.residuals(end[None]).max(initial=0.0) < ON
+            and equations.evaluator.residuals(end[None]).max(initial=0.0) < ON
         ):
             known = np.vstack([other.x for other in fibres])
             if (np.linalg.norm(known - end, axis=1) > SAME * scale).all():
                 points = np.vstack([fibre.points, sharpened.z])
                 fibres[i] = Fibre(fibre.cut, fibre.dimension, points)
             return True
-    found = find_cut(equations, n, rows, x, accuracy, rng, deflate)
+    found = find_cut(equations, rows, x, accuracy, rng, deflate)
     if found is None:
         return False
     cut, z = found

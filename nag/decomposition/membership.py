@@ -9,6 +9,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition.cutting import Equations
 from nag.decomposition.fibres import Fibre, Tracker, admit, move
 from nag.decomposition.slices import rows_through, unit_complex
 from nag.decomposition.witness import Decomposition, PathCounts, WitnessSet
@@ -56,7 +57,7 @@ def is_member(
         nearest, failed = np.inf, False
         for fibre in fibres:
             ends = move(fibre, flag[:dimension], target, gamma, careful, endgame=True)
-            counts += ends.counts
+            counts += ends.counts.repeatable
             x = ends.points[ends.finite, : fibre.cut.n]
             if len(x):
                 nearest = min(nearest, float(np.linalg.norm(x - point, axis=1).min()) / scale)
@@ -78,10 +79,11 @@ def component_fibres(
     """
     rows = np.hstack([-component.slice.b[:, None], component.slice.A])
     accuracy = max(component.accuracy, 1e-12)
+    equations = Equations(system.polynomials, system.n)
     fibres: list[Fibre] = []
     for x in component.points:
         deflate = component.multiplicity != 1
-        if not admit(x, accuracy, fibres, system.polynomials, rows, rng, deflate):
+        if not admit(x, accuracy, fibres, equations, rows, rng, deflate):
             raise ValueError("the witness points are no regular zeros of the system")
     return fibres
 

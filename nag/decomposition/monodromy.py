@@ -42,7 +42,7 @@ def carried(
     counts, result = PathCounts(), []
     for fibre in fibres:
         ends = move(fibre, source, target, gamma, tracker)
-        counts += ends.counts
+        counts += ends.counts.repeatable
         if not ends.regular.all():
             return None, counts
         result.append(Fibre(fibre.cut, fibre.dimension, ends.points))

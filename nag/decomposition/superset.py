@@ -9,14 +9,14 @@ dimension d - 1. Nothing is randomised: each point carries the equations that cu
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.cutting import ON, Cut
+from nag.decomposition.cutting import ON, Cut, Equations
 from nag.decomposition.fibres import (
     SAME,
     Fibre,
@@ -80,14 +80,31 @@ def intersect(
     starts = np.concatenate(
         [np.repeat(fibre.points, degree, axis=0), u_start.reshape(-1, 1)], axis=1
     )
-    paths = track(
-        Homotopy(compiled, a0, a1),
-        homogeneous(starts),
-        settings=tracker.settings,
-        threads=tracker.threads,
-        end_exponent=degree,
-    )
-    return moved(paths, keep=total)
+    homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
+    for settings in (tracker.settings, "careful"):
+        paths = track(
+            homotopy, points, settings=settings, threads=tracker.threads, end_exponent=degree
+        )
+        ends = moved(paths, keep=total)
+        twice = _coinciding(ends)
+        if not twice.any():
+            return ends
+    failed = ends.failed | twice
+    counts = replace(ends.counts, failed=int(failed.sum()))
+    return replace(ends, finite=ends.finite & ~twice, failed=failed, counts=counts)
+
+
+def _coinciding(ends: Moved) -> np.ndarray:
+    """Which regular ends are not alone: distinct paths never end at one regular point."""
+    twice = np.zeros(len(ends.points), dtype=bool)
+    regular = np.flatnonzero(ends.regular)
+    points = ends.points[regular]
+    for i, j in enumerate(regular):
+        distances = np.linalg.norm(points[:i] - points[i], axis=1)
+        same = distances < SAME * (1 + np.linalg.norm(points[i]))
+        twice[regular[:i][same]] = True
+        twice[j] |= bool(same.any())
+    return twice
 
 
 def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
@@ -184,11 +201,11 @@ def witness_superset(
                     ends = intersect(fibre.only(~on), f, flag, gamma, tracker)
                     counts += ends.counts
                     pieces.setdefault(d - 1, []).append((fibre.cut.extended(f), ends))
+        so_far = Equations(tuple(equations[: k + 1]), n)
         for d in sorted(pieces, reverse=True):
             candidates = _collect(pieces[d], n, d, avoid)
             kept.setdefault(d, []).extend(candidates.fibres)
             for x, accuracy in zip(candidates.singular, candidates.accuracy, strict=True):
-                so_far = equations[: k + 1]
                 if admit(x, accuracy, kept[d], so_far, flag[:d], rng, deflate=False):
                     continue
                 answer = Membership.FOREIGN

@@ -126,6 +126,11 @@ class PathCounts:
     failed: int = 0
     at_infinity: int = 0
 
+    @property
+    def repeatable(self) -> PathCounts:
+        """The counts of paths that are tracked again, elsewhere, where they fail."""
+        return PathCounts(self.tracked, 0, self.at_infinity)
+
     def __add__(self, other: PathCounts) -> PathCounts:
         return PathCounts(
             self.tracked + other.tracked,
