@@ -17,8 +17,8 @@ class Refined(NamedTuple):
         points: unit norm in each group, shape ``(P, N)``.
         error: estimated relative error of each point.
         moved: distance of each point from where it started.
-        smallest: smallest singular value of the Jacobian at each point, its rows (patches
-            included) scaled to unit norm.
+        smallest: smallest singular value of the Jacobian at each point, patches included;
+            polynomial rows are scaled by their largest coefficient, linear rows to unit norm.
         condition: largest over smallest singular value.
     """
 
@@ -54,7 +54,7 @@ def refine(
     if isinstance(rows, Homotopy) and A is not None:
         homotopy = Homotopy(rows.rows, A, None, rows.factors, rows.infinity)
     points = homotopy.normalized(points)
-    P, N = points.shape
+    P = len(points)
     if P == 0:
         nothing = np.zeros(0)
         return Refined(points, nothing, nothing, nothing, nothing)
@@ -95,9 +95,17 @@ def aligned_difference(homotopy: Homotopy, first: np.ndarray, second: np.ndarray
 def _scaled_jacobian(
     homotopy: Homotopy, points: np.ndarray, t: complex, patch: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
+    """Jacobian with patches, linear rows scaled to unit norm, and the scales of all rows.
+
+    Polynomial rows are scaled by their coefficients when they are compiled and never by their
+    gradient at a point: a gradient that vanishes there is what a singular point shows.
+    """
     J = np.concatenate([homotopy.jacobian(points, t), patch], axis=1)
-    scale = np.linalg.norm(J, axis=2)
-    scale = np.where(scale > 1e-300, scale, 1.0)
+    scale = np.ones(J.shape[:2])
+    first = len(homotopy.rows)
+    last = first + len(homotopy.A0)
+    norms = np.linalg.norm(J[:, first:last], axis=2)
+    scale[:, first:last] = np.where(norms > 0, norms, 1.0)
     return J / scale[:, :, None], scale
 
 

@@ -49,8 +49,8 @@ class Paths:
         status: `PathStatus`, int8.
         winding: winding number of the endgame (1 for regular ends, 0 for failed paths).
         accuracy: estimated relative error of the point; inf for failed paths.
-        smallest: smallest singular value of the Jacobian (rows scaled to unit norm, patches
-            included) at the point.
+        smallest: smallest singular value of the Jacobian at the point, patches included;
+            polynomial rows are scaled by their largest coefficient, linear rows to unit norm.
         condition: largest over smallest singular value.
         steps: predictor steps, rejected ones included, of all attempts.
         precision: decimal digits of the arithmetic used: 16, 32 (residuals in double-double) or
