@@ -7,38 +7,25 @@ expressions ask for are bounded before they are spent.
 from __future__ import annotations
 
 import os
-import re
-import tomllib
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, NoReturn
+from typing import TYPE_CHECKING, Any, Literal
 
-from nag.algebra.expression import (
-    Budget,
-    ExpressionError,
-    is_name,
-    names_in,
-    nearest,
-    parse_number,
-    parse_polynomial,
-    quote,
-)
+from nag.algebra.expression import Budget, parse_number, parse_polynomial
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import is_name, names_in, nearest, quote
+from nag.case_table import CaseError, Table, kind_of, read_toml, shown
 
 if TYPE_CHECKING:
     from nag.mechanism.graph import Mechanism
 
-MAX_BYTES = 500_000
-MAX_ENTRIES = 500
-# The TOML reader takes quadratic time over the parts of a dotted key.
-MAX_KEY_PARTS = 50
+__all__ = ["Case", "CaseError", "NamedPoint", "Truth", "read_case"]
 
 _KINDS = ("system", "mechanism")
 _KEYS = {
@@ -54,11 +41,6 @@ _TRUTH_KEYS = (
     "formulation",
     "source",
 )
-_QUOTED = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|[0-9]\.[0-9]")
-
-
-class CaseError(ValueError):
-    """A case file that cannot be read: "file: table: key: what is wrong; what would be right"."""
 
 
 @dataclass(frozen=True)
@@ -113,7 +95,8 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         CaseError: if it cannot be read or makes no sense.
     """
     path = Path(path)
-    top = _Table(str(path), "", _read_toml(path))
+    top = Table(str(path), "", read_toml(path))
+    top.allow(sorted({key for keys in _KEYS.values() for key in keys}))
     kind = top.text("kind")
     if kind not in _KINDS:
         top.fail("kind", f"{quote(kind)} is no kind of case; write 'system' or 'mechanism'")
@@ -145,161 +128,16 @@ class _Numbers:
         return parse_polynomial(text, variables, self.parameters, self.budget)
 
 
-@dataclass(frozen=True)
-class _Table:
-    """A TOML table that knows where it stands and complains about its keys."""
-
-    file: str
-    place: str
-    values: Mapping[str, Any]
-
-    def fail(self, key: str | None, message: str) -> NoReturn:
-        places = [p for p in (self.file, self.place, key) if p]
-        raise CaseError(": ".join([*places, message]))
-
-    @contextmanager
-    def at(self, key: str) -> Iterator[None]:
-        """Put this table and ``key`` in front of what is wrong with an expression."""
-        try:
-            yield
-        except ExpressionError as error:
-            self.fail(key, str(error))
-
-    def allow(self, keys: Collection[str]) -> None:
-        for key in self.values:
-            if key not in keys:
-                self.fail(
-                    _shown(key),
-                    f"unknown key{nearest(key, keys)}; the keys here are {', '.join(keys)}",
-                )
-
-    def get(self, key: str, kinds: type | tuple[type, ...], wanted: str) -> Any:
-        if key not in self.values:
-            self.fail(key, f"is missing; write {wanted}")
-        value = self.values[key]
-        if not isinstance(value, kinds) or (isinstance(value, bool) and bool not in (kinds,)):
-            self.fail(key, f"is {_kind(value)}; write {wanted}")
-        return value
-
-    def text(self, key: str) -> str:
-        wanted = f'a text in quotes: {key} = "..."'
-        value = self.get(key, str, wanted)
-        if not value.strip():
-            self.fail(key, f"is empty; write {wanted}")
-        return value
-
-    def count(self, key: str, least: int, default: int | None = None) -> int:
-        if default is not None and key not in self.values:
-            return default
-        wanted = f"a whole number from {least} up"
-        value = self.get(key, int, wanted)
-        if not least <= value < 10**9:
-            shown = value if abs(value) < 10**30 else "a very large number"
-            self.fail(key, f"is {shown}; write {wanted}")
-        return value
-
-    def items(self, key: str, what: str, length: int | None = None) -> list[Any]:
-        wanted = f"a list of {what}" if length is None else f"a list of {length} {what}"
-        values = self.get(key, list, wanted)
-        if length is not None and len(values) != length:
-            self.fail(key, f"has {len(values)} entries; write {wanted}")
-        if not values:
-            self.fail(key, f"is empty; write {wanted}")
-        if len(values) > MAX_ENTRIES:
-            self.fail(key, f"has {len(values)} entries; at most {MAX_ENTRIES} are read")
-        return values
-
-    def texts(self, key: str, what: str, length: int | None = None) -> list[str]:
-        values = self.items(key, what, length)
-        for i, value in enumerate(values, 1):
-            if not isinstance(value, str):
-                self.fail(f"{key} {i}", f"is {_kind(value)}; write {what} in quotes")
-        return values
-
-    def vector(self, key: str, length: int, numbers: _Numbers) -> tuple[Number, ...]:
-        read = []
-        for i, value in enumerate(self.items(key, "numbers", length), 1):
-            with self.at(f"{key} {i}"):
-                read.append(numbers.number(value))
-        return tuple(read)
-
-    def table(self, key: str) -> _Table:
-        values = self.get(key, dict, f"a table [{key}]") if key in self.values else {}
-        if len(values) > MAX_ENTRIES:
-            self.fail(key, f"has {len(values)} entries; at most {MAX_ENTRIES} are read")
-        return _Table(self.file, f"{self.place}[{key}]", values)
-
-    def tables(self, key: str, prefix: str = "") -> list[_Table]:
-        if key not in self.values:
-            return []
-        name = f"[[{prefix}{key}]]"
-        values = self.items(key, f"tables {name}")
-        for value in values:
-            if not isinstance(value, dict):
-                self.fail(key, f"holds {_kind(value)}; write tables {name}")
-        return [_Table(self.file, f"{name} {i}", value) for i, value in enumerate(values, 1)]
-
-    def called(self, name: str) -> _Table:
-        return _Table(self.file, f"{self.place} {quote(name)}", self.values)
-
-
-def _shown(key: str) -> str:
-    return key if is_name(key) else quote(key)
-
-
-def _kind(value: Any) -> str:
-    names = {
-        str: "a text",
-        bool: "a truth value",
-        int: "a whole number",
-        Decimal: "a decimal number",
-        list: "a list",
-        dict: "a table",
-    }
-    return names.get(type(value), "a date or time")
-
-
-def _read_toml(path: Path) -> dict[str, Any]:
-    def fail(message: str) -> NoReturn:
-        raise CaseError(f"{path}: {message}")
-
-    try:
-        with open(path, "rb") as file:
-            content = file.read(MAX_BYTES + 1)
-    except OSError as error:
-        fail(f"cannot be read ({error.strerror}); give the path of a case file")
-    except ValueError as error:
-        raise CaseError(f"{str(path)!r}: {error}; give the path of a case file") from None
-    if len(content) > MAX_BYTES:
-        fail(f"is longer than {MAX_BYTES} bytes; a case file is shorter")
-    try:
-        text = content.decode("utf-8")
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        fail(f"line {line}: byte {error.object[error.start]:#04x} is not UTF-8; save it as UTF-8")
-    for number, line in enumerate(text.split("\n"), 1):
-        if line.count(".") > MAX_KEY_PARTS and _QUOTED.sub("", line).count(".") > MAX_KEY_PARTS:
-            fail(f"line {number}: more than {MAX_KEY_PARTS} dots outside of texts; shorten the key")
-    try:
-        return tomllib.loads(text, parse_float=Decimal)
-    except RecursionError:
-        fail("lists or tables are nested too deep; write them flat")
-    except tomllib.TOMLDecodeError as error:
-        fail(f"is not valid TOML: {' '.join(str(error).split())[:200]}; mend the file there")
-    except ValueError:
-        fail("holds a number of more than 4300 digits; write a shorter one")
-
-
-def _read_parameters(table: _Table, budget: Budget) -> Mapping[str, Number]:
+def _read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
     """Values of the parameters, which may refer to each other in any order but not in circles."""
     uses = {}
     for name, value in table.values.items():
         if not is_name(name):
             table.fail(
-                _shown(name), "cannot name a parameter; use letters, digits and _, not a function"
+                shown(name), "cannot name a parameter; use letters, digits and _, not a function"
             )
         if not isinstance(value, str | int | Decimal) or isinstance(value, bool):
-            table.fail(name, f'is {_kind(value)}; write a number or an expression like "5/6"')
+            table.fail(name, f'is {kind_of(value)}; write a number or an expression like "5/6"')
         uses[name] = sorted(names_in(value) & table.values.keys()) if isinstance(value, str) else []
     try:
         order = list(TopologicalSorter(uses).static_order())
@@ -313,7 +151,7 @@ def _read_parameters(table: _Table, budget: Budget) -> Mapping[str, Number]:
     return MappingProxyType({name: values[name] for name in table.values})
 
 
-def _read_system(top: _Table, numbers: _Numbers) -> PolynomialSystem:
+def _read_system(top: Table, numbers: _Numbers) -> PolynomialSystem:
     variables = top.texts("variables", "names of variables")
     for i, name in enumerate(variables, 1):
         if not is_name(name):
@@ -332,7 +170,7 @@ def _read_system(top: _Table, numbers: _Numbers) -> PolynomialSystem:
     return PolynomialSystem(tuple(variables), tuple(equations), groups=_read_groups(top, variables))
 
 
-def _read_groups(top: _Table, variables: list[str]) -> tuple[tuple[int, ...], ...]:
+def _read_groups(top: Table, variables: list[str]) -> tuple[tuple[int, ...], ...]:
     if "groups" not in top.values:
         return ()
     groups, seen = [], set()
@@ -356,9 +194,7 @@ def _read_groups(top: _Table, variables: list[str]) -> tuple[tuple[int, ...], ..
     return tuple(groups)
 
 
-def _read_points(
-    top: _Table, system: PolynomialSystem, numbers: _Numbers
-) -> tuple[NamedPoint, ...]:
+def _read_points(top: Table, system: PolynomialSystem, numbers: _Numbers) -> tuple[NamedPoint, ...]:
     points: list[NamedPoint] = []
     for table in top.tables("point"):
         table.allow(("name", "at"))
@@ -366,7 +202,7 @@ def _read_points(
         table = table.called(name)
         if any(name == p.name for p in points):
             table.fail("name", "another point has that name; give each a name of its own")
-        coordinates = _Table(
+        coordinates = Table(
             table.file, f"{table.place}: at", table.get("at", dict, "{ variable = number, ... }")
         )
         coordinates.allow(system.variables)
@@ -380,13 +216,13 @@ def _read_points(
     return tuple(points)
 
 
-def _read_truth(top: _Table, kind: str) -> tuple[Truth, ...]:
+def _read_truth(top: Table, kind: str) -> tuple[Truth, ...]:
     known = top.table("truth")
     known.allow(("component",))
     return tuple(_read_component(t, kind) for t in known.tables("component", "truth."))
 
 
-def _read_component(table: _Table, kind: str) -> Truth:
+def _read_component(table: Table, kind: str) -> Truth:
     table.allow(_TRUTH_KEYS)
     formulation = None
     if "formulation" in table.values:
@@ -409,7 +245,7 @@ def _read_component(table: _Table, kind: str) -> Truth:
     )
 
 
-def _read_multidegree(table: _Table, values: list[Any]) -> tuple[Any, ...]:
+def _read_multidegree(table: Table, values: list[Any]) -> tuple[Any, ...]:
     def is_degree(value: Any) -> bool:
         return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 10**9
 
@@ -418,7 +254,7 @@ def _read_multidegree(table: _Table, values: list[Any]) -> tuple[Any, ...]:
     return tuple(_read_multidegree(table, v) if isinstance(v, list) else v for v in values)
 
 
-def _read_mechanism(top: _Table, numbers: _Numbers) -> Mechanism:
+def _read_mechanism(top: Table, numbers: _Numbers) -> Mechanism:
     from nag.mechanism.graph import Body, Joint, Mechanism, MechanismError
 
     ground = top.text("ground")
@@ -439,20 +275,20 @@ def _read_mechanism(top: _Table, numbers: _Numbers) -> Mechanism:
         top.fail(error.key, str(error))
 
 
-def _read_joint(name: str, table: _Table, numbers: _Numbers, joint: Any) -> Any:
+def _read_joint(name: str, table: Table, numbers: _Numbers, joint: Any) -> Any:
     table.allow(("name", "type", "bodies", "point", "axis"))
     return joint(
         name=name,
         type=table.text("type"),
         bodies=tuple(table.texts("bodies", "names of bodies", 2)),
-        point=table.vector("point", 3, numbers),
-        axis=table.vector("axis", 3, numbers),
+        point=table.vector("point", 3, numbers.number),
+        axis=table.vector("axis", 3, numbers.number),
     )
 
 
-def _read_body(name: str, table: _Table, numbers: _Numbers, body: Any) -> Any:
+def _read_body(name: str, table: Table, numbers: _Numbers, body: Any) -> Any:
     table.allow(("name", "orientation"))
     orientation = None
     if "orientation" in table.values:
-        orientation = table.vector("orientation", 4, numbers)
+        orientation = table.vector("orientation", 4, numbers.number)
     return body(name=name, orientation=orientation)

@@ -1,0 +1,171 @@
+"""Tables of a case file that know where they stand, to report a mistake in one line."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import Path
+from typing import Any, NoReturn
+
+from nag.algebra.number import Number
+from nag.algebra.tokens import ExpressionError, is_name, nearest, quote
+
+MAX_BYTES = 500_000
+MAX_ENTRIES = 500
+# The TOML reader takes quadratic time over the parts of a dotted key.
+MAX_KEY_PARTS = 50
+
+_QUOTED = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|[0-9]\.[0-9]")
+
+
+class CaseError(ValueError):
+    """A case file that cannot be read: "file: table: key: what is wrong; what would be right"."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A TOML table that knows where it stands and complains about its keys."""
+
+    file: str
+    place: str
+    values: Mapping[str, Any]
+
+    def fail(self, key: str | None, message: str) -> NoReturn:
+        places = [p for p in (self.file, self.place, key) if p]
+        raise CaseError(": ".join([*places, message]))
+
+    @contextmanager
+    def at(self, key: str) -> Iterator[None]:
+        """Put this table and ``key`` in front of what is wrong with an expression."""
+        try:
+            yield
+        except ExpressionError as error:
+            self.fail(key, str(error))
+
+    def allow(self, keys: Collection[str]) -> None:
+        for key in self.values:
+            if key not in keys:
+                self.fail(
+                    shown(key),
+                    f"unknown key{nearest(key, keys)}; the keys here are {', '.join(keys)}",
+                )
+
+    def get(self, key: str, kinds: type | tuple[type, ...], wanted: str) -> Any:
+        if key not in self.values:
+            self.fail(key, f"is missing; write {wanted}")
+        value = self.values[key]
+        if not isinstance(value, kinds) or isinstance(value, bool):
+            self.fail(key, f"is {kind_of(value)}; write {wanted}")
+        return value
+
+    def text(self, key: str) -> str:
+        wanted = f'a text in quotes: {key} = "..."'
+        value = self.get(key, str, wanted)
+        if not value.strip():
+            self.fail(key, f"is empty; write {wanted}")
+        return value
+
+    def count(self, key: str, least: int, default: int | None = None) -> int:
+        if default is not None and key not in self.values:
+            return default
+        wanted = f"a whole number from {least} up"
+        value = self.get(key, int, wanted)
+        if not least <= value < 10**9:
+            found = value if abs(value) < 10**30 else "a very large number"
+            self.fail(key, f"is {found}; write {wanted}")
+        return value
+
+    def items(self, key: str, what: str, length: int | None = None) -> list[Any]:
+        wanted = f"a list of {what}" if length is None else f"a list of {length} {what}"
+        values = self.get(key, list, wanted)
+        if length is not None and len(values) != length:
+            self.fail(key, f"has {len(values)} entries; write {wanted}")
+        if not values:
+            self.fail(key, f"is empty; write {wanted}")
+        if len(values) > MAX_ENTRIES:
+            self.fail(key, f"has {len(values)} entries; at most {MAX_ENTRIES} are read")
+        return values
+
+    def texts(self, key: str, what: str, length: int | None = None) -> list[str]:
+        values = self.items(key, what, length)
+        for i, value in enumerate(values, 1):
+            if not isinstance(value, str):
+                self.fail(f"{key} {i}", f"is {kind_of(value)}; write {what} in quotes")
+        return values
+
+    def vector(self, key: str, length: int, read: Callable[[Any], Number]) -> tuple[Number, ...]:
+        numbers = []
+        for i, value in enumerate(self.items(key, "numbers", length), 1):
+            with self.at(f"{key} {i}"):
+                numbers.append(read(value))
+        return tuple(numbers)
+
+    def table(self, key: str) -> Table:
+        values = self.get(key, dict, f"a table [{key}]") if key in self.values else {}
+        if len(values) > MAX_ENTRIES:
+            self.fail(key, f"has {len(values)} entries; at most {MAX_ENTRIES} are read")
+        return Table(self.file, f"{self.place}[{key}]", values)
+
+    def tables(self, key: str, prefix: str = "") -> list[Table]:
+        if key not in self.values:
+            return []
+        name = f"[[{prefix}{key}]]"
+        values = self.items(key, f"tables {name}")
+        for value in values:
+            if not isinstance(value, dict):
+                self.fail(key, f"holds {kind_of(value)}; write tables {name}")
+        return [Table(self.file, f"{name} {i}", value) for i, value in enumerate(values, 1)]
+
+    def called(self, name: str) -> Table:
+        return Table(self.file, f"{self.place} {quote(name)}", self.values)
+
+
+def shown(key: str) -> str:
+    return key if is_name(key) else quote(key)
+
+
+def kind_of(value: Any) -> str:
+    names = {
+        str: "a text",
+        bool: "a truth value",
+        int: "a whole number",
+        Decimal: "a decimal number",
+        list: "a list",
+        dict: "a table",
+    }
+    return names.get(type(value), "a date or time")
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    def fail(message: str) -> NoReturn:
+        raise CaseError(f"{path}: {message}")
+
+    try:
+        with open(path, "rb") as file:
+            content = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        fail(f"cannot be read ({error.strerror}); give the path of a case file")
+    except ValueError as error:
+        raise CaseError(f"{str(path)!r}: {error}; give the path of a case file") from None
+    if len(content) > MAX_BYTES:
+        fail(f"is longer than {MAX_BYTES} bytes; a case file is shorter")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        fail(f"line {line}: byte {error.object[error.start]:#04x} is not UTF-8; save it as UTF-8")
+    for number, line in enumerate(text.split("\n"), 1):
+        if line.count(".") > MAX_KEY_PARTS and _QUOTED.sub("", line).count(".") > MAX_KEY_PARTS:
+            fail(f"line {number}: more than {MAX_KEY_PARTS} dots outside of texts; shorten the key")
+    try:
+        return tomllib.loads(text, parse_float=Decimal)
+    except RecursionError:
+        fail("lists or tables are nested too deep; write them flat")
+    except tomllib.TOMLDecodeError as error:
+        fail(f"is not valid TOML: {' '.join(str(error).split())[:200]}; mend the file there")
+    except ValueError:
+        fail("holds a number of more than 4300 digits; write a shorter one")
