@@ -17,7 +17,7 @@ _HOME = {
     "Slice": "nag.decomposition.witness",
     "Status": "nag.decomposition.witness",
     "WitnessSet": "nag.decomposition.witness",
-    "decompose": "nag.decomposition.decompose",
+    "decompose": "nag.decomposition",
     "gruebler_kutzbach": "nag.mechanism.mobility",
     "model": "nag.mechanism.model",
     "read_case": "nag.cases",

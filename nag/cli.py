@@ -167,7 +167,7 @@ def _decompose(arguments: argparse.Namespace) -> int:
         compilation_notice(sys.stderr, arguments.quiet),
         progress_line(sys.stderr, arguments.quiet) as progress,
     ):
-        from nag.decomposition.decompose import decompose
+        from nag.decomposition import decompose
         from nag.report.answer import system_of, through_points
 
         decomposition = decompose(

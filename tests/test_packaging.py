@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -13,9 +14,11 @@ import jsonschema
 import pytest
 
 import nag
+from nag.cli import main
 from nag.report.export import FORMAT, VERSION, schema
 
 ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text("utf-8")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 
 
@@ -88,11 +91,38 @@ def test_the_check_runs_the_commands_of_the_readme() -> None:
     check = ROOT / ".ci" / "run"
     assert os.access(check, os.X_OK)
     script = check.read_text("utf-8").replace(" --quiet", "")
-    readme = (ROOT / "README.md").read_text("utf-8")
     for line in (
         "python -m pip install . && nag decompose cases/bennett.toml",
         'python -m pip install -e ".[test]" && python -m pytest',
     ):
-        assert line in readme
+        assert line in README
         for command in line.split(" && "):
             assert f"step {command}\n" in script
+
+
+def _without_measurements(text: str) -> list[str]:
+    """Words of ``text`` without times and rounding errors, which differ between machines."""
+    return re.sub(r"\d\.\de[-+]\d\d|\d+\.\d s", "#", text).split()
+
+
+def test_the_example_of_the_readme_is_what_is_printed(capsys) -> None:
+    command = "$ nag decompose cases/bennett.toml\n"
+    block = README.split(command)[1].split("\nHow to read it")[0]
+    assert main(["decompose", str(ROOT / "cases" / "bennett.toml"), "--quiet"]) == 0
+    assert _without_measurements(block) == _without_measurements(capsys.readouterr().out)
+
+
+@pytest.mark.parametrize("text", re.findall(r"```toml\n(.*?)```", README, re.DOTALL))
+def test_the_cases_of_the_readme_give_what_they_say_is_known(text: str, tmp_path, capsys) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text(text, encoding="utf-8")
+    assert main(["decompose", str(file), "--quiet"]) == 0
+    assert re.search(r"^known +agrees with what is known: ", capsys.readouterr().out, re.MULTILINE)
+
+
+def test_the_program_of_the_readme_runs(tmp_path, monkeypatch) -> None:
+    (program,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    (tmp_path / "cases").symlink_to(ROOT / "cases")
+    monkeypatch.chdir(tmp_path)
+    exec(compile(program, "README.md", "exec"), {})
+    assert (tmp_path / "bennett.json").is_file()

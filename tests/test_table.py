@@ -155,6 +155,11 @@ def test_columns_are_aligned(rows: list[list[str]]) -> None:
 
 def test_labels_share_a_column() -> None:
     assert labelled([("a", "x"), ("long", "y")], 6) == ["a       x", "long    y"]
+    words = ["word"] * 40
+    lines = labelled([("a", " ".join(words))])
+    assert lines[0].startswith("a  word") and lines[1].startswith("   word")
+    assert max(map(len, lines)) <= 100
+    assert " ".join(lines).split() == ["a", *words]
 
 
 def test_magnitudes_have_two_digits() -> None:

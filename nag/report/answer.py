@@ -56,7 +56,7 @@ def system_of(case: Case, model: Model | None) -> PolynomialSystem:
 def points_of(case: Case, model: Model | None) -> list[tuple[str, tuple[Number, ...]]]:
     """Named points of the system: of a mechanism, its reference configuration."""
     if model is not None:
-        return [("reference configuration", tuple(model.reference))]
+        return [("the reference configuration", tuple(model.reference))]
     return [(point.name, tuple(point.at)) for point in case.points]
 
 
@@ -120,23 +120,24 @@ def _mobility_rows(
     decomposition: Decomposition, model: Model | None, points: Sequence[Through]
 ) -> list[tuple[str, str]]:
     rows = []
-    free = model.structure.cut_freedoms if model else 0
+    label, counted, free = "dimension", "", 0
+    if model is not None:
+        label, free = "mobility", model.structure.cut_freedoms
+        counted = f" (Gruebler-Kutzbach counts {model.gruebler_kutzbach})"
     for point in points:
         components = [decomposition.components[i] for i in point.components]
         if not point.solution:
             text = f"{point.name} is no solution of the equations"
         elif point.doubt:
-            text = f"not known at {point.name}"
+            text = f"not known at {point.name}{counted}"
         else:
             largest = max(c.dimension for c in components) + free
-            text = f"{largest} at {point.name}: on {in_words(kinds(components))}"
+            text = f"{largest} at {point.name}{counted}: on {in_words(kinds(components))}"
             if free:
                 text += f", and {free} by the joints that were cut off"
             if any(c.status is not Status.IRREDUCIBLE for c in components):
                 text += ", not all of them decided"
-        rows.append(("mobility" if model else "dimension", printable(text)))
-    if model is not None:
-        rows.append(("counted", f"{model.gruebler_kutzbach} by Gruebler-Kutzbach"))
+        rows.append((label, printable(text)))
     return rows
 
 

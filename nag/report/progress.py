@@ -76,7 +76,8 @@ def compilation_notice(stream: TextIO, quiet: bool = False) -> Iterator[None]:
         def on_start(self, event: event.Event) -> None:
             if not self.given:
                 self.given = True
-                stream.write("compiling the tracker, once; this takes some seconds ...\n")
+                start = _ERASE if stream.isatty() else ""
+                stream.write(f"{start}compiling the tracker, once; this takes a while ...\n")
                 stream.flush()
 
         def on_end(self, event: event.Event) -> None:

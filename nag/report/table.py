@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -10,6 +11,9 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.witness import Decomposition, Status, WitnessSet
 from nag.report.agreement import in_words, kinds
+
+# Length of a line; longer texts are wrapped.
+LINE = 100
 
 # Wider multidegrees are left to the JSON export.
 WIDEST_MULTIDEGREE = 32
@@ -141,5 +145,16 @@ def paths_line(decomposition: Decomposition) -> str:
 
 
 def labelled(rows: Sequence[tuple[str, str]], width: int = 0) -> list[str]:
-    """Lines ``label  text`` with the texts in one column, the labels at least ``width`` wide."""
-    return align([(label.ljust(width), text) for label, text in rows], left=[0, 1])
+    """Lines ``label  text`` with the texts in one column, the labels at least ``width`` wide.
+
+    Long texts go on below their beginning.
+    """
+    width = max([width, *(len(label) for label, _ in rows)])
+    lines = []
+    for label, text in rows:
+        parts = textwrap.wrap(text, LINE - width - 2, break_on_hyphens=False) or [""]
+        lines += [
+            f"{name.ljust(width)}  {part}".rstrip()
+            for name, part in zip([label, *[""] * len(parts)], parts, strict=False)
+        ]
+    return lines
