@@ -26,17 +26,29 @@ class CaseError(ValueError):
     """A case file that cannot be read: "file: table: key: what is wrong; what would be right"."""
 
 
+def _line(*parts: str | None) -> str:
+    """Parts of a message in one line that can be printed."""
+    text = ": ".join(p for p in parts if p)
+    return "".join(c if c.isprintable() else "?" for c in text)
+
+
 @dataclass(frozen=True)
 class Table:
-    """A TOML table that knows where it stands and complains about its keys."""
+    """A TOML table that knows where it stands and complains about its keys.
+
+    Attributes:
+        file: path of the case file.
+        place: name of the table in it, empty at the top.
+        values: what it holds.
+    """
 
     file: str
     place: str
     values: Mapping[str, Any]
 
     def fail(self, key: str | None, message: str) -> NoReturn:
-        places = [p for p in (self.file, self.place, key) if p]
-        raise CaseError(": ".join([*places, message]))
+        """Raise a `CaseError` about ``key``."""
+        raise CaseError(_line(self.file, self.place, key, message))
 
     @contextmanager
     def at(self, key: str) -> Iterator[None]:
@@ -47,6 +59,7 @@ class Table:
             self.fail(key, str(error))
 
     def allow(self, keys: Collection[str]) -> None:
+        """Complain about any other key."""
         for key in self.values:
             if key not in keys:
                 self.fail(
@@ -54,22 +67,27 @@ class Table:
                     f"unknown key{nearest(key, keys)}; the keys here are {', '.join(keys)}",
                 )
 
-    def get(self, key: str, kinds: type | tuple[type, ...], wanted: str) -> Any:
+    def get(self, key: str, kind: type, wanted: str) -> Any:
+        """The value, which must be there and of that type."""
         if key not in self.values:
             self.fail(key, f"is missing; write {wanted}")
         value = self.values[key]
-        if not isinstance(value, kinds) or isinstance(value, bool):
+        if not isinstance(value, kind) or isinstance(value, bool):
             self.fail(key, f"is {kind_of(value)}; write {wanted}")
         return value
 
     def text(self, key: str) -> str:
+        """A text that is not empty and fits in a line."""
         wanted = f'a text in quotes: {key} = "..."'
         value = self.get(key, str, wanted)
         if not value.strip():
             self.fail(key, f"is empty; write {wanted}")
+        if not value.isprintable():
+            self.fail(key, "holds a line break or a control character; write it in one line")
         return value
 
     def count(self, key: str, least: int, default: int | None = None) -> int:
+        """A whole number, not below ``least``."""
         if default is not None and key not in self.values:
             return default
         wanted = f"a whole number from {least} up"
@@ -80,6 +98,7 @@ class Table:
         return value
 
     def items(self, key: str, what: str, length: int | None = None) -> list[Any]:
+        """A list that is not empty, of the given length."""
         wanted = f"a list of {what}" if length is None else f"a list of {length} {what}"
         values = self.get(key, list, wanted)
         if length is not None and len(values) != length:
@@ -91,6 +110,7 @@ class Table:
         return values
 
     def texts(self, key: str, what: str, length: int | None = None) -> list[str]:
+        """A list of texts."""
         values = self.items(key, what, length)
         for i, value in enumerate(values, 1):
             if not isinstance(value, str):
@@ -98,6 +118,7 @@ class Table:
         return values
 
     def vector(self, key: str, length: int, read: Callable[[Any], Number]) -> tuple[Number, ...]:
+        """A list of numbers, each read by ``read``."""
         numbers = []
         for i, value in enumerate(self.items(key, "numbers", length), 1):
             with self.at(f"{key} {i}"):
@@ -105,12 +126,14 @@ class Table:
         return tuple(numbers)
 
     def table(self, key: str) -> Table:
+        """The table inside, empty if it is not there."""
         values = self.get(key, dict, f"a table [{key}]") if key in self.values else {}
         if len(values) > MAX_ENTRIES:
             self.fail(key, f"has {len(values)} entries; at most {MAX_ENTRIES} are read")
         return Table(self.file, f"{self.place}[{key}]", values)
 
     def tables(self, key: str, prefix: str = "") -> list[Table]:
+        """The array of tables inside, empty if it is not there; names of them start with prefix."""
         if key not in self.values:
             return []
         name = f"[[{prefix}{key}]]"
@@ -121,14 +144,17 @@ class Table:
         return [Table(self.file, f"{name} {i}", value) for i, value in enumerate(values, 1)]
 
     def called(self, name: str) -> Table:
+        """The same table, its name shown in messages."""
         return Table(self.file, f"{self.place} {quote(name)}", self.values)
 
 
 def shown(key: str) -> str:
+    """A key as messages show it."""
     return key if is_name(key) else quote(key)
 
 
 def kind_of(value: Any) -> str:
+    """The TOML type of ``value`` in words."""
     names = {
         str: "a text",
         bool: "a truth value",
@@ -141,8 +167,14 @@ def kind_of(value: Any) -> str:
 
 
 def read_toml(path: Path) -> dict[str, Any]:
+    """What the file holds; decimals are kept as they are written, as `decimal.Decimal`.
+
+    Raises:
+        CaseError: if it cannot be read, is too long, or is not TOML.
+    """
+
     def fail(message: str) -> NoReturn:
-        raise CaseError(f"{path}: {message}")
+        raise CaseError(_line(str(path), message))
 
     try:
         with open(path, "rb") as file:
@@ -150,7 +182,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     except OSError as error:
         fail(f"cannot be read ({error.strerror}); give the path of a case file")
     except ValueError as error:
-        raise CaseError(f"{str(path)!r}: {error}; give the path of a case file") from None
+        fail(f"{error}; give the path of a case file")
     if len(content) > MAX_BYTES:
         fail(f"is longer than {MAX_BYTES} bytes; a case file is shorter")
     try:

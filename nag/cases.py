@@ -100,7 +100,9 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     kind = top.text("kind")
     if kind not in _KINDS:
         top.fail("kind", f"{quote(kind)} is no kind of case; write 'system' or 'mechanism'")
-    top.allow(_KEYS[kind])
+    for key in sorted(top.values.keys() - set(_KEYS[kind])):
+        other = next(k for k in _KINDS if k != kind)
+        top.fail(key, f"belongs to a case of kind {other!r}; leave it out")
     title = top.text("title")
     budget = Budget()
     parameters = _read_parameters(top.table("parameters"), budget)
@@ -138,11 +140,18 @@ def _read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
             )
         if not isinstance(value, str | int | Decimal) or isinstance(value, bool):
             table.fail(name, f'is {kind_of(value)}; write a number or an expression like "5/6"')
-        uses[name] = sorted(names_in(value) & table.values.keys()) if isinstance(value, str) else []
+        names = names_in(value) if isinstance(value, str) else frozenset()
+        for unknown in sorted(names - table.values.keys()):
+            table.fail(
+                name,
+                f"unknown name {quote(unknown)}{nearest(unknown, table.values)}; write numbers, "
+                "other parameters, sqrt, sin, cos or pi",
+            )
+        uses[name] = sorted(names)
     try:
         order = list(TopologicalSorter(uses).static_order())
     except CycleError as error:
-        circle = [str(name) for name in error.args[1]]
+        circle = [str(name) for name in reversed(error.args[1])]
         table.fail(circle[0], f"refers to itself: {' -> '.join(circle[:10])}; break the circle")
     values: dict[str, Number] = {}
     for name in order:
@@ -277,10 +286,13 @@ def _read_mechanism(top: Table, numbers: _Numbers) -> Mechanism:
 
 def _read_joint(name: str, table: Table, numbers: _Numbers, joint: Any) -> Any:
     table.allow(("name", "type", "bodies", "point", "axis"))
+    bodies = table.texts("bodies", "names of bodies", 2)
+    if not all(b.strip() and b.isprintable() for b in bodies):
+        table.fail("bodies", "holds an empty or unprintable name; write names of bodies")
     return joint(
         name=name,
         type=table.text("type"),
-        bodies=tuple(table.texts("bodies", "names of bodies", 2)),
+        bodies=tuple(bodies),
         point=table.vector("point", 3, numbers.number),
         axis=table.vector("axis", 3, numbers.number),
     )
