@@ -198,7 +198,7 @@ class _Products:
         if found is not None:
             return found
         last = max(j for j, k in enumerate(exponents) if k)
-        parent = exponents[:last] + (exponents[last] - 1,) + exponents[last + 1 :]
+        parent = (*exponents[:last], exponents[last] - 1, *exponents[last + 1 :])
         factors = (self.slot(parent), last)
         self.factors.append(factors)
         self.slots[exponents] = self.N + len(self.factors)
@@ -219,7 +219,7 @@ def _tape(rows: CompiledRows) -> Tape:
                 block.append((products.slot(e), c))
                 for j, k in enumerate(e):
                     if k:
-                        lowered = e[:j] + (k - 1,) + e[j + 1 :]
+                        lowered = (*e[:j], k - 1, *e[j + 1 :])
                         derivatives.setdefault(j, []).append((lowered, c * k))
             values.append((r, part, block))
             jacobian += [(r * N + j, part, derivatives[j]) for j in sorted(derivatives)]

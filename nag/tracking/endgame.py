@@ -45,11 +45,22 @@ class Endgame(NamedTuple):
 
 
 # Columns of Endgame.real.
-RADIUS, ANGLE, BEST_ERROR, LAST_RATIO, SAVED_RATIO, SAVED_TIME, NEXT_RE, NEXT_IM, NOISE, HINT = (
-    range(10)
-)
+(
+    RADIUS,
+    ANGLE,
+    BEST_ERROR,
+    LAST_RATIO,
+    FIRST_HINT,
+    SAVED_RE,
+    SAVED_IM,
+    SAVED_ANGLE,
+    NEXT_RE,
+    NEXT_IM,
+    NOISE,
+    HINT,
+) = range(12)
 # Columns of Endgame.whole.
-PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, STALLED, SHORT_STEPS = range(7)
+PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, STALLED, SHORT_STEPS, NO_SHORTCUT = range(8)
 
 
 def endgame_state(
@@ -68,8 +79,8 @@ def endgame_state(
         np.zeros((8, N), dtype=np.complex128),
         np.zeros((8, N), dtype=np.complex128),
         np.zeros((8, N), dtype=np.complex128),
-        np.zeros((8, 10)),
-        np.zeros((8, 7), dtype=np.int64),
+        np.zeros((8, 12)),
+        np.zeros((8, 8), dtype=np.int64),
         exponent,
         active,
         shortcut,
@@ -189,8 +200,6 @@ def _shrink(e, lane):
         return False
     e.whole[lane, PHASE] = SHRINK
     e.real[lane, RADIUS] *= 0.1 ** (1.0 / e.exponent)
-    # The last sample's successor was aimed at already; go back to where the path is.
-    e.real[lane, ANGLE] -= 2.0 * math.pi / (e.per_loop * e.exponent)
     _aim(e, lane)
     return True
 
@@ -204,14 +213,14 @@ def give_up(e, lane):
 
 
 @numba.njit(nogil=True)
-def arrived(s, e, lane, x, noise, hint, radius, time):
+def arrived(s, e, lane, x, noise, hint, radius, t):
     """A lane arrived at its target.
 
     Args:
         s: the system; e: endgame state; lane: which one.
         x: the point, shape (N,); ``best`` of the lane receives the end point.
         noise: estimated error of ``x``; hint: pivot ratio of its Jacobian.
-        radius: radius of convergence of the Taylor series at ``x``; time: |t|.
+        radius: radius of convergence of the Taylor series at ``x``; t: where it is.
 
     Returns:
         0 to go on to the target ``NEXT_RE, NEXT_IM``; -1 to go back to the point ``saved`` first;
@@ -219,42 +228,48 @@ def arrived(s, e, lane, x, noise, hint, radius, time):
     """
     phase = e.whole[lane, PHASE]
     e.real[lane, NOISE] = max(noise, 1e-15)
-    if phase == MAIN:
-        if not e.active:
+    if phase == MAIN and not e.active:
+        e.best[lane, :] = x
+        e.real[lane, BEST_ERROR] = noise
+        e.whole[lane, WINDING] = 1
+        e.real[lane, HINT] = hint
+        return 10 + STRAIGHT
+    if phase == SHORTCUT:
+        if hint > 1e-3 * e.real[lane, FIRST_HINT] and noise < 1e-8:
             e.best[lane, :] = x
             e.real[lane, BEST_ERROR] = noise
-            e.whole[lane, WINDING] = 1
             e.real[lane, HINT] = hint
+            e.whole[lane, WINDING] = 1
             return 10 + STRAIGHT
+        retreat(s, e, lane)
+        return -1
+    if phase in (MAIN, SHRINK):
+        if phase == MAIN:
+            e.real[lane, FIRST_HINT] = hint
         e.saved[lane, :] = x
-        e.real[lane, SAVED_RATIO] = hint
-        e.real[lane, SAVED_TIME] = time
-        if e.shortcut and radius > 1.5 * time:
+        e.real[lane, SAVED_RE] = t.real
+        e.real[lane, SAVED_IM] = t.imag
+        e.real[lane, SAVED_ANGLE] = e.real[lane, ANGLE]
+        if e.shortcut and e.whole[lane, NO_SHORTCUT] == 0 and radius > 1.5 * abs(t):
             e.whole[lane, PHASE] = SHORTCUT
+            e.whole[lane, SHORT_STEPS] = 0
             e.real[lane, NEXT_RE] = 0.0
             e.real[lane, NEXT_IM] = 0.0
             return 0
-        _begin_loop(s, e, lane, x)
-    elif phase == SHORTCUT:
-        if hint > 1e-3 * e.real[lane, SAVED_RATIO] and noise < 1e-8:
-            e.best[lane, :] = x
-            e.real[lane, BEST_ERROR] = noise
-            e.real[lane, HINT] = hint
-            e.whole[lane, WINDING] = 1
-            return 10 + STRAIGHT
-        return retreat(s, e, lane)
-    elif phase == SHRINK:
         _begin_loop(s, e, lane, x)
     _keep_sample(s, e, lane, x)
     last = e.whole[lane, SAMPLE] - 1
     if last == 0 or last % e.per_loop != 0:
         return 0
     if not _closed(s, e, lane, last):
-        if last < e.per_loop * e.max_winding:
+        # Far out, long cycles are more likely cycles of branch points further in.
+        if last < e.per_loop * min(e.max_winding, 2 << e.whole[lane, LEVEL]):
             return 0
         e.real[lane, LAST_RATIO] = 1e300
+        # The path now is on another branch of its cycle: back to its own.
+        e.real[lane, ANGLE] = e.real[lane, SAVED_ANGLE]
         if _shrink(e, lane):
-            return 0
+            return -1
         return 10 + give_up(e, lane)
     winding = last // e.per_loop
     mean, negative, positive = _analyze(s, e, lane, last)
@@ -275,6 +290,8 @@ def arrived(s, e, lane, x, noise, hint, radius, time):
             return 10 + CAUCHY
     e.real[lane, LAST_RATIO] = ratio
     e.whole[lane, LAST_WINDING] = winding
+    # The successor of the last sample was aimed at already.
+    e.real[lane, ANGLE] -= 2.0 * math.pi / (e.per_loop * e.exponent)
     if _shrink(e, lane):
         return 0
     return 10 + give_up(e, lane)
@@ -283,7 +300,6 @@ def arrived(s, e, lane, x, noise, hint, radius, time):
 @numba.njit(nogil=True)
 def retreat(s, e, lane):
     """Give the shortcut up and begin to loop at the point saved where it began."""
-    e.whole[lane, PHASE] = LOOP
+    e.whole[lane, NO_SHORTCUT] = 1
     _begin_loop(s, e, lane, e.saved[lane])
     _keep_sample(s, e, lane, e.saved[lane])
-    return -1

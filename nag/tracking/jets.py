@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numba
@@ -77,7 +78,7 @@ class Work(NamedTuple):
 
 def _real_blocks(start: np.ndarray, coefficient: np.ndarray) -> np.ndarray:
     return np.array(
-        [not coefficient[a:b].imag.any() for a, b in zip(start[:-1], start[1:], strict=True)],
+        [not coefficient[a:b].imag.any() for a, b in pairwise(start)],
         dtype=np.bool_,
     )
 

@@ -18,7 +18,8 @@ from nag.tracking.endgame import (
     NEXT_RE,
     NOT_FINITE,
     PHASE,
-    SAVED_TIME,
+    SAVED_IM,
+    SAVED_RE,
     SHORT_STEPS,
     SHORTCUT,
     START,
@@ -202,8 +203,8 @@ def _fill(s, w, e, f, c, lane, path, start):
 def _restart(s, w, e, f, c, lane):
     """Go back to the point that the endgame saved."""
     _put(s, w, lane, e.saved[lane])
-    f[T_RE, lane] = e.real[lane, SAVED_TIME]
-    f[T_IM, lane] = 0.0
+    f[T_RE, lane] = e.real[lane, SAVED_RE]
+    f[T_IM, lane] = e.real[lane, SAVED_IM]
     f[GOAL_RE, lane] = e.real[lane, NEXT_RE]
     f[GOAL_IM, lane] = e.real[lane, NEXT_IM]
     c[STATE, lane] = 1
@@ -377,7 +378,7 @@ def track_batch(
             ):
                 for j in range(n):
                     x[j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
-                time = (f[T_RE, lane] ** 2 + f[T_IM, lane] ** 2) ** 0.5
+                time = complex(f[T_RE, lane], f[T_IM, lane])
                 hint = pivot_ratio(n, w.jr, w.ji, lane)
                 done = arrived(s, e, lane, x, f[ACCURACY, lane], hint, f[RADIUS, lane], time)
                 if done == -1:
