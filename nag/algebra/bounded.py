@@ -171,7 +171,7 @@ def representable(value: Number) -> Number:
         size = value.numerator.bit_length() - value.denominator.bit_length()
     if abs(size) > MAX_LOG2 and value != 0:
         raise ExpressionError(
-            f"a number of the order 1e{int(size * log10(2))} arises; "
+            f"a number of the order 1e{round(size * log10(2))} arises; "
             "scale the numbers so that they stay between 1e-300 and 1e300"
         )
     return value
