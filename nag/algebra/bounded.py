@@ -42,8 +42,8 @@ class Budget:
         self.left -= amount
         if self.left < 0:
             raise ExpressionError(
-                f"multiplying this out takes more than {MAX_WORK} operations; "
-                "introduce variables for its parts"
+                f"more than {MAX_WORK} operations to multiply everything out; "
+                "shorten the expressions or introduce variables for their parts"
             )
 
 
@@ -66,11 +66,11 @@ class BoundedArithmetic:
         polynomial = False
         for sign, value in parts:
             if not isinstance(value, Polynomial):
-                self.budget.spend(1 + 10 * (_operations(constant) + _operations(value)))
+                self.budget.spend(1 + 20 * (_operations(constant) + _operations(value)))
                 constant = checked(constant + value if sign > 0 else constant - value)
                 continue
             polynomial = True
-            self.budget.spend(len(value.terms) * (1 + self.n // 50 + 10 * _operations(value)))
+            self.budget.spend(len(value.terms) * (1 + self.n // 50 + 20 * _operations(value)))
             for e, c in value.terms.items():
                 c = c if sign > 0 else -c
                 terms[e] = checked(terms[e] + c) if e in terms else c
@@ -86,7 +86,7 @@ class BoundedArithmetic:
         """The product."""
         sizes = [len(v.terms) if isinstance(v, Polynomial) else 1 for v in (left, right)]
         bits = _bits(left) + _bits(right)
-        each = 1 + self.n // 50 + bits // 500 + 10 * (_operations(left) + _operations(right))
+        each = 1 + self.n // 50 + bits // 500 + 20 * (_operations(left) + _operations(right))
         self.budget.spend(sizes[0] * sizes[1] * each)
         if bits > MAX_BITS:
             _too_long(bits)
@@ -129,6 +129,9 @@ class BoundedArithmetic:
                 raise ExpressionError(
                     f"the exponent {shown} is too large; degrees go up to {MAX_DEGREE}"
                 )
+            if len(base.terms) == 1:
+                ((e, c),) = base.terms.items()
+                return Polynomial(self.n, {tuple(k * i for i in e): self.power(c, exponent)})
             return self._repeated(base, k, Polynomial.constant(self.n, 1))
         if k < 0 and is_zero(base):
             raise ExpressionError("division by zero: zero has no negative power")

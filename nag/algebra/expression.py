@@ -110,6 +110,7 @@ class _Parser:
         budget: Budget,
     ) -> None:
         self.tokens = tokenize(text)
+        budget.spend(len(self.tokens))
         self.at = 0
         self.depth = 0
         self.variables = {name: i for i, name in enumerate(variables)}

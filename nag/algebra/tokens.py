@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 MAX_LENGTH = 100_000
 
@@ -25,8 +25,7 @@ class ExpressionError(ValueError):
     """Text that is no number or polynomial; one line: where, what is wrong, what would be right."""
 
 
-@dataclass(frozen=True)
-class Token:
+class Token(NamedTuple):
     """A word: its kind (number, name, operator, end), and the column it starts in, from 1."""
 
     kind: str
