@@ -3,46 +3,57 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
 
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.lanes import aligned, fma, fnma, load, splat, square_root, store
+from nag.tracking.lanes import aligned, fma, fnma, load, pointer, splat, square_root, store
 
 
 class System(NamedTuple):
-    """A homotopy as flat arrays (see `nag.tracking.compiled.Tape` for blocks and slots)."""
+    """A homotopy as flat arrays (see `nag.tracking.compiled.Tape` for blocks and slots).
+
+    The numbers say how long the arrays are. Factor ``2 p`` is a, ``2 p + 1`` is b of part ``p``.
+    """
 
     N: int
     rows: int
     linear: int
     groups: int
+    parts: int
     value_products: int
-    first: np.ndarray
-    second: np.ndarray
-    value_place: np.ndarray
-    value_part: np.ndarray
-    value_start: np.ndarray
-    value_slot: np.ndarray
-    value_re: np.ndarray
-    value_im: np.ndarray
-    value_real: np.ndarray
-    jacobian_place: np.ndarray
-    jacobian_part: np.ndarray
-    jacobian_start: np.ndarray
-    jacobian_slot: np.ndarray
-    jacobian_re: np.ndarray
-    jacobian_im: np.ndarray
-    jacobian_real: np.ndarray
-    factors: np.ndarray
-    moving: np.ndarray
-    A0: np.ndarray
-    A1: np.ndarray
-    linear_moving: np.ndarray
-    group_of: np.ndarray
-    infinity: np.ndarray
+    products: int
+    value_blocks: int
+    jacobian_blocks: int
+    infinities: int
+    first: Any
+    second: Any
+    value_place: Any
+    value_part: Any
+    value_start: Any
+    value_slot: Any
+    value_re: Any
+    value_im: Any
+    value_real: Any
+    jacobian_place: Any
+    jacobian_part: Any
+    jacobian_start: Any
+    jacobian_slot: Any
+    jacobian_re: Any
+    jacobian_im: Any
+    jacobian_real: Any
+    factor_re: Any
+    factor_im: Any
+    moving: Any
+    A0_re: Any
+    A0_im: Any
+    A1_re: Any
+    A1_im: Any
+    linear_moving: Any
+    group_of: Any
+    infinity: Any
 
 
 class Work(NamedTuple):
@@ -51,36 +62,46 @@ class Work(NamedTuple):
     ``vr, vi``: slots; the first N are the point. ``v1r .. v3i``: Taylor coefficients of the slots.
     ``jr, ji``: Jacobian, then its factors. ``br, bi``: right-hand side. ``pr, pi``: patch.
     ``fr, fi``: the parts' factors at t. ``base``: point and three Taylor coefficients at the last
-    accepted t, real and imaginary parts in turn. ``tr, ti``: t.
+    accepted t, real and imaginary parts in turn. ``tr, ti``: t. ``norms``: squared norms of the two
+    Newton corrections and of the three Taylor coefficients. ``mode``: 0 in the lanes that predict.
+    ``zr, zi``: their steps in t. ``accepted``: 1 in the lanes whose step is accepted.
     """
 
-    vr: np.ndarray
-    vi: np.ndarray
-    v1r: np.ndarray
-    v1i: np.ndarray
-    v2r: np.ndarray
-    v2i: np.ndarray
-    v3r: np.ndarray
-    v3i: np.ndarray
-    jr: np.ndarray
-    ji: np.ndarray
-    br: np.ndarray
-    bi: np.ndarray
-    pr: np.ndarray
-    pi: np.ndarray
-    fr: np.ndarray
-    fi: np.ndarray
-    pivots: np.ndarray
-    base: np.ndarray
-    tr: np.ndarray
-    ti: np.ndarray
+    vr: Any
+    vi: Any
+    v1r: Any
+    v1i: Any
+    v2r: Any
+    v2i: Any
+    v3r: Any
+    v3i: Any
+    jr: Any
+    ji: Any
+    br: Any
+    bi: Any
+    pr: Any
+    pi: Any
+    fr: Any
+    fi: Any
+    pivots: Any
+    base: Any
+    tr: Any
+    ti: Any
+    norms: Any
+    mode: Any
+    zr: Any
+    zi: Any
+    accepted: Any
 
 
 def _real_blocks(start: np.ndarray, coefficient: np.ndarray) -> np.ndarray:
-    return np.array(
-        [not coefficient[a:b].imag.any() for a, b in pairwise(start)],
-        dtype=np.bool_,
-    )
+    real = [not coefficient[a:b].imag.any() for a, b in pairwise(start)]
+    return np.array(real, dtype=np.int64)
+
+
+def _parts(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    array = array.ravel()
+    return np.ascontiguousarray(array.real), np.ascontiguousarray(array.imag)
 
 
 def system(homotopy: Homotopy) -> System:
@@ -94,29 +115,32 @@ def system(homotopy: Homotopy) -> System:
         len(homotopy.rows),
         len(homotopy.A0),
         len(homotopy.groups),
+        len(factors),
         tape.value_products,
+        len(tape.first),
+        len(tape.value_place),
+        len(tape.jacobian_place),
+        len(homotopy.infinity),
         tape.first,
         tape.second,
         tape.value_place,
         tape.value_part,
         tape.value_start,
         tape.value_slot,
-        np.ascontiguousarray(value.real),
-        np.ascontiguousarray(value.imag),
+        *_parts(value),
         _real_blocks(tape.value_start, value),
         tape.jacobian_place,
         tape.jacobian_part,
         tape.jacobian_start,
         tape.jacobian_slot,
-        np.ascontiguousarray(jacobian.real),
-        np.ascontiguousarray(jacobian.imag),
+        *_parts(jacobian),
         _real_blocks(tape.jacobian_start, jacobian),
-        factors,
-        np.ascontiguousarray(moving),
-        homotopy.A0.copy(),
-        homotopy.A1.copy(),
-        np.ascontiguousarray(homotopy.A1.any(axis=1)),
-        homotopy.group_of.copy(),
+        *_parts(factors),
+        moving.astype(np.int64),
+        *_parts(homotopy.A0),
+        *_parts(homotopy.A1),
+        homotopy.A1.any(axis=1).astype(np.int64),
+        homotopy.group_of,
         np.array(homotopy.infinity, dtype=np.int64),
     )
 
@@ -129,14 +153,85 @@ def work(homotopy: Homotopy) -> Work:
     value_slots = N + 1 + tape.value_products
     parts = len(homotopy.factors)
     sizes = [slots] * 2 + [value_slots] * 6 + [N * N] * 2 + [N] * 4 + [parts] * 2 + [N, 8 * N, 1, 1]
-    return Work(*(aligned(size) for size in sizes))
+    return Work(*(aligned(size) for size in [*sizes, 6, 1, 1, 1, 1]))
+
+
+@numba.njit(nogil=True)
+def bare(s, w):
+    """The same tuples with pointers for arrays."""
+    system = System(
+        s.N,
+        s.rows,
+        s.linear,
+        s.groups,
+        s.parts,
+        s.value_products,
+        s.products,
+        s.value_blocks,
+        s.jacobian_blocks,
+        s.infinities,
+        pointer(s.first),
+        pointer(s.second),
+        pointer(s.value_place),
+        pointer(s.value_part),
+        pointer(s.value_start),
+        pointer(s.value_slot),
+        pointer(s.value_re),
+        pointer(s.value_im),
+        pointer(s.value_real),
+        pointer(s.jacobian_place),
+        pointer(s.jacobian_part),
+        pointer(s.jacobian_start),
+        pointer(s.jacobian_slot),
+        pointer(s.jacobian_re),
+        pointer(s.jacobian_im),
+        pointer(s.jacobian_real),
+        pointer(s.factor_re),
+        pointer(s.factor_im),
+        pointer(s.moving),
+        pointer(s.A0_re),
+        pointer(s.A0_im),
+        pointer(s.A1_re),
+        pointer(s.A1_im),
+        pointer(s.linear_moving),
+        pointer(s.group_of),
+        pointer(s.infinity),
+    )
+    work = Work(
+        pointer(w.vr),
+        pointer(w.vi),
+        pointer(w.v1r),
+        pointer(w.v1i),
+        pointer(w.v2r),
+        pointer(w.v2i),
+        pointer(w.v3r),
+        pointer(w.v3i),
+        pointer(w.jr),
+        pointer(w.ji),
+        pointer(w.br),
+        pointer(w.bi),
+        pointer(w.pr),
+        pointer(w.pi),
+        pointer(w.fr),
+        pointer(w.fi),
+        pointer(w.pivots),
+        pointer(w.base),
+        pointer(w.tr),
+        pointer(w.ti),
+        pointer(w.norms),
+        pointer(w.mode),
+        pointer(w.zr),
+        pointer(w.zi),
+        pointer(w.accepted),
+    )
+    return system, work
 
 
 @numba.njit(nogil=True)
 def _block(first, last, slot, cr, ci, real, vr, vi):
     re = splat(0.0)
     im = splat(0.0)
-    if real:
+    if real != 0:
         for q in range(first, last):
             c = splat(cr[q])
             re = fma(c, load(vr, slot[q]), re)
@@ -177,18 +272,16 @@ def factors_at(s, w):
     ti = load(w.ti, 0)
     store(w.vr, s.N, splat(1.0))
     store(w.vi, s.N, splat(0.0))
-    for p in range(len(s.factors)):
-        a = s.factors[p, 0]
-        b = s.factors[p, 1]
-        br = splat(b.real)
-        bi = splat(b.imag)
-        store(w.fr, p, fnma(ti, bi, fma(tr, br, splat(a.real))))
-        store(w.fi, p, fma(ti, br, fma(tr, bi, splat(a.imag))))
+    for p in range(s.parts):
+        br = splat(s.factor_re[2 * p + 1])
+        bi = splat(s.factor_im[2 * p + 1])
+        store(w.fr, p, fnma(ti, bi, fma(tr, br, splat(s.factor_re[2 * p]))))
+        store(w.fi, p, fma(ti, br, fma(tr, bi, splat(s.factor_im[2 * p]))))
 
 
 @numba.njit(nogil=True)
 def _scaled(s, w, part, re, im):
-    if not s.moving[part]:
+    if s.moving[part] == 0:
         return re, im
     fr = load(w.fr, part)
     fi = load(w.fi, part)
@@ -202,7 +295,7 @@ def values(s, w):
     for k in range(s.N):
         store(w.br, k, zero)
         store(w.bi, k, zero)
-    for b in range(len(s.value_place)):
+    for b in range(s.value_blocks):
         re, im = _block(
             s.value_start[b],
             s.value_start[b + 1],
@@ -221,13 +314,12 @@ def values(s, w):
         re = zero
         im = zero
         for j in range(s.N):
-            c = s.A0[k, j]
-            cr = splat(c.real)
-            ci = splat(c.imag)
-            if s.linear_moving[k]:
-                d = s.A1[k, j]
-                dr = splat(d.real)
-                di = splat(d.imag)
+            q = k * s.N + j
+            cr = splat(s.A0_re[q])
+            ci = splat(s.A0_im[q])
+            if s.linear_moving[k] != 0:
+                dr = splat(s.A1_re[q])
+                di = splat(s.A1_im[q])
                 cr = fnma(ti, di, fma(tr, dr, cr))
                 ci = fma(ti, dr, fma(tr, di, ci))
             x = load(w.vr, j)
@@ -257,7 +349,7 @@ def jacobian(s, w):
     for k in range(n * n):
         store(w.jr, k, zero)
         store(w.ji, k, zero)
-    for b in range(len(s.jacobian_place)):
+    for b in range(s.jacobian_blocks):
         re, im = _block(
             s.jacobian_start[b],
             s.jacobian_start[b + 1],
@@ -274,13 +366,12 @@ def jacobian(s, w):
     ti = load(w.ti, 0)
     for k in range(s.linear):
         for j in range(n):
-            c = s.A0[k, j]
-            cr = splat(c.real)
-            ci = splat(c.imag)
-            if s.linear_moving[k]:
-                d = s.A1[k, j]
-                dr = splat(d.real)
-                di = splat(d.imag)
+            q = k * s.N + j
+            cr = splat(s.A0_re[q])
+            ci = splat(s.A0_im[q])
+            if s.linear_moving[k] != 0:
+                dr = splat(s.A1_re[q])
+                di = splat(s.A1_im[q])
                 cr = fnma(ti, di, fma(tr, dr, cr))
                 ci = fma(ti, dr, fma(tr, di, ci))
             store(w.jr, (s.rows + k) * n + j, cr)
@@ -363,7 +454,7 @@ def _right_side(s, w, vr, vi, lr, li, with_value):
     for k in range(s.N):
         store(w.br, k, zero)
         store(w.bi, k, zero)
-    for b in range(len(s.value_place)):
+    for b in range(s.value_blocks):
         part = s.value_part[b]
         first = s.value_start[b]
         last = s.value_start[b + 1]
@@ -372,10 +463,10 @@ def _right_side(s, w, vr, vi, lr, li, with_value):
             re, im = _block(first, last, s.value_slot, s.value_re, s.value_im, real, vr, vi)
             re, im = _scaled(s, w, part, re, im)
             _add(w.br, w.bi, s.value_place[b], zero - re, zero - im)
-        if s.moving[part]:
+        if s.moving[part] != 0:
             re, im = _block(first, last, s.value_slot, s.value_re, s.value_im, real, lr, li)
-            c = splat(s.factors[part, 1].real)
-            d = splat(s.factors[part, 1].imag)
+            c = splat(s.factor_re[2 * part + 1])
+            d = splat(s.factor_im[2 * part + 1])
             _add(
                 w.br,
                 w.bi,
@@ -384,25 +475,18 @@ def _right_side(s, w, vr, vi, lr, li, with_value):
                 zero - fma(re, d, im * c),
             )
     for k in range(s.linear):
-        if s.linear_moving[k]:
+        if s.linear_moving[k] != 0:
             re = zero
             im = zero
             for j in range(s.N):
-                cr = splat(s.A1[k, j].real)
-                ci = splat(s.A1[k, j].imag)
+                cr = splat(s.A1_re[k * s.N + j])
+                ci = splat(s.A1_im[k * s.N + j])
                 x = load(lr, j)
                 y = load(li, j)
                 re = fma(ci, y, fnma(cr, x, re))
                 im = fnma(ci, x, fnma(cr, y, im))
             store(w.br, s.rows + k, re)
             store(w.bi, s.rows + k, im)
-
-
-@numba.njit(nogil=True)
-def _copy(n, source_r, source_i, target_r, target_i):
-    for j in range(n):
-        store(target_r, j, load(source_r, j))
-        store(target_i, j, load(source_i, j))
 
 
 @numba.njit(nogil=True)

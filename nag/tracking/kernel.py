@@ -39,6 +39,7 @@ from nag.tracking.jets import (
     _slot_jet_1,
     _slot_jet_2,
     _slot_jet_3,
+    bare,
     factors_at,
     jacobian,
     normalize,
@@ -126,7 +127,7 @@ def _newton_and_jets(s, w, norms):
     n = s.N
     normalize(s, w)
     factors_at(s, w)
-    products(s, w, 0, len(s.first))
+    products(s, w, 0, s.products)
     values(s, w)
     jacobian(s, w)
     factorize(n, w.jr, w.ji, w.pivots)
@@ -135,10 +136,9 @@ def _newton_and_jets(s, w, norms):
     products(s, w, 0, s.value_products)
     values(s, w)
     substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
-    _right = norms
     # The slots stay those of the point before this correction, which is far smaller than the
     # error of the Taylor coefficients.
-    _correct(s, w, _right, 1)
+    _correct(s, w, norms, 1)
     _right_side(s, w, w.vr, w.vi, w.vr, w.vi, False)
     substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
     _keep(s, w, 1, w.v1r, w.v1i, norms)
@@ -214,8 +214,8 @@ def _restart(s, w, e, f, c, lane):
 
 @numba.njit(nogil=True, cache=True)
 def track_batch(
-    s,
-    w,
+    arrays,
+    scratch,
     e,
     parameters,
     starts,
@@ -230,18 +230,16 @@ def track_batch(
 ):
     """Track the paths ``first, first + stride, ..`` of ``starts``; results into the arrays."""
     tolerance, newton, floor, radius_factor, safety, max_steps = parameters
+    s, w = bare(arrays, scratch)
     n = s.N
     count = len(starts)
     f = np.zeros((9, 8))
     c = np.zeros((5, 8), dtype=np.int64)
-    vectors = np.zeros(8 * 10 + 8)
-    offset = (-vectors.ctypes.data % 64) // 8
-    vectors = vectors[offset : offset + 80]
-    norms = vectors[0:48]
-    mode = vectors[48:56]
-    zr = vectors[56:64]
-    zi = vectors[64:72]
-    accepted = vectors[72:80]
+    norms = w.norms
+    mode = w.mode
+    zr = w.zr
+    zi = w.zi
+    accepted = w.accepted
     x = np.zeros(n, dtype=np.complex128)
     following = first
     busy = 0

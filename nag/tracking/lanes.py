@@ -10,12 +10,11 @@ from __future__ import annotations
 import operator
 from typing import Any
 
-import numba
 import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
+from numba.core.typing.templates import AbstractTemplate, ConcreteTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
 
 LANES = 8
@@ -59,31 +58,82 @@ for _function, _method in (
     _binary(_function, _method)
 
 
+class PointerType(types.Type):
+    """Type of a bare pointer: unlike an array it is one word, and passing it counts nothing."""
+
+    def __init__(self, dtype: types.Type) -> None:
+        self.dtype = dtype
+        super().__init__(name=f"Pointer({dtype})")
+
+
+@register_model(PointerType)
+class _PointerModel(models.PrimitiveModel):
+    def __init__(self, dmm: Any, fe_type: PointerType) -> None:
+        element = dmm.lookup(fe_type.dtype).get_data_type()
+        super().__init__(dmm, fe_type, element.as_pointer())
+
+
+@intrinsic
+def pointer(typingctx: Any, array: Any) -> Any:
+    """Pointer to the first entry of a contiguous array, which must outlive it."""
+
+    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        return cgutils.create_struct_proxy(sig.args[0])(context, builder, args[0]).data
+
+    return PointerType(array.dtype)(array), codegen
+
+
+@infer_global(operator.getitem)
+class _GetItem(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        if isinstance(args[0], PointerType) and isinstance(args[1], types.Integer):
+            return signature(args[0].dtype, args[0], types.intp)
+        return None
+
+
+@infer_global(operator.setitem)
+class _SetItem(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        if isinstance(args[0], PointerType) and isinstance(args[1], types.Integer):
+            return signature(types.none, args[0], types.intp, args[0].dtype)
+        return None
+
+
+@lower_builtin(operator.getitem, PointerType, types.intp)
+def _lower_getitem(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    return builder.load(builder.gep(args[0], [args[1]]))
+
+
+@lower_builtin(operator.setitem, PointerType, types.intp, types.Any)
+def _lower_setitem(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    builder.store(args[2], builder.gep(args[0], [args[1]]))
+    return context.get_dummy_value()
+
+
 def _address(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    array = cgutils.create_struct_proxy(sig.args[0])(context, builder, args[0])
-    data = builder.bitcast(array.data, _VECTOR.as_pointer())
+    data = builder.bitcast(args[0], _VECTOR.as_pointer())
     return builder.gep(data, [args[1]])
 
 
 @intrinsic
-def load(typingctx: Any, array: Any, index: Any) -> Any:
-    """Vector ``index`` of a flat array that is aligned to 64 bytes."""
+def load(typingctx: Any, data: Any, index: Any) -> Any:
+    """Vector ``index`` at a pointer that is aligned to 64 bytes."""
 
     def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         return builder.load(_address(context, builder, sig, args), align=ALIGNMENT)
 
-    return lanes(array, types.intp), codegen
+    return lanes(data, types.intp), codegen
 
 
 @intrinsic
-def store(typingctx: Any, array: Any, index: Any, value: Any) -> Any:
-    """Write ``value`` to vector ``index`` of a flat array that is aligned to 64 bytes."""
+def store(typingctx: Any, data: Any, index: Any, value: Any) -> Any:
+    """Write ``value`` to vector ``index`` at a pointer that is aligned to 64 bytes."""
 
     def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         builder.store(args[2], _address(context, builder, sig, args), align=ALIGNMENT)
         return context.get_dummy_value()
 
-    return types.none(array, types.intp, lanes), codegen
+    return types.none(data, types.intp, lanes), codegen
 
 
 def _splat(builder: Any, scalar: Any) -> Any:
@@ -185,19 +235,3 @@ def aligned(vectors: int) -> np.ndarray:
     raw = np.zeros(vectors * LANES + ALIGNMENT // 8)
     offset = (-raw.ctypes.data % ALIGNMENT) // 8
     return raw[offset : offset + vectors * LANES]
-
-
-__all__ = [
-    "LANES",
-    "aligned",
-    "any_less",
-    "fma",
-    "fnma",
-    "lane",
-    "load",
-    "numba",
-    "select_less",
-    "splat",
-    "square_root",
-    "store",
-]
