@@ -1,0 +1,93 @@
+"""Mechanisms that several tests use."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.cases import read_case
+from nag.mechanism.graph import Body, Joint, Mechanism
+
+CASES = Path(__file__).parent.parent / "cases"
+
+
+def exact(*values: int | str | Fraction) -> tuple[Fraction, ...]:
+    return tuple(Fraction(v) for v in values)
+
+
+def loop(points: list, axes: list, orientations: dict | None = None) -> Mechanism:
+    """A single loop B0, B1, ...: joint J_l joins B_{l-1} and B_l."""
+    n = len(points)
+    joints = [
+        Joint(f"J{i}", "revolute", (f"B{(i - 1) % n}", f"B{i}"), exact(*p), exact(*a))
+        for i, (p, a) in enumerate(zip(points, axes, strict=True))
+    ]
+    frames = orientations or {}
+    bodies = [Body(f"B{i}", frames.get(f"B{i}")) for i in range(1, n)]
+    return Mechanism("B0", tuple(joints), tuple(bodies))
+
+
+def case(name: str) -> Mechanism:
+    mechanism = read_case(CASES / f"{name}.toml").mechanism
+    assert mechanism is not None
+    return mechanism
+
+
+def general_loop(joints: int, seed: int) -> Mechanism:
+    """Axes with random small integer directions through random small integer points."""
+    rng = np.random.default_rng(seed)
+    points = [tuple(int(x) for x in rng.integers(-5, 6, 3)) for _ in range(joints)]
+    axes = []
+    while len(axes) < joints:
+        axis = tuple(int(x) for x in rng.integers(-4, 5, 3))
+        if any(axis):
+            axes.append(axis)
+    return loop(points, axes)
+
+
+def four_bar(axis: tuple = (0, 0, 1), across: tuple = ((1, 0, 0), (0, 1, 0))) -> Mechanism:
+    """Parallelogram with sides 2 and 1 times the vectors ``across``."""
+    u, v = across
+    corners = [(0, 0), (2, 0), (2, 1), (0, 1)]
+    points = [tuple(x * a + y * b for a, b in zip(u, v, strict=True)) for x, y in corners]
+    return loop(points, [axis] * 4)
+
+
+def spherical_four_bar() -> Mechanism:
+    axes = [(0, 0, 1), (1, 0, 2), (1, 1, 1), (0, 2, 1)]
+    return loop([(1, 2, 3)] * 4, axes)
+
+
+def newton(system: PolynomialSystem, start: np.ndarray, normals: np.ndarray) -> np.ndarray | None:
+    """A solution in the linear space through ``start`` with ``normals`` as rows, or None."""
+    point = start.astype(complex)
+    for _ in range(60):
+        at = list(point)
+        matrix = np.array([[g(at) for g in row] for row in system.jacobian], dtype=complex)
+        values = np.array(system(at), dtype=complex)
+        matrix = np.vstack([matrix, normals])
+        values = np.append(values, normals @ (point - start))
+        step = np.linalg.lstsq(matrix, -values, rcond=None)[0]
+        point = point + step
+        if not np.linalg.norm(point) < 1e2:
+            return None
+        if np.linalg.norm(step) < 1e-13 * np.linalg.norm(point):
+            return point if residual(system, point) < 1e-13 else None
+    return None
+
+
+def residual(system: PolynomialSystem, point: Sequence[complex]) -> float:
+    """Largest value at a point, relative to the size of its terms where that is over 1."""
+    size = [abs(x) for x in point]
+    worst = 0.0
+    for f in system.polynomials:
+        terms = sum(
+            abs(float(c)) * np.prod([s**k for s, k in zip(size, e, strict=True)])
+            for e, c in f.terms.items()
+        )
+        worst = max(worst, abs(f(list(point))) / max(terms, 1.0))
+    return worst
