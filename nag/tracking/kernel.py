@@ -62,6 +62,7 @@ def _predict(s, w, mode, zr, zi):
     hi = load(zi, 0)
     m = load(mode, 0)
     limit = splat(0.5625)
+    tiny = splat(1e-200)
     for j in range(n):
         x1r, x1i = load(w.base, 2 * n + j), load(w.base, 3 * n + j)
         x2r, x2i = load(w.base, 4 * n + j), load(w.base, 5 * n + j)
@@ -79,8 +80,9 @@ def _predict(s, w, mode, zr, zi):
         si = two * x2r * x2i
         pade_r = fma(si, di, sr * dr) * inverse
         pade_i = fnma(sr, di, si * dr) * inverse
-        ar = select_less(q2, limit * size, pade_r, taylor_r)
-        ai = select_less(q2, limit * size, pade_i, taylor_i)
+        # The square of a coefficient that decays to zero underflows, and with it the quotient.
+        ar = select_less(tiny, size, select_less(q2, limit * size, pade_r, taylor_r), taylor_r)
+        ai = select_less(tiny, size, select_less(q2, limit * size, pade_i, taylor_i), taylor_i)
         br = x1r + fnma(hi, ai, hr * ar)
         bi = x1i + fma(hi, ar, hr * ai)
         xr = load(w.base, j) + fnma(hi, bi, hr * br)
