@@ -3,12 +3,14 @@ from itertools import product
 
 import numpy as np
 import pytest
-from linkages import case, four_bar, general_loop, spherical_four_bar
+from linkages import case, exact, four_bar, general_loop, loop, spherical_four_bar
 
+from nag.algebra.number import is_zero, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.mechanism.euler import euler_parameters, orthogonality, prime_component
+from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.loops import loop_structure
-from nag.mechanism.model import model
+from nag.mechanism.model import ModelError, model
 from nag.mechanism.quaternion import multiply
 
 
@@ -99,3 +101,53 @@ def test_spherical_loops_close_by_themselves():
     assert (m.space, m.formulation) == ("spherical", "E")
     # 12 Euler parameters, 4 of them solved for; 3 norms and 2 joints of two moving bodies.
     assert (m.system.n, len(m.system.polynomials)) == (8, 7)
+
+
+def test_two_loops_in_space():
+    """A 7R with a second chain of four joints between two of its bodies."""
+    first = general_loop(7, 2)
+    second = general_loop(5, 6)
+    rename = {"B0": "B0", "B1": "C1", "B2": "C2", "B3": "C3", "B4": "B3"}
+    chain = [
+        Joint(f"K{i}", j.type, tuple(rename[b] for b in j.bodies), j.point, j.axis)
+        for i, j in enumerate(second.joints)
+        if set(j.bodies) != {"B4", "B0"}
+    ]
+    m = model(Mechanism("B0", (*first.joints, *chain)))
+    assert (m.formulation, len(m.structure.loops)) == ("E", 2)
+    # 9 moving bodies; two equations for each of 3 joints at the ground are solved for.
+    assert len(m.structure.moving) == 9
+    assert m.system.n == 9 * 4 - 3 * 2
+    assert len(m.system.polynomials) == 9 + 2 * 3 + 2 * (11 - 3)
+    assert set(m.system(m.reference)) == {0}
+    assert set(m.unreduced(m.unreduced_point(m.lift(m.reference)))) == {0}
+
+
+def test_a_door_on_two_hinges_turns_and_on_two_skew_ones_does_not():
+    door = model(loop([(0, 0, 0), (0, 0, 1)], [(0, 0, 1)] * 2))
+    assert door.system.text() == ["c1^2 + s1^2 - 1"]
+    stuck = model(loop([(0, 0, 0), (1, 0, 0)], [(0, 0, 1), (0, 1, 1)]))
+    assert stuck.system.text() == ["a0^2 - 1"]
+
+
+def test_square_roots_in_the_geometry_are_carried():
+    root = square_root(Fraction(3))
+    joints = [
+        Joint(j.name, j.type, j.bodies, j.point, (j.axis[0], j.axis[1] + root, j.axis[2]))
+        for j in general_loop(5, 3).joints
+    ]
+    for formulation in ("E", "H"):
+        m = model(Mechanism("B0", joints), formulation)
+        assert not m.system.exact
+        assert all(is_zero(v) for v in m.system(m.reference))
+        lifted = m.lift(m.reference)
+        assert all(is_zero(v) for v in m.unreduced(m.unreduced_point(lifted)))
+
+
+def test_open_chains_are_refused_in_one_line():
+    joint = Joint("J", "revolute", ("A", "B"), exact(0, 0, 0), exact(0, 0, 1))
+    with pytest.raises(ModelError, match="no loop") as caught:
+        model(Mechanism("A", (joint,)))
+    assert "\n" not in str(caught.value)
+    with pytest.raises(ModelError, match="unknown"):
+        model(case("bennett"), "X")

@@ -162,10 +162,10 @@ def _choose(
     if loops == 1 and joints >= 3:
         unknowns = 4 * len(structure.moving) - 4
         return "H", (
-            f"{what}; half-angles with two joints eliminated leave {joints - 2} unknowns, Euler "
-            f"parameters {unknowns}"
+            f"{what}; half-angles with two joints eliminated leave "
+            f"{_count(joints - 2, 'unknown')}, Euler parameters {unknowns}"
         )
-    return "E", f"{what}; Euler parameters, because half-angles cover single loops only"
+    return "E", f"{what}; Euler parameters: half-angles need a single loop of at least 3 joints"
 
 
 def _build(
