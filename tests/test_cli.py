@@ -209,6 +209,29 @@ def test_the_formulation_that_is_asked_for_is_used(capsys) -> None:
         assert f"system  {variables} variables" in out
 
 
+def test_bennett_moves_in_euler_parameters_as_well_and_signs_are_counted(capsys) -> None:
+    argv = ["decompose", str(CASES / "bennett.toml"), "--formulation", "E"]
+    assert main([*argv, "--quiet"]) == 0
+    out, _ = capsys.readouterr()
+    assert "8 sign changes of Euler parameters keep the equations" in out
+    assert "mobility  1 at the reference configuration (Gruebler-Kutzbach counts -2)" in out
+    assert "known     agrees with what is known: 2 components of dimension 1, degree 8" in out
+
+
+def test_joints_that_were_cut_off_count_as_mobility(tmp_path, capsys) -> None:
+    file = tmp_path / "case.toml"
+    four_bar = (CASES / "planar-four-bar.toml").read_text("utf-8")
+    body = four_bar.split('bodies = ["')[1].split('"')[0]
+    file.write_text(
+        f'{four_bar}\n[[joint]]\nname = "loose"\ntype = "revolute"\n'
+        f'bodies = ["{body}", "flag"]\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n'
+    )
+    assert main(["decompose", str(file), "--quiet"]) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    assert "mobility 2 at the reference configuration (Gruebler-Kutzbach counts 2)" in out
+    assert "of dimension 1, degree 2, and 1 by the joints that were cut off" in out
+
+
 def test_a_mechanism_without_a_model_gets_one_line(complaint, tmp_path) -> None:
     file = tmp_path / "door.toml"
     file.write_text(
@@ -382,7 +405,7 @@ def test_ctrl_c_ends_a_process_with_status_130_and_one_line(case, tmp_path) -> N
     process = subprocess.Popen(
         [sys.executable, str(script)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
-    assert process.stdout.readline() == "ready\n"
+    assert process.stdout.readline() == "ready\n", process.communicate()[1]
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=30)
     assert (process.returncode, err) == (130, "nag: interrupted\n")
