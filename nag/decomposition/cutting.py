@@ -24,6 +24,8 @@ from nag.tracking.compiled import CompiledRows, compile_rows
 ON = 1e-9
 # A deflation of more steps than this has not been met in the literature's examples.
 MOST_DEFLATIONS = 4
+# A random choice of null vectors may be an unlucky one.
+ATTEMPTS = 3
 # Newton's method from the end point of a path must arrive within this many steps.
 NEWTON_STEPS = 12
 
@@ -107,7 +109,7 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
     they do near a regular zero and nowhere else.
     """
     a = padded(rows, 1 + len(z))
-    step = np.inf
+    step, slow = np.inf, 0
     for _ in range(NEWTON_STEPS):
         values = evaluator.values(z[None])[0]
         jacobian = evaluator.jacobian(z)
@@ -117,7 +119,8 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
         delta, *_ = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=1e-14)
         z = z - delta
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
-        if not np.isfinite(step):
+        slow += step > 0.25 * last and step > 1e-13
+        if not np.isfinite(step) or slow > 2:
             return Sharpened(z, np.inf, False)
         if step < 1e-14 or (step < 1e-11 and step >= last):
             break
@@ -126,21 +129,21 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
 
 
 def numerical_corank(singular: np.ndarray, columns: int, accuracy: float) -> int:
-    """Corank of a matrix with ``columns`` columns, read at the widest gap of its singular values.
+    """Corank of a balanced Jacobian with ``columns`` columns, at the gap of its singular values.
 
-    Values below ``accuracy`` (relative to the largest) cannot be told from zero; a gap is looked
-    for among the rest only where they are small enough for the error of the point to explain them.
+    The widest gap counts, among the values that are small enough for ``accuracy``, the relative
+    error of the point, to explain them. Entries of a balanced matrix are of order one, so a
+    matrix of rank zero shows a gap below one.
     """
     s = np.zeros(columns)
     s[: len(singular)] = singular[:columns]
-    if columns == 0 or s[0] == 0:
-        return columns
-    s = np.maximum(s / s[0], 1e-17)
+    s = np.maximum(s / max(1.0, s.max(initial=0.0)), 1e-17)
     suspicious = max(1e3 * accuracy, 1e-12)
-    best, corank = 1e3, 0
-    for rank in range(1, columns):
-        if s[rank] < suspicious and s[rank - 1] / s[rank] > best:
-            best, corank = s[rank - 1] / s[rank], columns - rank
+    above, best, corank = 1.0, 1e3, 0
+    for rank, value in enumerate(s):
+        if value < suspicious and above / value > best:
+            best, corank = above / value, columns - rank
+        above = value
     return corank
 
 
@@ -157,7 +160,8 @@ def regular_on(evaluator: Evaluator, rows: np.ndarray, sharpened: Sharpened) -> 
     s = np.zeros(basis.shape[1])
     values = np.linalg.svd(matrix, compute_uv=False)
     s[: len(values)] = values[: len(s)]
-    return len(s) == 0 or bool(s[-1] > max(1e3 * sharpened.step, 1e-11) * s[0])
+    limit = max(1e3 * sharpened.step, 1e-11) * max(1.0, s.max(initial=0.0))
+    return len(s) == 0 or bool(s[-1] > limit)
 
 
 def _square_rows(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> list[int] | None:
@@ -213,26 +217,31 @@ def find_cut(
     """A square system with ``x`` as a regular point on the slice, and the sharpened point.
 
     Without ``deflate`` only subsets of ``equations`` are tried: success means that the component
-    through ``x`` is reduced. The random numbers of a deflation are dyadic with eight bits, so that
-    the deflated equations are exact. Returns None where no cut is found.
+    through ``x`` is reduced. Returns None where no cut is found.
     """
+    for _ in range(ATTEMPTS if deflate else 1):
+        found = _find_cut(equations, rows, x, accuracy, rng, deflate)
+        if found is not None:
+            return found
+    return None
+
+
+def _find_cut(
+    equations: Equations,
+    rows: np.ndarray,
+    x: np.ndarray,
+    accuracy: float,
+    rng: np.random.Generator,
+    deflate: bool,
+) -> tuple[Cut, np.ndarray] | None:
     n, evaluator = equations.n, equations.evaluator
     polynomials, total, z, levels = list(equations.polynomials), n, x, []
-    for _ in range(MOST_DEFLATIONS if deflate else 1):
-        sharpened = sharpen(evaluator, rows, z)
-        # A regular zero is where the path ended, not somewhere in its neighbourhood.
-        distance = np.linalg.norm(sharpened.z[:n] - x) / (1 + np.linalg.norm(x))
-        if sharpened.converged and distance < max(1e3 * accuracy, 1e-10):
-            chosen = _square_rows(evaluator, rows, sharpened.z)
-            if chosen is not None:
-                cut = Cut(n, total - n, tuple(polynomials[i] for i in chosen), tuple(levels))
-                again = sharpen(cut.evaluator, rows, sharpened.z)
-                if again.converged and regular_on(cut.evaluator, rows, again):
-                    return cut, again.z
-        if not deflate:
-            return None
+    for _ in range(1 + MOST_DEFLATIONS if deflate else 1):
+        found = _regular_subset(polynomials, evaluator, tuple(levels), rows, x, z, accuracy)
+        if found is not None or not deflate:
+            return found
         free = total - len(rows)
-        q = rng.integers(-128, 128, (total, free)) / 64
+        q = _dyadic(rng, (total, free))
         singular = np.linalg.svd(evaluator.balanced_jacobian(z) @ q, compute_uv=False)
         m = numerical_corank(singular, free, accuracy)
         if m == 0:
@@ -243,4 +252,37 @@ def find_cut(
         total = len(z)
         evaluator = Evaluator.of(polynomials, total)
         levels.append(level)
+    return None
+
+
+def _dyadic(rng: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+    """Random numbers of absolute value between 1/2 and 3/2 with eight bits.
+
+    With coefficients that are exact, Newton's method in any precision converges to exact points.
+    """
+    return rng.choice([-1, 1], shape) * (64 + rng.integers(0, 128, shape)) / 128
+
+
+def _regular_subset(
+    polynomials: Sequence[Polynomial],
+    evaluator: Evaluator,
+    levels: tuple[Level, ...],
+    rows: np.ndarray,
+    x: np.ndarray,
+    z: np.ndarray,
+    accuracy: float,
+) -> tuple[Cut, np.ndarray] | None:
+    n, total = len(x), len(z)
+    sharpened = sharpen(evaluator, rows, z)
+    # A regular zero is where the path ended, not somewhere in its neighbourhood.
+    distance = np.linalg.norm(sharpened.z[:n] - x) / (1 + np.linalg.norm(x))
+    if not sharpened.converged or distance > max(1e3 * accuracy, 1e-10):
+        return None
+    chosen = _square_rows(evaluator, rows, sharpened.z)
+    if chosen is None:
+        return None
+    cut = Cut(n, total - n, tuple(polynomials[i] for i in chosen), levels)
+    again = sharpen(cut.evaluator, rows, sharpened.z)
+    if again.converged and regular_on(cut.evaluator, rows, again):
+        return cut, again.z
     return None

@@ -1,0 +1,121 @@
+"""Decompositions whose truth is known: from the papers, from exact algebra, by construction."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.cases import read_case
+from nag.decomposition import decompose
+from nag.decomposition.membership import components_through
+from nag.decomposition.witness import Decomposition, Status
+from nag.mechanism.model import model
+from nag.report.agreement import Verdict, compare
+
+CASES = sorted((Path(__file__).parent.parent / "cases").glob("*.toml"))
+
+
+def system(variables: str, *equations: str) -> PolynomialSystem:
+    names = tuple(variables.split())
+    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
+
+
+def kinds(answer: Decomposition) -> Counter[tuple[int, int, int]]:
+    return Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components)
+
+
+def assert_sound(answer: Decomposition) -> None:
+    """What holds for every complete answer, whatever the system."""
+    assert answer.complete and not answer.notes
+    for component in answer.components:
+        assert component.status is Status.IRREDUCIBLE
+        assert component.residual < 1e-12
+        A, b, x = component.slice.A, component.slice.b, component.points
+        assert A.shape == (component.dimension, answer.system.n)
+        assert np.allclose(A @ A.conj().T, np.eye(len(b)), atol=1e-12)
+        assert np.abs(x @ A.T - b).max(initial=0.0) < 1e-10 * (1 + np.abs(x).max(initial=0.0))
+        gaps = np.linalg.norm(x[:, None] - x[None], axis=2) + np.eye(len(x))
+        assert gaps.min() > 1e-6
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
+@pytest.mark.parametrize("seed", [0, 1])
+def test_case_agrees_with_what_is_known(path: Path, seed: int) -> None:
+    case = read_case(path)
+    chosen = None if case.mechanism is None else model(case.mechanism)
+    answer = decompose(case.system if chosen is None else chosen.system, seed=seed)
+    assert_sound(answer)
+    agreement = compare(answer, case.truth, None if chosen is None else chosen.formulation)
+    assert agreement is not None
+    assert agreement.verdict is Verdict.AGREES and not agreement.unlisted
+
+
+@pytest.mark.parametrize(
+    ("equations", "expected"),
+    [
+        ([], {(3, 1, 1): 1}),
+        (["0"], {(3, 1, 1): 1}),
+        (["1"], {}),
+        (["x", "x - 1"], {}),
+        (["x*y - 1", "x"], {}),
+        (["x", "x"], {(2, 1, 1): 1}),
+        (["x^2 + y^2 + z^2 - 1"], {(2, 2, 1): 1}),
+        (["x^2 + y^2 + z^2"], {(2, 2, 1): 1}),
+        (["x^2 + y^2"], {(2, 1, 1): 2}),
+        (["x*y*z"], {(2, 1, 1): 3}),
+        (["x*y", "y*z", "z*x"], {(1, 1, 1): 3}),
+        (["x^2 - 1", "y^2 - 1", "z^2 - 1"], {(0, 1, 1): 8}),
+        (["x", "y", "z"], {(0, 1, 1): 1}),
+        (["x - y^2", "z - y^3"], {(1, 3, 1): 1}),
+        (["x*z - y^2", "y - z^2", "x - y*z"], {(1, 3, 1): 1}),
+        (["x^2 - y^2*z"], {(2, 3, 1): 1}),
+        (["x^2 - y^3"], {(2, 3, 1): 1}),
+        (["x^2", "x*y"], {(2, 1, 1): 1}),
+        (["x^2 - y", "z^2"], {(1, 2, 2): 1}),
+        (["z^2", "x^2 - y"], {(1, 2, 2): 1}),
+        (["z^3", "x^2 - y"], {(1, 2, 3): 1}),
+        (["x^2*y", "x^2*z"], {(2, 1, 2): 1, (1, 1, 1): 1}),
+        (["x*(x^2 + y^2 + z^2 - 1)", "y*(x^2 + y^2 + z^2 - 1)"], {(2, 2, 1): 1, (1, 1, 1): 1}),
+        (["(x - 1)^2 + y^2", "(x - 1)*z"], {(1, 1, 1): 2, (1, 1, 2): 1}),
+    ],
+    ids=lambda value: " , ".join(value) if isinstance(value, list) else "",
+)
+def test_small_systems(equations: list[str], expected: dict[tuple[int, int, int], int]) -> None:
+    answer = decompose(system("x y z", *equations), seed=3)
+    assert_sound(answer)
+    assert kinds(answer) == Counter(expected)
+
+
+def test_union_of_a_sphere_a_curve_and_points_is_taken_apart() -> None:
+    sphere, a, b, c = "(x^2 + y^2 + z^2 - 1)", "(y - x^2)", "(z - x^3)", "(x - 1/2)"
+    answer = decompose(
+        system(
+            "x y z",
+            f"{a}*{sphere}*{c}",
+            f"{b}*{sphere}*(y - 1/2)",
+            f"{a}*{b}*{sphere}*(z - 1/2)",
+        ),
+        seed=0,
+    )
+    assert_sound(answer)
+    assert kinds(answer) == Counter({(2, 2, 1): 1, (1, 3, 1): 1, (1, 1, 1): 3, (0, 1, 1): 1})
+
+
+def test_same_seed_gives_the_same_numbers_for_any_number_of_threads() -> None:
+    case = read_case(CASES[0].parent / "double-rhombus.toml")
+    one, two = (decompose(case.system, seed=5, threads=threads) for threads in (1, 2))
+    assert one == two
+
+
+def test_points_are_members_of_the_components_they_lie_on() -> None:
+    answer = decompose(system("x y z", "x*(y - 1)", "x*(z - 2)"), seed=1)
+    assert [c.dimension for c in answer.components] == [2, 1]
+    assert components_through(answer, np.array([0, 5, 7])) == [0]
+    assert components_through(answer, np.array([3, 1, 2])) == [1]
+    assert components_through(answer, np.array([0, 1, 2])) == [0, 1]
+    assert components_through(answer, np.array([1, 1, 1])) == []
