@@ -59,22 +59,22 @@ class System(NamedTuple):
 class Work(NamedTuple):
     """Scratch vectors of one batch of lanes.
 
-    ``vr, vi``: slots; the first N are the point. ``v1r .. v3i``: Taylor coefficients of the slots.
+    ``vr, vi``: slots; the first N are the point. ``cr, ci``: their Taylor coefficients of order 1
+    and up, one order after the other. ``dr, di``: changes of such coefficients.
     ``jr, ji``: Jacobian, then its factors. ``br, bi``: right-hand side. ``pr, pi``: patch.
-    ``fr, fi``: the parts' factors at t. ``base``: point and three Taylor coefficients at the last
+    ``fr, fi``: the parts' factors at t. ``base``: point and Taylor coefficients at the last
     accepted t, real and imaginary parts in turn. ``tr, ti``: t. ``norms``: squared norms of the two
-    Newton corrections and of the three Taylor coefficients. ``mode``: 0 in the lanes that predict.
-    ``zr, zi``: their steps in t. ``accepted``: 1 in the lanes whose step is accepted.
+    Newton corrections, then those of the Taylor coefficients of order 1 and up. ``mode``: 0 in the
+    lanes that predict. ``zr, zi``: their steps in t. ``accepted``: 1 in the lanes whose step is
+    accepted.
     """
 
     vr: Any
     vi: Any
-    v1r: Any
-    v1i: Any
-    v2r: Any
-    v2i: Any
-    v3r: Any
-    v3i: Any
+    cr: Any
+    ci: Any
+    dr: Any
+    di: Any
     jr: Any
     ji: Any
     br: Any
@@ -145,15 +145,16 @@ def system(homotopy: Homotopy) -> System:
     )
 
 
-def work(homotopy: Homotopy) -> Work:
-    """Scratch vectors for ``homotopy``."""
+def work(homotopy: Homotopy, order: int) -> Work:
+    """Scratch vectors for ``homotopy`` and Taylor coefficients up to ``order``."""
     N = homotopy.N
     tape = homotopy.rows.tape
     slots = N + 1 + len(tape.first)
     value_slots = N + 1 + tape.value_products
     parts = len(homotopy.factors)
-    sizes = [slots] * 2 + [value_slots] * 6 + [N * N] * 2 + [N] * 4 + [parts] * 2 + [N, 8 * N, 1, 1]
-    return Work(*(aligned(size) for size in [*sizes, 6, 1, 1, 1, 1]))
+    sizes = [slots] * 2 + [order * value_slots] * 2 + [value_slots] * 2 + [N * N] * 2 + [N] * 4
+    sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, 1, order + 2, 1, 1, 1, 1]
+    return Work(*(aligned(size) for size in sizes))
 
 
 @numba.njit(nogil=True)
@@ -200,12 +201,10 @@ def bare(s, w):
     work = Work(
         pointer(w.vr),
         pointer(w.vi),
-        pointer(w.v1r),
-        pointer(w.v1i),
-        pointer(w.v2r),
-        pointer(w.v2i),
-        pointer(w.v3r),
-        pointer(w.v3i),
+        pointer(w.cr),
+        pointer(w.ci),
+        pointer(w.dr),
+        pointer(w.di),
         pointer(w.jr),
         pointer(w.ji),
         pointer(w.br),
@@ -228,20 +227,20 @@ def bare(s, w):
 
 
 @numba.njit(nogil=True)
-def _block(first, last, slot, cr, ci, real, vr, vi):
+def _block(first, last, slot, cr, ci, real, vr, vi, shift):
     re = splat(0.0)
     im = splat(0.0)
     if real != 0:
         for q in range(first, last):
             c = splat(cr[q])
-            re = fma(c, load(vr, slot[q]), re)
-            im = fma(c, load(vi, slot[q]), im)
+            re = fma(c, load(vr, shift + slot[q]), re)
+            im = fma(c, load(vi, shift + slot[q]), im)
     else:
         for q in range(first, last):
             c = splat(cr[q])
             d = splat(ci[q])
-            x = load(vr, slot[q])
-            y = load(vi, slot[q])
+            x = load(vr, shift + slot[q])
+            y = load(vi, shift + slot[q])
             re = fnma(d, y, fma(c, x, re))
             im = fma(d, x, fma(c, y, im))
     return re, im
@@ -305,6 +304,7 @@ def values(s, w):
             s.value_real[b],
             w.vr,
             w.vi,
+            0,
         )
         re, im = _scaled(s, w, s.value_part[b], re, im)
         _add(w.br, w.bi, s.value_place[b], zero - re, zero - im)
@@ -359,6 +359,7 @@ def jacobian(s, w):
             s.jacobian_real[b],
             w.vr,
             w.vi,
+            0,
         )
         re, im = _scaled(s, w, s.jacobian_part[b], re, im)
         _add(w.jr, w.ji, s.jacobian_place[b], re, im)
@@ -384,87 +385,113 @@ def jacobian(s, w):
 
 
 @numba.njit(nogil=True)
-def _slot_jet_1(s, w):
+def incomplete_slots(s, w, k):
+    """Taylor coefficients of order ``k >= 2`` of the slots, those of the point taken as 0."""
     zero = splat(0.0)
-    store(w.v1r, s.N, zero)
-    store(w.v1i, s.N, zero)
-    for k in range(s.value_products):
-        a = s.first[k]
-        b = s.second[k]
-        a0r, a0i, a1r, a1i = load(w.vr, a), load(w.vi, a), load(w.v1r, a), load(w.v1i, a)
-        b0r, b0i, b1r, b1i = load(w.vr, b), load(w.vi, b), load(w.v1r, b), load(w.v1i, b)
-        re = fnma(a1i, b0i, fma(a1r, b0r, fnma(a0i, b1i, a0r * b1r)))
-        im = fma(a1i, b0r, fma(a1r, b0i, fma(a0i, b1r, a0r * b1i)))
-        store(w.v1r, s.N + 1 + k, re)
-        store(w.v1i, s.N + 1 + k, im)
+    size = s.N + 1 + s.value_products
+    top = (k - 1) * size
+    for j in range(s.N + 1):
+        store(w.cr, top + j, zero)
+        store(w.ci, top + j, zero)
+    for q in range(s.value_products):
+        a = s.first[q]
+        b = s.second[q]
+        ar, ai = load(w.vr, a), load(w.vi, a)
+        br, bi = load(w.cr, top + b), load(w.ci, top + b)
+        re = fnma(ai, bi, ar * br)
+        im = fma(ai, br, ar * bi)
+        ar, ai = load(w.cr, top + a), load(w.ci, top + a)
+        br, bi = load(w.vr, b), load(w.vi, b)
+        re = fnma(ai, bi, fma(ar, br, re))
+        im = fma(ai, br, fma(ar, bi, im))
+        for i in range(k - 1):
+            m = i * size + a
+            n = (k - 2 - i) * size + b
+            ar, ai = load(w.cr, m), load(w.ci, m)
+            br, bi = load(w.cr, n), load(w.ci, n)
+            re = fnma(ai, bi, fma(ar, br, re))
+            im = fma(ai, br, fma(ar, bi, im))
+        store(w.cr, top + s.N + 1 + q, re)
+        store(w.ci, top + s.N + 1 + q, im)
 
 
 @numba.njit(nogil=True)
-def _slot_jet_2(s, w):
-    zero = splat(0.0)
-    store(w.v2r, s.N, zero)
-    store(w.v2i, s.N, zero)
-    for k in range(s.value_products):
-        a = s.first[k]
-        b = s.second[k]
-        a0r, a0i, b2r, b2i = load(w.vr, a), load(w.vi, a), load(w.v2r, b), load(w.v2i, b)
-        re = fnma(a0i, b2i, a0r * b2r)
-        im = fma(a0i, b2r, a0r * b2i)
-        a1r, a1i, b1r, b1i = load(w.v1r, a), load(w.v1i, a), load(w.v1r, b), load(w.v1i, b)
-        re = fnma(a1i, b1i, fma(a1r, b1r, re))
-        im = fma(a1i, b1r, fma(a1r, b1i, im))
-        a2r, a2i, b0r, b0i = load(w.v2r, a), load(w.v2i, a), load(w.vr, b), load(w.vi, b)
-        re = fnma(a2i, b0i, fma(a2r, b0r, re))
-        im = fma(a2i, b0r, fma(a2r, b0i, im))
-        store(w.v2r, s.N + 1 + k, re)
-        store(w.v2i, s.N + 1 + k, im)
+def complete_slots(s, w, k):
+    """Add to the coefficients of order ``k`` what the point's own coefficients contribute.
 
-
-@numba.njit(nogil=True)
-def _slot_jet_3(s, w):
-    zero = splat(0.0)
-    store(w.v3r, s.N, zero)
-    store(w.v3i, s.N, zero)
-    for k in range(s.value_products):
-        a = s.first[k]
-        b = s.second[k]
-        a0r, a0i, b3r, b3i = load(w.vr, a), load(w.vi, a), load(w.v3r, b), load(w.v3i, b)
-        re = fnma(a0i, b3i, a0r * b3r)
-        im = fma(a0i, b3r, a0r * b3i)
-        a1r, a1i, b2r, b2i = load(w.v1r, a), load(w.v1i, a), load(w.v2r, b), load(w.v2i, b)
-        re = fnma(a1i, b2i, fma(a1r, b2r, re))
-        im = fma(a1i, b2r, fma(a1r, b2i, im))
-        a2r, a2i, b1r, b1i = load(w.v2r, a), load(w.v2i, a), load(w.v1r, b), load(w.v1i, b)
-        re = fnma(a2i, b1i, fma(a2r, b1r, re))
-        im = fma(a2i, b1r, fma(a2r, b1i, im))
-        a3r, a3i, b0r, b0i = load(w.v3r, a), load(w.v3i, a), load(w.vr, b), load(w.vi, b)
-        re = fnma(a3i, b0i, fma(a3r, b0r, re))
-        im = fma(a3i, b0r, fma(a3r, b0i, im))
-        store(w.v3r, s.N + 1 + k, re)
-        store(w.v3i, s.N + 1 + k, im)
-
-
-@numba.njit(nogil=True)
-def _right_side(s, w, vr, vi, lr, li, with_value):
-    """Minus a Taylor coefficient of the rows, the unknown coefficient of the point taken as 0.
-
-    ``vr, vi``: slots' coefficients of this order (used if ``with_value``); ``lr, li``: one lower.
+    These are the solution in the right-hand side. The contribution is linear in them, so that a
+    product needs two multiplications. For order 1 there is nothing to add to.
     """
     zero = splat(0.0)
-    for k in range(s.N):
-        store(w.br, k, zero)
-        store(w.bi, k, zero)
+    top = (k - 1) * (s.N + 1 + s.value_products)
+    for j in range(s.N):
+        re, im = load(w.br, j), load(w.bi, j)
+        store(w.dr, j, re)
+        store(w.di, j, im)
+        store(w.cr, top + j, re)
+        store(w.ci, top + j, im)
+    store(w.dr, s.N, zero)
+    store(w.di, s.N, zero)
+    store(w.cr, top + s.N, zero)
+    store(w.ci, top + s.N, zero)
+    for q in range(s.value_products):
+        a = s.first[q]
+        b = s.second[q]
+        ar, ai = load(w.vr, a), load(w.vi, a)
+        br, bi = load(w.dr, b), load(w.di, b)
+        re = fnma(ai, bi, ar * br)
+        im = fma(ai, br, ar * bi)
+        ar, ai = load(w.dr, a), load(w.di, a)
+        br, bi = load(w.vr, b), load(w.vi, b)
+        re = fnma(ai, bi, fma(ar, br, re))
+        im = fma(ai, br, fma(ar, bi, im))
+        m = s.N + 1 + q
+        store(w.dr, m, re)
+        store(w.di, m, im)
+        if k > 1:
+            re = re + load(w.cr, top + m)
+            im = im + load(w.ci, top + m)
+        store(w.cr, top + m, re)
+        store(w.ci, top + m, im)
+
+
+@numba.njit(nogil=True)
+def _lower_block(s, w, k, first, last, real):
+    if k == 1:
+        return _block(first, last, s.value_slot, s.value_re, s.value_im, real, w.vr, w.vi, 0)
+    shift = (k - 2) * (s.N + 1 + s.value_products)
+    return _block(first, last, s.value_slot, s.value_re, s.value_im, real, w.cr, w.ci, shift)
+
+
+@numba.njit(nogil=True)
+def right_side(s, w, k):
+    """Minus the Taylor coefficient of order ``k`` of the rows, that of the point taken as 0."""
+    zero = splat(0.0)
+    size = s.N + 1 + s.value_products
+    for j in range(s.N):
+        store(w.br, j, zero)
+        store(w.bi, j, zero)
     for b in range(s.value_blocks):
         part = s.value_part[b]
         first = s.value_start[b]
         last = s.value_start[b + 1]
         real = s.value_real[b]
-        if with_value:
-            re, im = _block(first, last, s.value_slot, s.value_re, s.value_im, real, vr, vi)
+        if k > 1:
+            re, im = _block(
+                first,
+                last,
+                s.value_slot,
+                s.value_re,
+                s.value_im,
+                real,
+                w.cr,
+                w.ci,
+                (k - 1) * size,
+            )
             re, im = _scaled(s, w, part, re, im)
             _add(w.br, w.bi, s.value_place[b], zero - re, zero - im)
         if s.moving[part] != 0:
-            re, im = _block(first, last, s.value_slot, s.value_re, s.value_im, real, lr, li)
+            re, im = _lower_block(s, w, k, first, last, real)
             c = splat(s.factor_re[2 * part + 1])
             d = splat(s.factor_im[2 * part + 1])
             _add(
@@ -474,27 +501,21 @@ def _right_side(s, w, vr, vi, lr, li, with_value):
                 fnma(re, c, im * d),
                 zero - fma(re, d, im * c),
             )
-    for k in range(s.linear):
-        if s.linear_moving[k] != 0:
+    for q in range(s.linear):
+        if s.linear_moving[q] != 0:
             re = zero
             im = zero
             for j in range(s.N):
-                cr = splat(s.A1_re[k * s.N + j])
-                ci = splat(s.A1_im[k * s.N + j])
-                x = load(lr, j)
-                y = load(li, j)
+                cr = splat(s.A1_re[q * s.N + j])
+                ci = splat(s.A1_im[q * s.N + j])
+                if k == 1:
+                    x, y = load(w.vr, j), load(w.vi, j)
+                else:
+                    x, y = load(w.cr, (k - 2) * size + j), load(w.ci, (k - 2) * size + j)
                 re = fma(ci, y, fnma(cr, x, re))
                 im = fnma(ci, x, fnma(cr, y, im))
-            store(w.br, s.rows + k, re)
-            store(w.bi, s.rows + k, im)
-
-
-@numba.njit(nogil=True)
-def _clear(n, target_r, target_i):
-    zero = splat(0.0)
-    for j in range(n):
-        store(target_r, j, zero)
-        store(target_i, j, zero)
+            store(w.br, s.rows + q, re)
+            store(w.bi, s.rows + q, im)
 
 
 @numba.njit(nogil=True)

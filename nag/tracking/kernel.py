@@ -34,16 +34,14 @@ from nag.tracking.endgame import (
 )
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jets import (
-    _clear,
-    _right_side,
-    _slot_jet_1,
-    _slot_jet_2,
-    _slot_jet_3,
     bare,
+    complete_slots,
     factors_at,
+    incomplete_slots,
     jacobian,
     normalize,
     products,
+    right_side,
     values,
 )
 from nag.tracking.lanes import fma, fnma, load, select_less, splat, store
@@ -53,42 +51,39 @@ PREDICT, CORRECT, AGAIN = 0.0, 1.0, 2.0
 
 
 @numba.njit(nogil=True)
-def _predict(s, w, mode, zr, zi):
-    """Pade (2, 1) from the base point's Taylor coefficients, in the lanes that predict."""
+def _predict(s, w, order):
+    """Pade (order - 1, 1) from the base point's Taylor coefficients, in the lanes that predict."""
     n = s.N
     half = splat(0.5)
     two = splat(2.0)
-    hr = load(zr, 0)
-    hi = load(zi, 0)
-    m = load(mode, 0)
+    hr = load(w.zr, 0)
+    hi = load(w.zi, 0)
+    m = load(w.mode, 0)
     limit = splat(0.5625)
-    tiny = splat(1e-200)
+    top = 2 * n * order
     for j in range(n):
-        x1r, x1i = load(w.base, 2 * n + j), load(w.base, 3 * n + j)
-        x2r, x2i = load(w.base, 4 * n + j), load(w.base, 5 * n + j)
-        x3r, x3i = load(w.base, 6 * n + j), load(w.base, 7 * n + j)
-        qr = fnma(hi, x3i, hr * x3r)
-        qi = fma(hi, x3r, hr * x3i)
+        lr, li = load(w.base, top + j), load(w.base, top + n + j)
+        ar, ai = load(w.base, top - 2 * n + j), load(w.base, top - n + j)
+        qr = fnma(hi, li, hr * lr)
+        qi = fma(hi, lr, hr * li)
         q2 = fma(qr, qr, qi * qi)
-        size = fma(x2r, x2r, x2i * x2i)
-        taylor_r = x2r + qr
-        taylor_i = x2i + qi
-        dr = x2r - qr
-        di = x2i - qi
+        size = fma(ar, ar, ai * ai)
+        dr = ar - qr
+        di = ai - qi
         inverse = splat(1.0) / fma(dr, dr, di * di)
-        sr = fnma(x2i, x2i, x2r * x2r)
-        si = two * x2r * x2i
-        pade_r = fma(si, di, sr * dr) * inverse
-        pade_i = fnma(sr, di, si * dr) * inverse
-        # The square of a coefficient that decays to zero underflows, and with it the quotient.
-        ar = select_less(tiny, size, select_less(q2, limit * size, pade_r, taylor_r), taylor_r)
-        ai = select_less(tiny, size, select_less(q2, limit * size, pade_i, taylor_i), taylor_i)
-        br = x1r + fnma(hi, ai, hr * ar)
-        bi = x1i + fma(hi, ar, hr * ai)
-        xr = load(w.base, j) + fnma(hi, bi, hr * br)
-        xi = load(w.base, n + j) + fma(hi, br, hr * bi)
-        store(w.vr, j, select_less(m, half, xr, load(w.vr, j)))
-        store(w.vi, j, select_less(m, half, xi, load(w.vi, j)))
+        sr = fnma(ai, ai, ar * ar)
+        si = two * ar * ai
+        re = fma(si, di, sr * dr) * inverse
+        im = fnma(sr, di, si * dr) * inverse
+        # Where the pole is near, or both coefficients are noise, the Taylor polynomial is safer.
+        re = select_less(q2, limit * size, re, ar + qr)
+        im = select_less(q2, limit * size, im, ai + qi)
+        for k in range(order - 2, -1, -1):
+            x = load(w.base, 2 * n * k + j) + fnma(hi, im, hr * re)
+            im = load(w.base, 2 * n * k + n + j) + fma(hi, re, hr * im)
+            re = x
+        store(w.vr, j, select_less(m, half, re, load(w.vr, j)))
+        store(w.vi, j, select_less(m, half, im, load(w.vi, j)))
 
 
 @numba.njit(nogil=True)
@@ -111,20 +106,18 @@ def _correct(s, w, norms, k):
 
 
 @numba.njit(nogil=True)
-def _keep(s, w, order, jr, ji, norms):
-    """Keep the solution as Taylor coefficient of that order; squared norm of it."""
+def _measure(s, w, order):
+    """Squared norm of the Taylor coefficient in the right-hand side."""
     total = splat(0.0)
     for j in range(s.N):
         x = load(w.br, j)
         y = load(w.bi, j)
-        store(jr, j, x)
-        store(ji, j, y)
         total = fma(x, x, fma(y, y, total))
-    store(norms, 2 + order, total)
+    store(w.norms, 1 + order, total)
 
 
 @numba.njit(nogil=True)
-def _newton_and_jets(s, w, norms):
+def _newton_and_jets(s, w, order):
     """One Newton step, one simplified one, and the Taylor coefficients of the path."""
     n = s.N
     normalize(s, w)
@@ -134,48 +127,43 @@ def _newton_and_jets(s, w, norms):
     jacobian(s, w)
     factorize(n, w.jr, w.ji, w.pivots)
     substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
-    _correct(s, w, norms, 0)
+    _correct(s, w, w.norms, 0)
     products(s, w, 0, s.value_products)
     values(s, w)
     substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
     # The slots stay those of the point before this correction, which is far smaller than the
     # error of the Taylor coefficients.
-    _correct(s, w, norms, 1)
-    _right_side(s, w, w.vr, w.vi, w.vr, w.vi, False)
-    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
-    _keep(s, w, 1, w.v1r, w.v1i, norms)
-    _slot_jet_1(s, w)
-    _clear(n, w.v2r, w.v2i)
-    _slot_jet_2(s, w)
-    _right_side(s, w, w.v2r, w.v2i, w.v1r, w.v1i, True)
-    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
-    _keep(s, w, 2, w.v2r, w.v2i, norms)
-    _slot_jet_2(s, w)
-    _clear(n, w.v3r, w.v3i)
-    _slot_jet_3(s, w)
-    _right_side(s, w, w.v3r, w.v3i, w.v2r, w.v2i, True)
-    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
-    _keep(s, w, 3, w.v3r, w.v3i, norms)
+    _correct(s, w, w.norms, 1)
+    for k in range(1, order + 1):
+        if k > 1:
+            incomplete_slots(s, w, k)
+        right_side(s, w, k)
+        substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+        _measure(s, w, k)
+        complete_slots(s, w, k)
 
 
 @numba.njit(nogil=True)
-def _accept(s, w, accepted):
+def _accept(s, w, order):
+    """Make the current points and Taylor coefficients the base, in the lanes accepted."""
     n = s.N
     half = splat(0.5)
-    a = load(accepted, 0)
+    a = load(w.accepted, 0)
+    size = n + 1 + s.value_products
     for j in range(n):
         store(w.base, j, select_less(half, a, load(w.vr, j), load(w.base, j)))
         store(w.base, n + j, select_less(half, a, load(w.vi, j), load(w.base, n + j)))
-        store(w.base, 2 * n + j, select_less(half, a, load(w.v1r, j), load(w.base, 2 * n + j)))
-        store(w.base, 3 * n + j, select_less(half, a, load(w.v1i, j), load(w.base, 3 * n + j)))
-        store(w.base, 4 * n + j, select_less(half, a, load(w.v2r, j), load(w.base, 4 * n + j)))
-        store(w.base, 5 * n + j, select_less(half, a, load(w.v2i, j), load(w.base, 5 * n + j)))
-        store(w.base, 6 * n + j, select_less(half, a, load(w.v3r, j), load(w.base, 6 * n + j)))
-        store(w.base, 7 * n + j, select_less(half, a, load(w.v3i, j), load(w.base, 7 * n + j)))
+    for k in range(1, order + 1):
+        top = 2 * n * k
+        for j in range(n):
+            q = (k - 1) * size + j
+            store(w.base, top + j, select_less(half, a, load(w.cr, q), load(w.base, top + j)))
+            q_im = top + n + j
+            store(w.base, q_im, select_less(half, a, load(w.ci, q), load(w.base, q_im)))
 
 
 # Rows of the lanes' scalars.
-T_RE, T_IM, GOAL_RE, GOAL_IM, H, H_USED, FIRST, ACCURACY, RADIUS = range(9)
+T_RE, T_IM, GOAL_RE, GOAL_IM, H, H_USED, FIRST, THETA, ACCURACY, RADIUS = range(10)
 # Rows of the lanes' counters.
 PATH, ROUNDS, TAKEN, REJECTED, STATE = range(5)
 
@@ -220,6 +208,8 @@ def track_batch(
     scratch,
     e,
     parameters,
+    order,
+    max_steps,
     starts,
     first,
     stride,
@@ -231,11 +221,12 @@ def track_batch(
     reason,
 ):
     """Track the paths ``first, first + stride, ..`` of ``starts``; results into the arrays."""
-    tolerance, newton, floor, radius_factor, safety, max_steps = parameters
+    tolerance_main, newton_main, newton_end, floor, radius_factor, safety, theta_max = parameters
     s, w = bare(arrays, scratch)
     n = s.N
     count = len(starts)
-    f = np.zeros((9, 8))
+    f = np.zeros((10, 8))
+    power = 1.0 / (order + 1)
     c = np.zeros((5, 8), dtype=np.int64)
     norms = w.norms
     mode = w.mode
@@ -279,8 +270,8 @@ def track_batch(
             elif state == 1:
                 w.tr[lane] = f[T_RE, lane]
                 w.ti[lane] = f[T_IM, lane]
-        _predict(s, w, mode, zr, zi)
-        _newton_and_jets(s, w, norms)
+        _predict(s, w, order)
+        _newton_and_jets(s, w, order)
         for lane in range(8):
             accepted[lane] = 0.0
             state = c[STATE, lane]
@@ -290,6 +281,9 @@ def track_batch(
             n0 = norms[lane] ** 0.5
             n1 = norms[8 + lane] ** 0.5
             ending = e.whole[lane, PHASE] != MAIN
+            tolerance = min(tolerance_main, 1e-4) if ending else tolerance_main
+            arriving = w.tr[lane] == f[GOAL_RE, lane] and w.ti[lane] == f[GOAL_IM, lane]
+            newton = newton_end if ending or arriving or state == 1 else newton_main
             finite = n0 < 1e100 and n1 < 1e100
             ok = finite
             if finite:
@@ -297,8 +291,9 @@ def track_batch(
                 left = min(theta, 1.0) * n1
                 if state == 0:
                     f[FIRST, lane] = n0
+                    f[THETA, lane] = theta if n1 > 1e-11 else 0.0
                     c[ROUNDS, lane] = 0
-                    ok = n0 <= tolerance and (theta <= 0.25 or n1 <= 1e-11)
+                    ok = n0 <= tolerance and (theta <= theta_max or n1 <= 1e-11)
                 else:
                     c[ROUNDS, lane] += 1
                     ok = n0 <= 0.1 and (theta <= 0.5 or n1 <= floor)
@@ -311,20 +306,21 @@ def track_batch(
                 f[ACCURACY, lane] = left if left > 1e-15 else 1e-15
                 if c[ROUNDS, lane] >= 3 and n1 > f[ACCURACY, lane]:
                     f[ACCURACY, lane] = n1
-                x1 = norms[24 + lane] ** 0.5
-                x2 = norms[32 + lane] ** 0.5
-                x3 = norms[40 + lane] ** 0.5
+                last = norms[8 * (order + 1) + lane] ** 0.5
                 radius = 1e6
-                if x3 > 0.0:
-                    radius = min(radius, max(x2 / x3, (x1 / x3) ** 0.5))
+                if last > 0.0:
+                    second = norms[8 * order + lane] ** 0.5
+                    third = norms[8 * (order - 1) + lane] ** 0.5
+                    radius = min(radius, max(second / last, (third / last) ** 0.5))
                 f[RADIUS, lane] = radius
-                guess = (safety * tolerance * radius / x3) ** 0.25 if x3 > 0.0 else 1e6
-                h = min(radius_factor * radius, guess)
-                if state != 1:
-                    used = f[H_USED, lane]
-                    aim = safety * tolerance
-                    ratio = (aim / max(f[FIRST, lane], 1e-300)) ** 0.25
-                    h = min(radius_factor * radius, used * min(ratio, 4.0))
+                aim = safety * tolerance
+                if state == 1:
+                    h = (aim * radius / last) ** power if last > 0.0 else 1e6
+                else:
+                    n0 = max(f[FIRST, lane], 1e-300)
+                    aim = min(aim, 0.3 * theta_max / max(f[THETA, lane], 1e-300) * n0)
+                    h = f[H_USED, lane] * min((aim / n0) ** power, 4.0)
+                h = min(radius_factor * radius, h)
                 f[H, lane] = h
                 f[T_RE, lane] = w.tr[lane]
                 f[T_IM, lane] = w.ti[lane]
@@ -340,7 +336,7 @@ def track_batch(
                 c[REJECTED, lane] += 1
                 shrink = 0.5
                 if finite and state == 0 and f[FIRST, lane] > tolerance:
-                    shrink = (safety * tolerance / f[FIRST, lane]) ** 0.25
+                    shrink = (safety * tolerance / f[FIRST, lane]) ** power
                     shrink = min(max(shrink, 0.1), 0.6)
                 f[H, lane] = f[H_USED, lane] * shrink
                 c[STATE, lane] = 0
@@ -348,17 +344,18 @@ def track_batch(
                 if not f[H, lane] > 1e-10 * size:
                     c[STATE, lane] = -2
                     reason[c[PATH, lane]] = STEP_SIZE if finite else NOT_FINITE
-            if c[TAKEN, lane] >= max_steps and accepted[lane] < 0.5 and c[STATE, lane] >= 0:
+            if c[TAKEN, lane] >= max_steps and c[STATE, lane] >= 0:
+                accepted[lane] = 0.0
                 c[STATE, lane] = -2
                 reason[c[PATH, lane]] = STEPS
             if e.whole[lane, PHASE] == SHORTCUT:
                 e.whole[lane, SHORT_STEPS] += 1
-                if (e.whole[lane, SHORT_STEPS] > 12 and accepted[lane] < 0.5) or c[
+                if (e.whole[lane, SHORT_STEPS] > 30 and accepted[lane] < 0.5) or c[
                     STATE, lane
                 ] == -2:
                     accepted[lane] = 0.0
                     c[STATE, lane] = -3
-        _accept(s, w, accepted)
+        _accept(s, w, order)
         for lane in range(8):
             state = c[STATE, lane]
             if state == -1:
@@ -425,9 +422,11 @@ def _example() -> tuple:
     whole = np.zeros(1, dtype=np.int64)
     return (
         system(homotopy),
-        work(homotopy),
+        work(homotopy, 3),
         endgame_state(2, 1, True, True, 0.1, 8, 2, 2),
-        (1e-4, 1e-9, 1e-6, 0.5, 0.2, 100.0),
+        (1e-4, 1e-7, 1e-9, 1e-6, 0.5, 0.2, 0.1),
+        3,
+        100,
         one,
         0,
         1,

@@ -12,7 +12,11 @@ class Settings:
     Attributes:
         tolerance: largest first Newton correction after a prediction, relative to the point; the
             tests that saw no path jump used at most 1e-4.
-        newton: estimated relative error at which the corrector stops.
+        newton: estimated relative error at which the corrector stops between the ends.
+        newton_end: the same where a path arrives and within the endgame.
+        contraction: largest ratio of the second to the first Newton correction after a prediction;
+            it bounds the part that the first one takes of the distance to any other path.
+        order: of the Taylor coefficients.
         floor: relative Newton correction that is still accepted where rounding lets nothing
             smaller be reached.
         radius_factor: largest step as part of the radius of convergence that the Taylor
@@ -28,7 +32,10 @@ class Settings:
     """
 
     tolerance: float = 1e-4
-    newton: float = 1e-9
+    newton: float = 1e-7
+    newton_end: float = 1e-9
+    contraction: float = 0.1
+    order: int = 3
     floor: float = 1e-6
     radius_factor: float = 0.5
     safety: float = 0.2
@@ -44,7 +51,7 @@ class Settings:
 NAMED = {
     "fast": Settings(tolerance=1e-3, radius_factor=0.65, safety=0.3),
     "default": Settings(),
-    "careful": Settings(tolerance=1e-6, radius_factor=0.35, newton=1e-10, max_steps=20000),
+    "careful": Settings(tolerance=1e-6, radius_factor=0.35, newton=1e-9, max_steps=20000),
 }
 
 
@@ -68,7 +75,9 @@ def tighter(settings: Settings) -> Settings:
     return replace(
         settings,
         tolerance=settings.tolerance * 1e-2,
-        newton=max(settings.newton * 1e-1, 1e-12),
+        newton=max(settings.newton * 1e-1, 1e-10),
+        newton_end=max(settings.newton_end * 1e-1, 1e-12),
+        contraction=settings.contraction * 0.5,
         radius_factor=settings.radius_factor * 0.6,
         max_steps=settings.max_steps * 4,
         endgame_radius=settings.endgame_radius * 0.3,

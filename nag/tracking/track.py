@@ -113,10 +113,11 @@ def _run(
     parameters = (
         settings.tolerance,
         settings.newton,
+        settings.newton_end,
         settings.floor,
         settings.radius_factor,
         settings.safety,
-        float(settings.max_steps),
+        settings.contraction,
     )
 
     def batch(first: int) -> None:
@@ -132,9 +133,11 @@ def _run(
         )
         run(
             arrays,
-            jets.work(homotopy),
+            jets.work(homotopy, settings.order),
             state,
             parameters,
+            settings.order,
+            settings.max_steps,
             starts,
             first,
             batches,
