@@ -1,0 +1,176 @@
+"""Singular end points: sharpened by deflation, and told apart into isolated ones and others.
+
+References:
+    Leykin, Verschelde & Zhao, Newton's method with deflation for isolated singularities, 2006;
+    Hauenstein & Wampler, Isosingular sets and deflation, 2013.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.tracking.local_ring import corank_at, local_dimension
+
+MOST_DEFLATIONS = 4
+MOST_UNKNOWNS = 80
+NEWTON_STEPS = 12
+# Distances, relative to the point, at which further points of the solution set are looked for.
+NEARBY = (0.02, 0.07)
+
+
+class Place(Enum):
+    """How a zero lies in the solution set."""
+
+    ISOLATED = "isolated"
+    ON_COMPONENT = "on a component of positive dimension"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, eq=False)
+class SingularEnd:
+    """A singular zero: the sharpened point, where it lies, and its multiplicity if isolated."""
+
+    point: np.ndarray
+    place: Place
+    multiplicity: int
+    accuracy: float
+    condition: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Newton:
+    z: np.ndarray
+    step: float
+    condition: float
+    regular: bool
+
+
+def _gauss_newton(evaluator: Evaluator, z: np.ndarray) -> _Newton:
+    step = np.inf
+    for _ in range(NEWTON_STEPS):
+        jacobian = evaluator.jacobian(z)
+        delta, *_ = np.linalg.lstsq(jacobian, evaluator.values(z[None])[0], rcond=1e-14)
+        z = z - delta
+        last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
+        if not np.isfinite(step) or step > 1.0:
+            return _Newton(z, np.inf, np.inf, False)
+        if step < 1e-15 or (step < 1e-12 and step >= last):
+            break
+    s = np.linalg.svd(evaluator.jacobian(z), compute_uv=False)
+    square = len(s) == len(z)
+    residual = float(evaluator.residuals(z[None]).max(initial=0.0))
+    regular = square and step < 1e-11 and residual < 1e-12 and s[-1] > max(1e4 * step, 1e-9) * s[0]
+    return _Newton(z, step, float(s[0] / max(s[-1], 1e-300)), bool(regular))
+
+
+def _deflated(
+    polynomials: Sequence[Polynomial], n: int, q1: np.ndarray, q2: np.ndarray
+) -> list[Polynomial]:
+    """The polynomials and ``J (q1 + q2 L) = 0``, exact, in the variables ``(z, L)``."""
+    m, k = q1.shape[1], q2.shape[1]
+    total = n + m * k
+    unknowns = Polynomial.variables(total)[n:]
+    result = [f.with_variables(total, range(n)) for f in polynomials]
+    for f in polynomials:
+        gradient = [f.derivative(i).with_variables(total, range(n)) for i in range(n)]
+        for column in range(m):
+            value = Polynomial(total, {})
+            for i, derivative in enumerate(gradient):
+                if derivative:
+                    entry = Polynomial.constant(total, Fraction(q1[i, column]))
+                    for j in range(k):
+                        entry = entry + unknowns[column * k + j] * Fraction(q2[i, j])
+                    value = value + derivative * entry
+            if value:
+                result.append(value)
+    return result
+
+
+def sharpened(
+    polynomials: Sequence[Polynomial], x: np.ndarray, accuracy: float, rng: np.random.Generator
+) -> _Newton | None:
+    """The zero near ``x`` as a regular zero of a deflation; None if none was found."""
+    n = len(x)
+    polynomials, z = list(polynomials), x
+    for _ in range(MOST_DEFLATIONS + 1):
+        evaluator = Evaluator.of(polynomials, len(z))
+        found = _gauss_newton(evaluator, z)
+        moved = np.linalg.norm(found.z[:n] - x) / (1 + np.linalg.norm(x))
+        if found.regular and moved < max(1e3 * accuracy, 1e-7):
+            return _Newton(found.z[:n], found.step, found.condition, True)
+        jacobian = evaluator.jacobian(z)
+        s = np.linalg.svd(jacobian, compute_uv=False)
+        m = corank_at(s, len(z), accuracy)
+        if m == 0 or len(z) + m * (len(z) - m) > MOST_UNKNOWNS:
+            return None
+        # Dyadic numbers, so that the deflated system is exact.
+        q = np.rint(64 * np.linalg.qr(rng.normal(size=(len(z), len(z))))[0]) / 64
+        q1, q2 = q[:, :m], q[:, m:]
+        unknowns, *_ = np.linalg.lstsq(jacobian @ q2, -jacobian @ q1, rcond=None)
+        polynomials = _deflated(polynomials, len(z), q1, q2)
+        z = np.concatenate([z, unknowns.T.ravel()])
+    return None
+
+
+def has_neighbours(
+    evaluator: Evaluator, x: np.ndarray, accuracy: float, rng: np.random.Generator
+) -> bool:
+    """Whether zeros are found on random hyperplanes that pass near the zero ``x``.
+
+    Gauss-Newton finds them if ``x`` lies on a curve; near an isolated zero of order k the values
+    at distance r are of the size of r^k, which is no rounding error for k below 10.
+    """
+    _, s, vh = np.linalg.svd(evaluator.jacobian(x))
+    m = max(1, corank_at(s, len(x), accuracy))
+    null = vh[len(x) - m :].conj().T
+    size = 1 + np.linalg.norm(x)
+    for radius in NEARBY:
+        for _ in range(3):
+            v = null @ (rng.normal(size=m) + 1j * rng.normal(size=m))
+            v /= np.linalg.norm(v)
+            if _zero_on(evaluator, x, v, radius * size):
+                break
+        else:
+            return False
+    return True
+
+
+def _zero_on(evaluator: Evaluator, x: np.ndarray, v: np.ndarray, distance: float) -> bool:
+    y = x + distance * v
+    with np.errstate(all="ignore"):
+        for _ in range(40):
+            matrix = np.vstack([evaluator.jacobian(y), v.conj()[None]])
+            right = np.append(evaluator.values(y[None])[0], v.conj() @ (y - x) - distance)
+            delta, *_ = np.linalg.lstsq(matrix, right, rcond=1e-7)
+            y = y - delta
+            if not np.linalg.norm(y - x) < 10 * distance:
+                return False
+            if np.linalg.norm(delta) < 1e-15 * (1 + np.linalg.norm(y)):
+                break
+    residual = float(evaluator.residuals(y[None]).max(initial=0.0))
+    return residual < 3e-15 and bool(abs(v.conj() @ (y - x) - distance) < 1e-9 * distance)
+
+
+def analyse(
+    polynomials: Sequence[Polynomial], x: np.ndarray, accuracy: float, rng: np.random.Generator
+) -> SingularEnd:
+    """Sharpen a singular end point and decide whether it is isolated."""
+    evaluator = Evaluator.of(polynomials, len(x))
+    if has_neighbours(evaluator, x, accuracy, rng):
+        return SingularEnd(x, Place.ON_COMPONENT, 0, accuracy, np.inf)
+    found = sharpened(polynomials, x, accuracy, rng)
+    if found is None:
+        return SingularEnd(x, Place.UNDECIDED, 0, accuracy, np.inf)
+    dimension = local_dimension(evaluator, found.z, max(1e3 * found.step, 1e-12))
+    if dimension is None:
+        return SingularEnd(found.z, Place.UNDECIDED, 0, found.step, found.condition)
+    return SingularEnd(
+        found.z, Place.ISOLATED, dimension, max(found.step, 1e-16), found.condition
+    )

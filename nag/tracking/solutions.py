@@ -1,0 +1,111 @@
+"""What solving a polynomial system gives: isolated solutions, and what became of the paths."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """One isolated solution.
+
+    Attributes:
+        point: complex, shape ``(n,)``, in the order of the system's variables.
+        multiplicity: dimension of the local ring, equal to the number of paths that end there.
+        real: whether the point is real to within its accuracy.
+        residual: largest value of an equation at the point over the size of its terms.
+        accuracy: estimated relative error of the point.
+        condition: condition number of the Jacobian that determines the point; of a multiple
+            solution that of the deflated system.
+        precision: decimal digits of the arithmetic that was needed.
+    """
+
+    point: np.ndarray
+    multiplicity: int
+    real: bool
+    residual: float
+    accuracy: float
+    condition: float
+    precision: int
+
+    def __post_init__(self) -> None:
+        point = np.array(self.point, dtype=np.complex128)
+        point.setflags(write=False)
+        object.__setattr__(self, "point", point)
+
+
+@dataclass(frozen=True)
+class PathStatistics:
+    """Numbers of paths by how they ended, and the steps that all of them took together."""
+
+    tracked: int = 0
+    regular: int = 0
+    singular: int = 0
+    at_infinity: int = 0
+    failed: int = 0
+    steps: int = 0
+
+    def __add__(self, other: PathStatistics) -> PathStatistics:
+        return PathStatistics(
+            *(getattr(self, f.name) + getattr(other, f.name) for f in fields(PathStatistics))
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class SolveResult:
+    """All isolated solutions of a system that were found.
+
+    Attributes:
+        system: what was solved.
+        solutions: the isolated solutions, each once.
+        on_components: end points on solution sets of positive dimension, shape ``(k, n)``.
+        undecided: end points that are solutions but may or may not be isolated, ``(k, n)``.
+        excluded: isolated solutions left out because one of `PolynomialSystem.nonzero` vanishes.
+        paths: what became of the paths of the last attempt, by status.
+        start: ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``, or
+            ``"none"`` where nothing had to be tracked.
+        reason: why that start system.
+        seed: seed of the random numbers.
+        settings: name of the tracking settings.
+        complete: whether nothing is known that speaks against a complete list.
+        notes: what a reader must know.
+    """
+
+    system: PolynomialSystem
+    solutions: tuple[Solution, ...]
+    on_components: np.ndarray
+    undecided: np.ndarray
+    excluded: int
+    paths: PathStatistics
+    start: str
+    reason: str
+    seed: int
+    settings: str
+    complete: bool
+    notes: tuple[str, ...] = ()
+
+    @property
+    def points(self) -> np.ndarray:
+        """The isolated solutions, shape ``(k, n)``."""
+        return np.array([s.point for s in self.solutions]).reshape(-1, self.system.n)
+
+    @property
+    def real(self) -> tuple[Solution, ...]:
+        """The real ones among the isolated solutions."""
+        return tuple(s for s in self.solutions if s.real)
+
+    @property
+    def positive_dimensional(self) -> bool:
+        """Whether the solution set has points that are not isolated."""
+        return len(self.on_components) > 0
+
+    def __repr__(self) -> str:
+        multiple = sum(s.multiplicity > 1 for s in self.solutions)
+        text = f"{len(self.solutions)} isolated solutions, {len(self.real)} real"
+        text += f", {multiple} multiple" if multiple else ""
+        text += ", and curves or surfaces" if self.positive_dimensional else ""
+        return f"SolveResult({text}{'' if self.complete else ', incomplete'})"

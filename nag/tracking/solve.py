@@ -1,0 +1,358 @@
+"""All isolated solutions of a polynomial system."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.settings import Settings, named
+from nag.tracking.singular_ends import Place, analyse
+from nag.tracking.solutions import PathStatistics, Solution, SolveResult
+from nag.tracking.start.choice import choose
+from nag.tracking.start.scaling import scaled_terms
+from nag.tracking.start.target import Start, Target
+from nag.tracking.track import track
+
+Progress = Callable[[str, int, int], None]
+
+# With new random constants if paths failed, or something else speaks against the answer.
+ATTEMPTS = 3
+# |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
+ON = 1e-9
+# End points that are closer than this (relative) are one; distinct solutions hardly ever are.
+SAME = 1e-8
+
+
+def solve(
+    system: PolynomialSystem,
+    *,
+    start: str = "auto",
+    seed: int = 0,
+    threads: int = 1,
+    settings: Settings | str = "default",
+    progress: Progress | None = None,
+) -> SolveResult:
+    """All isolated solutions of ``system``, each once, with their multiplicities.
+
+    Args:
+        system: what to solve; its ``groups`` are tried among the multihomogeneous structures.
+        start: ``"auto"`` (the fewest paths), ``"total"``, ``"multihomogeneous"``,
+            ``"polyhedral"`` or ``"monodromy"``.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: number of threads.
+        settings: tracking settings.
+        progress: called with a stage, the work done and the whole work.
+
+    Raises:
+        nag.tracking.start.target.StartError: if there would be too many paths.
+        ValueError: if there is no such start system or no settings of that name.
+    """
+    named(settings)
+    name = settings if isinstance(settings, str) else "custom"
+    rng = np.random.default_rng(seed)
+    equations = [f for f in system.polynomials if f]
+    if any(f.degree == 0 for f in equations) or system.n == 0:
+        return _nothing(system, seed, name)
+    problem = _Problem.of(system, equations, rng)
+    result: SolveResult | None = None
+    for attempt in range(ATTEMPTS):
+        if progress:
+            progress("solve", attempt, ATTEMPTS)
+        begin, reason = choose(problem.target, start, system.groups, rng, settings, threads)
+        tracking = "careful" if attempt and settings == "default" else settings
+        paths = track(begin.homotopy, begin.points, tracking, threads)
+        found = _result(problem, begin, reason, paths, rng, seed, name)
+        if result is None or _doubts(found) < _doubts(result):
+            result = found
+        if result.complete:
+            break
+    assert result is not None
+    return result
+
+
+def _doubts(result: SolveResult) -> tuple[bool, int, int]:
+    return not result.complete, result.paths.failed, len(result.undecided)
+
+
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    """A system, the square one that is tracked, and both in scaled variables.
+
+    Attributes:
+        equations: the system's equations in the scaled variables.
+        nonzero: what must not vanish, in the scaled variables.
+        added: number of random linear equations that cut a solution set of positive dimension.
+        squared: whether the square system has solutions that the equations have not.
+    """
+
+    system: PolynomialSystem
+    equations: tuple[Polynomial, ...]
+    nonzero: Evaluator
+    target: Target
+    added: int
+    squared: bool
+
+    @classmethod
+    def of(
+        cls, system: PolynomialSystem, equations: Sequence[Polynomial], rng: np.random.Generator
+    ) -> _Problem:
+        n = system.n
+        added = max(0, n - len(equations))
+        slices = [_random_linear(n, rng) for _ in range(added)]
+        square = _squared([*equations, *slices], n, rng)
+        target = Target.of(square, n)
+        scales = np.array(target.scales, dtype=np.int64)
+
+        def scaled(f: Polynomial) -> Polynomial:
+            return Polynomial(n, scaled_terms(f, scales))
+
+        nonzero = Evaluator.of([scaled(f) for f in system.nonzero], n)
+        mended = tuple(scaled(f) for f in [*equations, *slices])
+        return cls(system, mended, nonzero, target, added, len(equations) > n)
+
+
+def _random_linear(n: int, rng: np.random.Generator) -> Polynomial:
+    weights = [Fraction(int(w), 128) for w in rng.integers(-128, 129, n + 1)]
+    terms = {(0,) * n: weights[n]}
+    for i in range(n):
+        terms[tuple(int(j == i) for j in range(n))] = weights[i] or Fraction(1)
+    return Polynomial(n, terms)
+
+
+def _squared(
+    polynomials: list[Polynomial], n: int, rng: np.random.Generator
+) -> list[Polynomial]:
+    """``n`` polynomials: those of highest degree, each with multiples of the others added."""
+    if len(polynomials) == n:
+        return polynomials
+    order = sorted(range(len(polynomials)), key=lambda i: (-polynomials[i].degree, i))
+    kept, rest = order[:n], order[n:]
+    result = []
+    for i in kept:
+        total = polynomials[i]
+        size = _largest(total)
+        for j in rest:
+            weight = Fraction(int(rng.integers(64, 192)) * int(rng.choice([-1, 1])), 128)
+            total = total + polynomials[j] * (weight * size / _largest(polynomials[j]))
+        result.append(total)
+    return result
+
+
+def _largest(f: Polynomial) -> Fraction:
+    return Fraction(max(abs(float(c)) for c in f.terms.values()))
+
+
+def _nothing(system: PolynomialSystem, seed: int, settings: str) -> SolveResult:
+    empty = np.zeros((0, system.n), dtype=complex)
+    contradiction = any(f.degree == 0 for f in system.polynomials)
+    solutions = ()
+    if not contradiction:
+        solutions = (Solution(np.zeros(0), 1, True, 0.0, 0.0, 1.0, 16),)
+    reason = "an equation is a constant that is not zero" if contradiction else "no variables"
+    return SolveResult(
+        system, solutions, empty, empty, 0, PathStatistics(), "none", reason, seed, settings, True
+    )
+
+
+def _result(
+    problem: _Problem,
+    begin: Start,
+    reason: str,
+    paths: Paths,
+    rng: np.random.Generator,
+    seed: int,
+    settings: str,
+) -> SolveResult:
+    ends = _Ends.of(problem, begin, paths, rng)
+    counts = PathStatistics(
+        len(paths),
+        *(len(paths.where(status)) for status in PathStatus),
+        int(paths.steps.sum()),
+    )
+    notes = list(ends.notes)
+    if counts.failed:
+        causes = ", ".join(f"{k} because {why}" for why, k in paths.failures.items())
+        notes.append(f"{counts.failed} of {counts.tracked} paths failed: {causes}")
+    complete = begin.complete and not notes
+    if len(ends.on_components):
+        notes.append(
+            f"the solution set has positive dimension; {len(ends.on_components)} end points lie "
+            "on it and are no isolated solutions"
+        )
+    elif problem.added:
+        notes.append(
+            f"fewer equations than variables: no solution is isolated, and none was found where "
+            f"{problem.added} random linear equations are added"
+        )
+    factors = problem.target.factors
+    return SolveResult(
+        system=problem.system,
+        solutions=tuple(replace(s, point=s.point * factors) for s in ends.solutions),
+        on_components=ends.on_components * factors,
+        undecided=ends.undecided * factors,
+        excluded=ends.excluded,
+        paths=counts,
+        start=begin.name,
+        reason=reason,
+        seed=seed,
+        settings=settings,
+        complete=complete,
+        notes=tuple(notes),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Ends:
+    """The end points of all paths, sorted; coordinates are those of the scaled variables."""
+
+    solutions: tuple[Solution, ...]
+    on_components: np.ndarray
+    undecided: np.ndarray
+    excluded: int
+    notes: tuple[str, ...]
+
+    @classmethod
+    def of(
+        cls, problem: _Problem, begin: Start, paths: Paths, rng: np.random.Generator
+    ) -> _Ends:
+        evaluator = Evaluator.of(problem.equations, problem.system.n)
+        finite = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
+        points = begin.affine(paths.points[finite])
+        accuracy = paths.accuracy[finite]
+        on = (evaluator.residuals(points) < np.maximum(ON, accuracy)[:, None]).all(axis=1)
+        finite, points, accuracy = finite[on], points[on], accuracy[on]
+        regular = paths.status[finite] == PathStatus.REGULAR
+        notes: list[str] = []
+        solutions: list[Solution] = []
+        on_components: list[np.ndarray] = []
+        undecided: list[np.ndarray] = []
+        for group in clusters(points, accuracy):
+            best = group[int(np.argmin(accuracy[group]))]
+            x, error = points[best], float(accuracy[best])
+            if problem.added:
+                on_components.append(x)
+                continue
+            if regular[best]:
+                if len(group) > 1:
+                    notes.append(f"{len(group)} paths end at one regular solution")
+                multiplicity, condition = 1, float(paths.condition[finite[best]])
+            else:
+                end = analyse(problem.equations, x, error, rng)
+                if end.place is Place.ON_COMPONENT:
+                    on_components.extend(points[group])
+                    continue
+                if end.place is Place.UNDECIDED:
+                    undecided.extend(points[group])
+                    continue
+                x, error, multiplicity, condition = (
+                    end.point,
+                    end.accuracy,
+                    end.multiplicity,
+                    end.condition,
+                )
+                if begin.complete and not problem.squared and multiplicity != len(group):
+                    notes.append(
+                        f"{len(group)} paths end at a solution of multiplicity {multiplicity}"
+                    )
+            solutions.append(
+                Solution(
+                    x,
+                    multiplicity,
+                    bool(np.abs(x.imag).max() <= max(1e2 * error, 1e-10) * (1 + np.abs(x).max())),
+                    float(evaluator.residuals(x[None]).max()),
+                    error,
+                    condition,
+                    int(paths.precision[finite[best]]),
+                )
+            )
+        kept = [s for s in solutions if not _vanishes(problem.nonzero, s)]
+        if undecided:
+            notes.append(f"{len(undecided)} end points may or may not be isolated")
+        if not symmetric(solutions):
+            notes.append("the conjugate of a solution is missing")
+        return cls(
+            tuple(kept),
+            np.array(on_components).reshape(-1, problem.system.n),
+            np.array(undecided).reshape(-1, problem.system.n),
+            len(solutions) - len(kept),
+            tuple(notes),
+        )
+
+
+def _vanishes(nonzero: Evaluator, solution: Solution) -> bool:
+    if not len(nonzero.coefficients):
+        return False
+    residuals = nonzero.residuals(solution.point[None])
+    return bool(residuals.min() < max(1e-8, 1e2 * solution.accuracy))
+
+
+def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
+    """Indices of points that coincide within their errors, a cluster each, in the points' order."""
+    count = len(points)
+    sizes = 1 + np.linalg.norm(points, axis=1)
+    tolerance = np.maximum(SAME, 1e2 * accuracy) * sizes
+    # A fixed projection sorts the points; equal ones are neighbours in it.
+    weights = np.exp(1j * np.arange(1, points.shape[1] + 1) ** 2)
+    key = (points @ weights).real if count else np.zeros(0)
+    spread = float(np.sqrt(points.shape[1]))
+    order = np.argsort(key, kind="stable")
+    label = np.arange(count)
+
+    def root(i: int) -> int:
+        while label[i] != i:
+            label[i] = label[label[i]]
+            i = label[i]
+        return i
+
+    widest = float(tolerance.max(initial=0.0))
+    for a, i in enumerate(order):
+        for j in order[a + 1 :]:
+            if key[j] - key[i] > spread * min(widest, 2 * max(tolerance[i], SAME) + widest):
+                break
+            if np.linalg.norm(points[i] - points[j]) <= max(tolerance[i], tolerance[j]):
+                first, second = sorted((root(i), root(j)))
+                label[second] = first
+    groups: dict[int, list[int]] = {}
+    for i in range(count):
+        groups.setdefault(root(i), []).append(i)
+    return [np.array(g) for g in groups.values()]
+
+
+def symmetric(solutions: Sequence[Solution]) -> bool:
+    """Whether the conjugate of each solution is one too, with the same multiplicity."""
+    others = [s for s in solutions if not s.real]
+    if not others:
+        return True
+    points = np.array([s.point for s in others])
+    keys = {}
+    for s in others:
+        keys.setdefault(s.multiplicity, []).append(s)
+    for alike in keys.values():
+        points = np.array([s.point for s in alike])
+        errors = np.array([s.accuracy for s in alike])
+        sizes = 1 + np.linalg.norm(points, axis=1)
+        weights = np.exp(1j * np.arange(1, points.shape[1] + 1) ** 2)
+        # Real parts are shared by conjugate points; sort by them.
+        key = points.real @ weights.real
+        order = np.argsort(key, kind="stable")
+        taken = np.zeros(len(points), dtype=bool)
+        for a, i in enumerate(order):
+            if taken[i]:
+                continue
+            for j in order[a + 1 :]:
+                limit = max(SAME, 1e2 * (errors[i] + errors[j])) * sizes[i]
+                if key[j] - key[i] > limit * np.sqrt(points.shape[1]):
+                    break
+                if not taken[j] and np.linalg.norm(points[i] - points[j].conj()) <= limit:
+                    taken[i] = taken[j] = True
+                    break
+            if not taken[i]:
+                return False
+    return True

@@ -1,0 +1,89 @@
+"""The start system with the fewest paths."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nag.tracking.settings import Settings
+from nag.tracking.start.multihomogeneous import (
+    MOST_TERMS,
+    Groups,
+    best_groups,
+    multihomogeneous,
+    terms_of_start,
+)
+from nag.tracking.start.target import Start, StartError, Target, group_degrees
+from nag.tracking.start.total_degree import bezout, total_degree
+
+KINDS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy")
+# So few paths are tracked in less time than another start system takes to be found.
+FEW = 300
+
+
+def choose(
+    target: Target,
+    kind: str,
+    given: Groups,
+    rng: np.random.Generator,
+    settings: Settings | str,
+    threads: int,
+) -> tuple[Start, str]:
+    """A start system of the ``kind`` asked for, and why that one, in one sentence.
+
+    Raises:
+        StartError: if there is none, or it would have too many paths.
+        ValueError: if there is no such kind.
+    """
+    if kind not in KINDS:
+        raise ValueError(f"no start system {kind!r}; there are {', '.join(KINDS)}")
+    total = bezout(target)
+    if kind == "total":
+        return total_degree(target, rng), f"total degree, as asked: {_paths(total)}"
+    if kind in ("polyhedral", "monodromy"):
+        from nag.tracking.start.polyhedral import mixed_volume, polyhedral
+
+        volume = mixed_volume(target, rng)
+        start = polyhedral(target, volume, rng, settings, threads, kind)
+        return start, f"{kind}, as asked: {_paths(volume)}; {start.detail}"
+    groups, number = _usable_groups(target, given)
+    if kind == "multihomogeneous":
+        start = multihomogeneous(target, groups, rng)
+        return start, f"multihomogeneous, as asked: {_paths(number)} in {_groups(groups)}"
+    counts = [f"total degree {total}"]
+    if len(groups) > 1:
+        counts.append(f"multihomogeneous {number} in {_groups(groups)}")
+    least = min(total, number)
+    if least > FEW:
+        from nag.tracking.start.polyhedral import mixed_volume, polyhedral
+
+        try:
+            volume = mixed_volume(target, rng)
+            counts.append(f"mixed volume {volume}")
+            if 0 < volume < least:
+                start = polyhedral(target, volume, rng, settings, threads)
+                return start, f"polyhedral, the fewest paths: {', '.join(counts)}"
+        except StartError as error:
+            counts.append(str(error))
+    elif least > 1:
+        counts.append("so few that the mixed volume was not computed")
+    if number < total:
+        start = multihomogeneous(target, groups, rng)
+        return start, f"multihomogeneous, the fewest paths: {', '.join(counts)}"
+    return total_degree(target, rng), f"total degree, the fewest paths: {', '.join(counts)}"
+
+
+def _usable_groups(target: Target, given: Groups) -> tuple[Groups, int]:
+    groups, number = best_groups(target, given)
+    degrees = group_degrees(target.rows, groups)
+    if terms_of_start(degrees, [len(g) for g in groups]) > MOST_TERMS:
+        groups = (tuple(range(target.n)),)
+        number = bezout(target)
+    return groups, number
+
+
+def _paths(number: int) -> str:
+    return f"{number} path{'' if number == 1 else 's'}"
+
+
+def _groups(groups: Groups) -> str:
+    return "groups of " + ", ".join(str(len(g)) for g in groups)

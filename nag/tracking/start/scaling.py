@@ -1,0 +1,93 @@
+"""Scaling of variables and equations, so that the coefficients are of one size.
+
+Reference: Meintjes & Morgan, A methodology for solving chemical equilibrium systems, 1987 (SCL).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Exponents, Polynomial
+
+# Exponents beyond this would leave the range of doubles.
+LARGEST = 200
+# Weight of unscaled variables where the coefficients do not ask for a scale.
+INERTIA = 1e-2
+# Least over largest singular value of the coefficients of rows that are made orthogonal.
+DEPENDENT, NEARLY_ORTHOGONAL = 1e-12, 0.1
+
+
+def magnitude(c: Number | complex) -> float:
+    """The binary logarithm of ``|c|``; also beyond the range of doubles."""
+    if isinstance(c, Fraction):
+        shift = c.numerator.bit_length() - c.denominator.bit_length()
+        return shift + float(np.log2(abs(float(c / Fraction(2) ** shift))))
+    return float(np.log2(abs(complex(c))))
+
+
+def variable_scales(polynomials: Sequence[Polynomial], n: int) -> np.ndarray:
+    """Integers k, shape ``(n,)``: with ``x_i = 2^k_i y_i`` the coefficients vary the least.
+
+    The least squares problem of the logarithms of all coefficients, the equations free to be
+    scaled too.
+    """
+    rows: list[np.ndarray] = []
+    right: list[float] = []
+    for f in polynomials:
+        if len(f.terms) < 2:
+            continue
+        exponents = np.array(list(f.terms), dtype=float)
+        sizes = np.array([magnitude(c) for c in f.terms.values()])
+        rows.append(exponents - exponents.mean(axis=0))
+        right.extend(sizes.mean() - sizes)
+    if not rows:
+        return np.zeros(n, dtype=np.int64)
+    matrix = np.vstack([*rows, INERTIA * np.eye(n)])
+    solution, *_ = np.linalg.lstsq(matrix, np.concatenate([right, np.zeros(n)]), rcond=None)
+    return np.clip(np.rint(solution), -LARGEST, LARGEST).astype(np.int64)
+
+
+def scaled_terms(f: Polynomial, scales: np.ndarray) -> dict[Exponents, Number]:
+    """Terms of ``f`` in the scaled variables, divided by a power of two near the largest."""
+    shifts = {e: int(np.dot(e, scales)) for e in f.terms}
+    top = max((magnitude(c) + shifts[e] for e, c in f.terms.items()), default=0.0)
+    top = int(np.floor(top))
+    return {e: c * Fraction(2) ** (shifts[e] - top) for e, c in f.terms.items()}
+
+
+def independent_rows(
+    rows: Sequence[dict[Exponents, Number]],
+) -> tuple[dict[Exponents, Number], ...]:
+    """Rows that have the same monomials replaced by combinations with orthonormal coefficients.
+
+    The combinations are exact, so that the zeros stay as they are; rows that are nearly
+    orthogonal, or that depend on each other, are left alone.
+    """
+    alike: dict[frozenset[Exponents], list[int]] = {}
+    for i, row in enumerate(rows):
+        alike.setdefault(frozenset(row), []).append(i)
+    result = list(rows)
+    for support, indices in alike.items():
+        if not 1 < len(indices) <= len(support):
+            continue
+        if not all(isinstance(c, Fraction) for i in indices for c in rows[i].values()):
+            continue
+        monomials = sorted(support)
+        matrix = np.array([[float(rows[i][e]) for e in monomials] for i in indices])
+        singular = np.linalg.svd(matrix, compute_uv=False)
+        if not DEPENDENT < singular[-1] / singular[0] < NEARLY_ORTHOGONAL:
+            continue
+        lower = np.linalg.qr(matrix.T, mode="r").T
+        combine = np.linalg.inv(lower)
+        for i, weights in zip(indices, combine, strict=True):
+            exact = [Fraction(float(w)) for w in weights]
+            values = {
+                e: sum((w * rows[j][e] for w, j in zip(exact, indices, strict=True)), Fraction(0))
+                for e in monomials
+            }
+            result[i] = {e: c for e, c in values.items() if c}
+    return tuple(result)

@@ -1,0 +1,133 @@
+"""What a start system is made for: a square system, and what it hands to the tracker."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Exponents, Polynomial
+from nag.tracking.compiled import CompiledRows
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.start.scaling import independent_rows, scaled_terms, variable_scales
+
+Terms = Mapping[Exponents, Number | complex]
+
+
+class StartError(ValueError):
+    """A start system that cannot be had for a target; the message is one line."""
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """``n`` polynomials in ``n`` variables, as maps from exponents to exact or complex numbers.
+
+    Attributes:
+        n: number of variables and of polynomials.
+        rows: the terms, in variables ``y``.
+        scales: integers: the original variables are ``x_i = 2^scales[i] y_i``.
+    """
+
+    n: int
+    rows: tuple[Terms, ...]
+    scales: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.rows) != self.n:
+            raise ValueError(f"{len(self.rows)} polynomials in {self.n} variables are not square")
+
+    @classmethod
+    def of(cls, polynomials: Sequence[Polynomial], n: int) -> Target:
+        """The polynomials with variables and rows scaled by powers of two."""
+        scales = variable_scales(polynomials, n)
+        rows = independent_rows([scaled_terms(f, scales) for f in polynomials])
+        return cls(n, rows, tuple(scales.tolist()))
+
+    @property
+    def factors(self) -> np.ndarray:
+        """What the variables ``y`` are multiplied by to give the original ones, shape ``(n,)``."""
+        return np.exp2(self.scales or np.zeros(self.n))
+
+    @cached_property
+    def degrees(self) -> tuple[int, ...]:
+        """Total degrees."""
+        return tuple(max(map(sum, row), default=0) for row in self.rows)
+
+    @cached_property
+    def supports(self) -> tuple[np.ndarray, ...]:
+        """Exponents of each row together with the origin, each shape ``(terms, n)``.
+
+        With the origin, coefficients chosen at random have constant terms, and solutions with
+        coordinates that vanish are limits of solutions without such (Li & Wang 1996).
+        """
+        origin = (0,) * self.n
+        return tuple(
+            np.array(sorted({*row, origin}), dtype=np.int64).reshape(-1, self.n)
+            for row in self.rows
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A homotopy from a solved system to the target, and the solutions at t = 1.
+
+    Attributes:
+        name: ``"total"``, ``"multihomogeneous"``, ``"polyhedral"`` or ``"monodromy"``.
+        homotopy: from the start system (t = 1) to the target (t = 0).
+        points: start points, one for each path, shape ``(P, N)``.
+        groups: the groups of variables that were homogenised together.
+        complete: whether each isolated solution of the target is the end of as many paths as its
+            multiplicity is.
+        detail: how the start system came about, for the reader.
+    """
+
+    name: str
+    homotopy: Homotopy
+    points: np.ndarray
+    groups: tuple[tuple[int, ...], ...]
+    complete: bool = True
+    detail: str = ""
+
+    def affine(self, points: np.ndarray) -> np.ndarray:
+        """Values of the variables at projective points, shape ``(P, n)``."""
+        shift = len(self.groups)
+        n = self.homotopy.N - shift
+        result = np.empty((len(points), n), dtype=np.complex128)
+        for k, group in enumerate(self.groups):
+            indices = list(group)
+            result[:, indices] = points[:, [shift + i for i in indices]] / points[:, k : k + 1]
+        return result
+
+
+def homogenized(
+    rows: Iterable[Terms], n: int, groups: Sequence[Sequence[int]], degrees: np.ndarray
+) -> CompiledRows:
+    """Rows of the given degrees in the groups; the layout is that of `compile_rows`."""
+    shift = len(groups)
+    parts = []
+    for row, wanted in zip(rows, degrees, strict=True):
+        terms = {}
+        for e, c in row.items():
+            missing = tuple(
+                int(d) - sum(e[i] for i in g) for g, d in zip(groups, wanted, strict=True)
+            )
+            terms[missing + tuple(e)] = c
+        parts.append(((0, terms),))
+    coordinates = tuple((k, *(i + shift for i in g)) for k, g in enumerate(groups))
+    return CompiledRows(n + shift, tuple(parts), coordinates, tuple(range(shift)), degrees)
+
+
+def group_degrees(rows: Sequence[Terms], groups: Sequence[Sequence[int]]) -> np.ndarray:
+    """Degree of each row in each group, shape ``(rows, groups)``."""
+    return np.array(
+        [[max((sum(e[i] for i in g) for e in row), default=0) for g in groups] for row in rows],
+        dtype=np.int64,
+    ).reshape(len(rows), len(groups))
+
+
+def unit(rng: np.random.Generator, *shape: int) -> np.ndarray:
+    """Random complex numbers of absolute value 1."""
+    return np.exp(2j * np.pi * rng.random(shape))
