@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -37,13 +38,7 @@ class Evaluator:
         return cls(n, exponents, coefficients)
 
     def _monomials(self, points: np.ndarray) -> np.ndarray:
-        values = np.ones((len(points), len(self.exponents)), dtype=points.dtype)
-        for i in range(self.n):
-            top = int(self.exponents[:, i].max(initial=0))
-            if top:
-                powers = points[:, i, None] ** np.arange(top + 1)
-                values = values * powers[:, self.exponents[:, i]]
-        return values
+        return _powers(points, self.exponents)
 
     def values(self, points: np.ndarray) -> np.ndarray:
         """Values, shape ``(P, rows)``, at ``points`` of shape ``(P, n)``."""
@@ -62,22 +57,53 @@ class Evaluator:
         """Absolute values over sizes, shape ``(P, rows)``: 1e-16 is rounding at any scale."""
         return np.abs(self.values(points)) / self.sizes(points)
 
+    @cached_property
+    def _derivatives(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Exponents of the derivatives' monomials; place, monomial and factor of their terms."""
+        lowered: dict[tuple[int, ...], int] = {}
+        places, monomials, factors = [], [], []
+        for row, m in zip(*np.nonzero(self.coefficients), strict=True):
+            exponents = tuple(self.exponents[m].tolist())
+            for i in np.flatnonzero(self.exponents[m]):
+                less = (*exponents[:i], exponents[i] - 1, *exponents[i + 1 :])
+                places.append(row * self.n + i)
+                monomials.append(lowered.setdefault(less, len(lowered)))
+                factors.append(exponents[i] * self.coefficients[row, m])
+        table = np.array(list(lowered), dtype=np.int64).reshape(len(lowered), self.n)
+        return (
+            table,
+            np.array(places, dtype=np.int64),
+            np.array(monomials, dtype=np.int64),
+            np.array(factors, dtype=float),
+        )
+
     def jacobian(self, point: np.ndarray) -> np.ndarray:
         """Jacobian matrix, shape ``(rows, n)``, at one point."""
-        point = np.asarray(point, dtype=complex)
-        columns = []
-        for i in range(self.n):
-            k = self.exponents[:, i]
-            lowered = self.exponents.copy()
-            lowered[:, i] = np.maximum(k - 1, 0)
-            monomials = k * np.prod(point**lowered, axis=1)
-            columns.append(self.coefficients @ monomials)
-        return np.array(columns).T.reshape(len(self.coefficients), self.n)
+        table, places, monomials, factors = self._derivatives
+        values = _powers(np.asarray(point, dtype=complex)[None], table)[0]
+        terms = factors * values[monomials]
+        size = len(self.coefficients) * self.n
+        result = np.bincount(places, terms.real, size) + 1j * np.bincount(places, terms.imag, size)
+        return result.reshape(len(self.coefficients), self.n)
+
+    @cached_property
+    def degrees(self) -> np.ndarray:
+        """Total degrees of the rows, at least one."""
+        totals = self.exponents.sum(axis=1)
+        return np.array([totals[row != 0].max(initial=1) for row in self.coefficients], dtype=int)
 
     def balanced_jacobian(self, point: np.ndarray) -> np.ndarray:
         """The Jacobian with each row divided by the size that its degree lets it have."""
-        degrees = np.array(
-            [self.exponents[row != 0].sum(axis=1).max(initial=1) for row in self.coefficients]
-        ).reshape(-1, 1)
         size = max(1.0, float(np.abs(point).max(initial=1.0)))
-        return self.jacobian(point) / size ** np.maximum(degrees - 1, 0)
+        return self.jacobian(point) / size ** (self.degrees - 1)[:, None]
+
+
+def _powers(points: np.ndarray, exponents: np.ndarray) -> np.ndarray:
+    """Monomials at points of shape ``(P, n)``, shape ``(P, M)``."""
+    values = np.ones((len(points), len(exponents)), dtype=points.dtype)
+    for i in range(points.shape[1]):
+        top = int(exponents[:, i].max(initial=0))
+        if top:
+            powers = points[:, i, None] ** np.arange(top + 1)
+            values *= powers[:, exponents[:, i]]
+    return values

@@ -99,7 +99,7 @@ def _coranks(evaluator: Evaluator, x: np.ndarray) -> list[int]:
     result = []
     for point in x:
         s = np.linalg.svd(evaluator.balanced_jacobian(point), compute_uv=False)
-        result.append(numerical_corank(s, len(point), 1e-13))
+        result.append(numerical_corank(s, len(point), 1e-9))
     return result
 
 

@@ -15,6 +15,7 @@ import numpy as np
 import scipy.linalg
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.slices import padded
 from nag.tracking.compiled import CompiledRows, compile_rows
@@ -24,6 +25,15 @@ from nag.tracking.compiled import CompiledRows, compile_rows
 ON = 1e-9
 # A deflation of more steps than this has not been met in the literature's examples.
 MOST_DEFLATIONS = 4
+# A rank is read where neighbouring singular values differ by this factor, and at a point that is
+# known to be singular, though perhaps not well, below this value.
+GAP = 1e3
+NEARLY_SINGULAR = 1e-5
+# Newton's method may correct an end by this much, relative to its size: estimates of the error of
+# a singular end are themselves uncertain.
+NEAR = 1e-7
+# Deflated systems of more unknowns cost more than they are worth.
+MOST_UNKNOWNS = 150
 # A random choice of null vectors may be an unlucky one.
 ATTEMPTS = 3
 # Newton's method from the end point of a path must arrive within this many steps.
@@ -128,20 +138,19 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
     return Sharpened(z, step, step < 1e-10 and residual < 1e-11)
 
 
-def numerical_corank(singular: np.ndarray, columns: int, accuracy: float) -> int:
+def numerical_corank(singular: np.ndarray, columns: int, small: float) -> int:
     """Corank of a balanced Jacobian with ``columns`` columns, at the gap of its singular values.
 
-    The widest gap counts, among the values that are small enough for ``accuracy``, the relative
-    error of the point, to explain them. Entries of a balanced matrix are of order one, so a
-    matrix of rank zero shows a gap below one.
+    The widest gap counts whose lower side is below ``small``, and that is at least a factor
+    `GAP`. Entries of a balanced matrix are of order one, so a matrix of rank zero shows a gap
+    below one.
     """
     s = np.zeros(columns)
     s[: len(singular)] = singular[:columns]
     s = np.maximum(s / max(1.0, s.max(initial=0.0)), 1e-17)
-    suspicious = max(1e3 * accuracy, 1e-12)
-    above, best, corank = 1.0, 1e3, 0
+    above, best, corank = 1.0, GAP, 0
     for rank, value in enumerate(s):
-        if value < suspicious and above / value > best:
+        if value < small and above / value > best:
             best, corank = above / value, columns - rank
         above = value
     return corank
@@ -183,24 +192,23 @@ def _deflated(
     """The polynomials together with ``J (q1 + q2 L) = 0``, exact, in the variables ``(z, L)``."""
     k, m = q2.shape[1], q1.shape[1]
     total = n + k * m
-    place = range(n)
-    unknowns = Polynomial.variables(total)[n:]
-    gradient = [
-        [f.derivative(i).with_variables(total, place) for i in range(n)] for f in polynomials
-    ]
-    result = [f.with_variables(total, place) for f in polynomials]
-    for column in range(m):
-        direction = []
-        for i in range(n):
-            entry = Polynomial.constant(total, Fraction(q1[i, column]))
-            for j in range(k):
-                entry = entry + unknowns[column * k + j] * Fraction(q2[i, j])
-            direction.append(entry)
-        for row in gradient:
-            value = Polynomial(total, {})
-            for derivative, entry in zip(row, direction, strict=True):
-                if derivative:
-                    value = value + derivative * entry
+    first = [[Fraction(q) for q in row] for row in q1]
+    second = [[Fraction(q) for q in row] for row in q2]
+    zeros = (0,) * (k * m)
+    units = [(*zeros[:i], 1, *zeros[i + 1 :]) for i in range(k * m)]
+    result = [f.with_variables(total, range(n)) for f in polynomials]
+    for f in polynomials:
+        gradient = [(i, f.derivative(i)) for i in sorted(f.support)]
+        for column in range(m):
+            terms: dict[tuple[int, ...], Number] = {}
+            for i, derivative in gradient:
+                entries = [(zeros, first[i][column])]
+                entries += [(units[column * k + j], second[i][j]) for j in range(k)]
+                for exponents, coefficient in derivative.terms.items():
+                    for unit, q in entries:
+                        key = exponents + unit
+                        terms[key] = terms.get(key, 0) + coefficient * q
+            value = Polynomial(total, terms)
             if value:
                 result.append(value)
     return result
@@ -243,8 +251,10 @@ def _find_cut(
         free = total - len(rows)
         q = _dyadic(rng, (total, free))
         singular = np.linalg.svd(evaluator.balanced_jacobian(z) @ q, compute_uv=False)
-        m = numerical_corank(singular, free, accuracy)
+        m = numerical_corank(singular, free, NEARLY_SINGULAR)
         if m == 0:
+            return None
+        if total + (free - m) * m > MOST_UNKNOWNS:
             return None
         level = Level(evaluator, q[:, :m], q[:, m:])
         polynomials = _deflated(polynomials, total, level.q1, level.q2)
@@ -276,7 +286,7 @@ def _regular_subset(
     sharpened = sharpen(evaluator, rows, z)
     # A regular zero is where the path ended, not somewhere in its neighbourhood.
     distance = np.linalg.norm(sharpened.z[:n] - x) / (1 + np.linalg.norm(x))
-    if not sharpened.converged or distance > max(1e3 * accuracy, 1e-10):
+    if not sharpened.converged or distance > max(1e3 * accuracy, NEAR):
         return None
     chosen = _square_rows(evaluator, rows, sharpened.z)
     if chosen is None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from nag.decomposition.cutting import ON, Cut, Equations, find_cut, regular_on, sharpen
+from nag.decomposition.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on, sharpen
 from nag.decomposition.slices import padded
 from nag.decomposition.witness import PathCounts
 from nag.tracking.homotopy import Homotopy
@@ -145,7 +145,7 @@ def admit(
             continue
         sharpened = sharpen(fibre.cut.evaluator, rows, fibre.cut.lift(x))
         end, scale = sharpened.z[:n], 1 + np.linalg.norm(x)
-        near = np.linalg.norm(end - x) < max(1e3 * accuracy, 1e-10) * scale
+        near = np.linalg.norm(end - x) < max(1e3 * accuracy, NEAR) * scale
         if (
             sharpened.converged
             and near

@@ -54,17 +54,18 @@ def is_member(
         target = rows_through(rng, dimension, point)
         gamma = complex(unit_complex(rng))
         careful = Tracker("careful" if attempt else tracker.settings, tracker.threads)
-        nearest, failed = np.inf, False
+        nearest, unclear = np.inf, False
         for fibre in fibres:
             ends = move(fibre, flag[:dimension], target, gamma, careful, endgame=True)
             counts += ends.counts.repeatable
             x = ends.points[ends.finite, : fibre.cut.n]
-            if len(x):
-                nearest = min(nearest, float(np.linalg.norm(x - point, axis=1).min()) / scale)
-            failed |= bool(ends.failed.any())
+            distances = np.linalg.norm(x - point, axis=1) / scale
+            nearest = distances.min(initial=nearest)
             if nearest < hit:
                 return Membership.MEMBER, counts
-        if nearest > miss and not failed:
+            unclear |= bool(ends.failed.any() or (distances < miss).any())
+            unclear |= bool((distances < 1e4 * ends.accuracy[ends.finite]).any())
+        if not unclear:
             return Membership.FOREIGN, counts
     return Membership.UNDECIDED, counts
 

@@ -55,7 +55,7 @@ def _reduced(
     along = scipy.linalg.null_space(a) if len(a) else np.eye(n, dtype=complex)
     jacobian = evaluator.jacobian(x) @ along
     u, s, vh = np.linalg.svd(jacobian)
-    m = numerical_corank(s, along.shape[1], 1e-12)
+    m = numerical_corank(s, along.shape[1], ZERO)
     rank = along.shape[1] - m
     if m == 0:
         return None

@@ -1,0 +1,44 @@
+"""Numerical evaluation agrees with the exact polynomials."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+
+N = 3
+EXPONENTS = st.tuples(*[st.integers(0, 3)] * N)
+POLYNOMIALS = st.lists(
+    st.dictionaries(EXPONENTS, st.integers(-4, 4), max_size=5).map(lambda t: Polynomial(N, t)),
+    max_size=4,
+)
+POINTS = st.tuples(*[st.complex_numbers(max_magnitude=3, allow_nan=False)] * N)
+
+
+def scale(f: Polynomial) -> float:
+    return max((abs(float(c)) for c in f.terms.values()), default=1.0)
+
+
+@given(POLYNOMIALS, POINTS)
+def test_values_and_jacobian_are_those_of_the_scaled_polynomials(
+    polynomials: list[Polynomial], point: tuple[complex, ...]
+) -> None:
+    evaluator = Evaluator.of(polynomials, N)
+    values = evaluator.values(np.array([point]))[0]
+    jacobian = evaluator.jacobian(np.array(point))
+    assert jacobian.shape == (len(polynomials), N)
+    for row, f in enumerate(polynomials):
+        bound = 1e-12 * (1 + evaluator.sizes(np.array([point]))[0, row])
+        assert abs(values[row] - f(point) / scale(f)) < bound
+        for i in range(N):
+            assert abs(jacobian[row, i] - f.derivative(i)(point) / scale(f)) < 10 * bound
+
+
+def test_a_single_term_has_a_small_residual_near_its_zero() -> None:
+    x = Polynomial.variable(1, 0)
+    evaluator = Evaluator.of([x**2], 1)
+    assert evaluator.residuals(np.array([[1e-9]]))[0, 0] < 1e-17
+    assert evaluator.residuals(np.array([[1e3]]))[0, 0] > 0.5
