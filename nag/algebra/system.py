@@ -37,7 +37,9 @@ class PolynomialSystem:
             raise ValueError("two variables have the same name")
         for polynomial in self.polynomials + self.nonzero:
             if polynomial.n != self.n:
-                raise ValueError(f"a polynomial in {polynomial.n} variables in a system of {self.n}")
+                raise ValueError(
+                    f"a polynomial in {polynomial.n} variables in a system of {self.n}"
+                )
         if self.groups and sorted(i for g in self.groups for i in g) != list(range(self.n)):
             raise ValueError("the groups are not a partition of the variables")
 
