@@ -60,6 +60,7 @@ def _predict(s, w, order):
     hi = load(w.zi, 0)
     m = load(w.mode, 0)
     limit = splat(0.5625)
+    tiny = splat(1e-200)
     top = 2 * n * order
     for j in range(n):
         lr, li = load(w.base, top + j), load(w.base, top + n + j)
@@ -76,8 +77,9 @@ def _predict(s, w, order):
         re = fma(si, di, sr * dr) * inverse
         im = fnma(sr, di, si * dr) * inverse
         # Where the pole is near, or both coefficients are noise, the Taylor polynomial is safer.
-        re = select_less(q2, limit * size, re, ar + qr)
-        im = select_less(q2, limit * size, im, ai + qi)
+        # The square of a coefficient that decays to zero underflows, and the quotient with it.
+        re = select_less(tiny, size, select_less(q2, limit * size, re, ar + qr), ar + qr)
+        im = select_less(tiny, size, select_less(q2, limit * size, im, ai + qi), ai + qi)
         for k in range(order - 2, -1, -1):
             x = load(w.base, 2 * n * k + j) + fnma(hi, im, hr * re)
             im = load(w.base, 2 * n * k + n + j) + fma(hi, re, hr * im)
