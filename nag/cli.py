@@ -80,32 +80,57 @@ def parser() -> argparse.ArgumentParser:
         help="model of a mechanism: E Euler parameters, H half angles (default: the smaller one)",
     )
 
-    decompose = commands.add_parser(
-        "decompose",
-        parents=[case],
-        allow_abbrev=False,
-        help="find the irreducible components of a case",
-        description="Find the irreducible components of a mechanism's configuration space, or of "
-        "the zero set of a polynomial system, and the mobility.",
-    )
-    decompose.add_argument(
+    running = argparse.ArgumentParser(add_help=False)
+    running.add_argument(
         "--seed", type=_seed, default=0, help="seed of the random numbers (default: 0)"
     )
-    decompose.add_argument(
+    running.add_argument(
         "--threads",
         type=_threads,
         default=_available_threads(),
         help="threads; the answer is the same for any number (default: one a processor)",
     )
-    decompose.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
-    decompose.add_argument(
+    running.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
+    running.add_argument(
         "--settings",
         choices=SETTINGS,
         default="default",
         help="how carefully paths are tracked (default: default)",
     )
-    decompose.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    running.add_argument("--quiet", action="store_true", help="no progress on standard error")
+
+    decompose = commands.add_parser(
+        "decompose",
+        parents=[case, running],
+        allow_abbrev=False,
+        help="find the irreducible components of a case",
+        description="Find the irreducible components of a mechanism's configuration space, or of "
+        "the zero set of a polynomial system, and the mobility.",
+    )
     decompose.set_defaults(run=_decompose)
+
+    from nag.report import bench_command, solve_command
+
+    solve = commands.add_parser(
+        "solve",
+        parents=[case, running],
+        allow_abbrev=False,
+        help="find the isolated solutions of a case",
+        description="Find all isolated solutions of a polynomial system, with multiplicities, by "
+        "tracking paths from a solved system.",
+    )
+    solve_command.add_arguments(solve)
+    solve.set_defaults(run=_solve)
+
+    bench = commands.add_parser(
+        "bench",
+        allow_abbrev=False,
+        help="solve the benchmark systems and measure how fast",
+        description="Solve the benchmark systems, check their numbers of solutions and measure "
+        "the time, beside other programs if they are installed.",
+    )
+    bench_command.add_arguments(bench)
+    bench.set_defaults(run=_bench)
 
     model = commands.add_parser(
         "model",
@@ -195,6 +220,33 @@ def _decompose(arguments: argparse.Namespace) -> int:
     if failure is not None:
         raise failure
     return COMPLETE if decomposition.complete else INCOMPLETE
+
+
+def _solve(arguments: argparse.Namespace) -> int:
+    from nag.report import solve_command
+
+    if arguments.json is not None:
+        _check_json(arguments.json, arguments.case)
+    case, model = _read(arguments)
+    try:
+        lines, complete = solve_command.run(arguments, case, model)
+    except solve_command.SolveError as error:
+        raise UsageError(str(error)) from None
+    _print(lines)
+    return COMPLETE if complete else INCOMPLETE
+
+
+def _bench(arguments: argparse.Namespace) -> int:
+    from nag.report import bench_command
+
+    if arguments.json is not None:
+        _check_json(arguments.json, "")
+    try:
+        lines, right = bench_command.run(arguments)
+    except bench_command.BenchError as error:
+        raise UsageError(str(error)) from None
+    _print(lines)
+    return COMPLETE if right else INCOMPLETE
 
 
 def _model(arguments: argparse.Namespace) -> int:

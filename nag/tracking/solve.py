@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -11,6 +12,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings, named
 from nag.tracking.singular_ends import Place, analyse
@@ -77,6 +79,21 @@ def solve(
     return result
 
 
+def begin_of(
+    system: PolynomialSystem,
+    seed: int = 0,
+    start: str = "auto",
+    settings: Settings | str = "default",
+) -> tuple[Homotopy, float, int]:
+    """The homotopy of the first attempt, and the seconds and steps that tracking it takes."""
+    rng = np.random.default_rng(seed)
+    problem = _Problem.of(system, [f for f in system.polynomials if f], rng)
+    begin, _ = choose(problem.target, start, system.groups, rng, settings, 1)
+    started = time.perf_counter()
+    paths = track(begin.homotopy, begin.points, settings)
+    return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())
+
+
 def _doubts(result: SolveResult) -> tuple[bool, int, int]:
     return not result.complete, result.paths.failed, len(result.undecided)
 
@@ -126,9 +143,7 @@ def _random_linear(n: int, rng: np.random.Generator) -> Polynomial:
     return Polynomial(n, terms)
 
 
-def _squared(
-    polynomials: list[Polynomial], n: int, rng: np.random.Generator
-) -> list[Polynomial]:
+def _squared(polynomials: list[Polynomial], n: int, rng: np.random.Generator) -> list[Polynomial]:
     """``n`` polynomials: those of highest degree, each with multiples of the others added."""
     if len(polynomials) == n:
         return polynomials
@@ -219,9 +234,7 @@ class _Ends:
     notes: tuple[str, ...]
 
     @classmethod
-    def of(
-        cls, problem: _Problem, begin: Start, paths: Paths, rng: np.random.Generator
-    ) -> _Ends:
+    def of(cls, problem: _Problem, begin: Start, paths: Paths, rng: np.random.Generator) -> _Ends:
         evaluator = Evaluator.of(problem.equations, problem.system.n)
         finite = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
         points = begin.affine(paths.points[finite])

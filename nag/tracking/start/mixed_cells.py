@@ -122,7 +122,7 @@ def _follow(points, first, lift, slope, begin, most_steps, most_cells):
                 for i in range(n):
                     a, b = cell[i, 0], cell[i, 1]
                     for c in range(first[i], first[i + 1]):
-                        if c == a or c == b:
+                        if c in (a, b):
                             continue
                         value = lift[c] - lift[a]
                         rate = slope[c] - slope[a]

@@ -53,9 +53,7 @@ def polyhedral(
         rows = tuple({tuple(e): 1.0 for e in s.tolist()} for s in target.supports)
         points, spent = np.zeros((0, 1 + target.n), dtype=np.complex128), 0
     else:
-        rows, points, spent = generic_solutions(
-            target.supports, volume, rng, settings, threads
-        )
+        rows, points, spent = generic_solutions(target.supports, volume, rng, settings, threads)
     if len(points) != volume:
         raise StartError(
             f"polyhedral: {len(points)} of the {volume} solutions of the start system were found"

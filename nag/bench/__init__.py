@@ -1,0 +1,1 @@
+"""Benchmarks: systems, times, and other programs beside ours."""

@@ -1,0 +1,195 @@
+"""Times of solving a benchmark system, and what arithmetic allows at best."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.solve import solve
+
+# Best of so many runs; a run that takes longer than LONG seconds is not repeated.
+RUNS = 3
+LONG = 5.0
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One system solved.
+
+    Attributes:
+        case: name of the case file.
+        expected: number of solutions that is known, or None.
+        solutions: number of isolated solutions found; complete: as `SolveResult.complete`.
+        start, paths, steps: start system, paths tracked, steps taken.
+        seconds: solving, warm, one thread, best of a few; all of it, start system included.
+        two_threads: the same with two threads.
+        process: a whole process of its own, start-up included.
+        microseconds: tracking time for each step; flops: operations of a step; bound: the
+            microseconds that these take at the rate measured.
+    """
+
+    case: str
+    expected: int | None
+    solutions: int
+    complete: bool
+    start: str
+    paths: int
+    steps: int
+    seconds: float
+    two_threads: float
+    process: float
+    microseconds: float
+    flops: int
+    bound: float
+
+    @property
+    def right(self) -> bool:
+        """Whether the number of solutions is the known one."""
+        return self.complete and self.expected in (None, self.solutions)
+
+    def document(self) -> dict[str, Any]:
+        """As a JSON object."""
+        return asdict(self) | {"right": self.right}
+
+
+def step_flops(homotopy: Homotopy) -> int:
+    """Real additions and multiplications of a step: prediction, two corrections, three jets.
+
+    Products and terms are counted from the compiled system; a complex product is 6 operations, a
+    complex sum 2, a complex number times a real one 2.
+    """
+    tape, n = homotopy.rows.tape, homotopy.N
+    products = tape.value_products
+
+    def blocks(start: np.ndarray, coefficient: np.ndarray) -> int:
+        real = sum(
+            (4 if not coefficient[a:b].imag.any() else 8) * int(b - a)
+            for a, b in pairwise(start)
+        )
+        return real + 8 * (len(start) - 1)
+
+    value = blocks(tape.value_start, tape.value_coefficient)
+    jacobian = blocks(tape.jacobian_start, tape.jacobian_coefficient)
+    linear = 8 * n * len(homotopy.A0)
+    # A jet of order k of a product takes k + 1 complex products and k sums.
+    jets = products * sum(8 * (k + 1) for k in (1, 2, 2, 3))
+    factorize = 8 * n**3 // 3
+    substitute = 8 * n * n
+    return (
+        6 * (len(tape.first) + products)
+        + jets
+        + jacobian
+        + 6 * value
+        + 5 * linear
+        + factorize
+        + 5 * substitute
+        + 60 * n
+    )
+
+
+def matrix_rate() -> float:
+    """Floating-point operations a second of one thread: a product of matrices, best of a few."""
+    n = 512
+    a = np.random.default_rng(0).random((n, n))
+    best = np.inf
+    for _ in range(8):
+        begin = time.perf_counter()
+        a @ a
+        best = min(best, time.perf_counter() - begin)
+    return 2 * n**3 / best
+
+
+def flop_rate() -> float:
+    """Floating-point operations a second of one thread, measured in a process with one thread."""
+    code = "from nag.bench.measure import matrix_rate; print(matrix_rate())"
+    names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+    environment = os.environ | dict.fromkeys(names, "1")
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment
+    )
+    return float(done.stdout)
+
+
+def _best(system: PolynomialSystem, seed: int, threads: int, start: str) -> tuple[float, Any]:
+    best, result = np.inf, None
+    for _ in range(RUNS):
+        begin = time.perf_counter()
+        result = solve(system, seed=seed, threads=threads, start=start)
+        best = min(best, time.perf_counter() - begin)
+        if best > LONG:
+            break
+    return best, result
+
+
+def process_seconds(path: Path, seed: int) -> float:
+    """Wall-clock time of ``nag solve`` for a case, in a process of its own, one thread."""
+    command = [sys.executable, "-m", "nag", "solve", str(path), "--threads", "1", "--quiet"]
+    best = np.inf
+    for _ in range(RUNS):
+        begin = time.perf_counter()
+        subprocess.run([*command, "--seed", str(seed)], capture_output=True, check=False)
+        best = min(best, time.perf_counter() - begin)
+        if best > LONG:
+            break
+    return best
+
+
+def measure(
+    name: str,
+    path: Path,
+    system: PolynomialSystem,
+    expected: int | None,
+    seed: int,
+    rate: float,
+    start: str = "auto",
+) -> Measured:
+    """Solve ``system`` warm with one and with two threads, and in a process of its own."""
+    from nag.tracking.solve import begin_of
+
+    solve(system, seed=seed, start=start)
+    seconds, result = _best(system, seed, 1, start)
+    two, _ = _best(system, seed, 2, start)
+    homotopy, tracking, steps = begin_of(system, seed, start)
+    flops = step_flops(homotopy)
+    return Measured(
+        case=name,
+        expected=expected,
+        solutions=len(result.solutions),
+        complete=result.complete,
+        start=result.start,
+        paths=result.paths.tracked,
+        steps=result.paths.steps,
+        seconds=seconds,
+        two_threads=two,
+        process=process_seconds(path, seed),
+        microseconds=1e6 * tracking / max(steps, 1),
+        flops=flops,
+        bound=1e6 * flops / rate,
+    )
+
+
+def as_json(measured: list[Measured], rate: float, peers: dict[str, Any]) -> str:
+    """The whole table as JSON text."""
+    return (
+        json.dumps(
+            {
+                "format": "nag-bench",
+                "version": 1,
+                "flops_per_second": rate,
+                "benchmarks": [m.document() | {"peers": peers.get(m.case, {})} for m in measured],
+            },
+            indent=2,
+        )
+        + "\n"
+    )

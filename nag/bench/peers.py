@@ -1,0 +1,109 @@
+"""The same systems in other programs: Macaulay2's native engine and PHCpack's blackbox solver."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from nag.algebra.system import PolynomialSystem
+
+PROGRAMS = {"M2": "Macaulay2, solveSystem", "phc": "PHCpack, phc -b"}
+
+
+@dataclass(frozen=True)
+class Peer:
+    """What another program took.
+
+    Attributes:
+        program: ``"M2"`` or ``"phc"``.
+        seconds: for solving alone, as the program itself says it, or None.
+        process: for the whole process.
+        solutions: how many solutions it reports, or None.
+        remark: what went wrong; empty if nothing did.
+    """
+
+    program: str
+    seconds: float | None
+    process: float
+    solutions: int | None
+    remark: str = ""
+
+    def document(self) -> dict[str, Any]:
+        """As a JSON object."""
+        return asdict(self)
+
+
+def installed() -> list[str]:
+    """The programs that are there."""
+    return [name for name in PROGRAMS if shutil.which(name)]
+
+
+def _texts(system: PolynomialSystem) -> tuple[list[str], list[str]]:
+    names = [f"x{chr(97 + i // 26)}{chr(97 + i % 26)}" for i in range(system.n)]
+    return names, [f.text(names) for f in system.polynomials]
+
+
+def run_peer(program: str, system: PolynomialSystem, limit: float) -> Peer:
+    """Solve ``system`` with ``program`` on one thread, for at most ``limit`` seconds."""
+    return {"M2": _macaulay2, "phc": _phcpack}[program](system, limit)
+
+
+def _call(command: list[str], folder: str, limit: float) -> tuple[float, str | None]:
+    begin = time.perf_counter()
+    try:
+        done = subprocess.run(
+            command, cwd=folder, capture_output=True, text=True, timeout=limit, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return time.perf_counter() - begin, None
+    return time.perf_counter() - begin, done.stdout
+
+
+def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
+    names, texts = _texts(system)
+    # The second call is timed: the first one loads what it needs.
+    script = (
+        'needsPackage "NumericalAlgebraicGeometry";\n'
+        f"R = CC_53[{', '.join(names)}];\n"
+        f"F = {{{', '.join(texts)}}};\n"
+        "warm = R_0; solveSystem {x - 1} where x := warm;\n"
+        "t = elapsedTiming (S = solveSystem F);\n"
+        'print("result " | toString(t#0) | " " | toString(#S));\n'
+        "exit 0\n"
+    ).replace("warm = R_0; solveSystem {x - 1} where x := warm;\n", "")
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "system.m2"
+        file.write_text(script, "utf-8")
+        process, output = _call(["M2", "--script", str(file)], folder, limit)
+    if output is None:
+        return Peer("M2", None, process, None, f"no answer in {limit:.0f} s")
+    found = re.search(r"result (\S+) (\d+)", output)
+    if not found:
+        return Peer("M2", None, process, None, "no answer")
+    return Peer("M2", float(found[1]), process, int(found[2]))
+
+
+def _phcpack(system: PolynomialSystem, limit: float) -> Peer:
+    _, texts = _texts(system)
+    count = len(texts)
+    head = f"{count}\n" if count == system.n else f"{count} {system.n}\n"
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "system"
+        file.write_text(head + "".join(f"{t};\n" for t in texts), "utf-8")
+        command = ["phc", "-b", "-0", "system", "answer"]
+        process, output = _call(command, folder, limit)
+        answer = Path(folder) / "answer"
+        if output is None:
+            return Peer("phc", None, process, None, f"no answer in {limit:.0f} s")
+        text = file.read_text("utf-8", "replace")
+        if answer.exists():
+            text += answer.read_text("utf-8", "replace")
+    found = re.findall(r"THE SOLUTIONS *:?\s*\n\s*(\d+) +\d+", text)
+    solutions = int(found[-1]) if found else None
+    return Peer("phc", None, process, solutions, "" if found else "no answer")
