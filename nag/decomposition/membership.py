@@ -78,7 +78,7 @@ def component_fibres(
     Raises:
         ValueError: if the points are not regular zeros of the system or of a deflation of it.
     """
-    rows = np.hstack([-component.slice.b[:, None], component.slice.A])
+    rows = component.slice.rows
     accuracy = max(component.accuracy, 1e-12)
     equations = Equations(system.polynomials, system.n)
     fibres: list[Fibre] = []
@@ -87,6 +87,57 @@ def component_fibres(
         if not admit(x, accuracy, fibres, equations, rows, rng, deflate):
             raise ValueError("the witness points are no regular zeros of the system")
     return fibres
+
+
+def memberships(
+    decomposition: Decomposition,
+    point: np.ndarray,
+    *,
+    accuracy: float = 1e-12,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> tuple[Membership, ...]:
+    """For each component, whether an affine point lies on it.
+
+    Args:
+        point: complex, shape ``(n,)``, in the system's variables.
+        accuracy: relative error of the point.
+    """
+    rng = np.random.default_rng([seed, 1])
+    tracker = Tracker(settings, threads)
+    point = np.asarray(point, dtype=complex)
+    system = decomposition.system
+    if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > 1e-6:
+        return (Membership.FOREIGN,) * len(decomposition.components)
+    answers = []
+    for component in decomposition.components:
+        try:
+            fibres = component_fibres(system, component, rng)
+        except ValueError:
+            answers.append(Membership.UNDECIDED)
+            continue
+        answer, _ = is_member(point, accuracy, fibres, component.slice.rows, rng, tracker)
+        answers.append(answer)
+    return tuple(answers)
+
+
+class UndecidedError(ValueError):
+    """A membership that could not be decided.
+
+    Attributes:
+        found: indices of the components that the point certainly lies on.
+        open: indices of those for which it could not be decided.
+    """
+
+    def __init__(self, found: Sequence[int], undecided: Sequence[int]) -> None:
+        self.found, self.open = list(found), list(undecided)
+        which = ", ".join(map(str, self.open))
+        noun = "component" if len(self.open) == 1 else "components"
+        text = f"whether the point lies on {noun} {which} could not be decided"
+        if self.found:
+            text += f"; it lies on {', '.join(map(str, self.found))}"
+        super().__init__(text)
 
 
 def components_through(
@@ -105,21 +156,13 @@ def components_through(
         accuracy: relative error of the point.
 
     Raises:
-        ValueError: if the membership in a component could not be decided.
+        UndecidedError: if the membership in a component could not be decided.
     """
-    rng = np.random.default_rng([seed, 1])
-    tracker = Tracker(settings, threads)
-    point = np.asarray(point, dtype=complex)
-    system = decomposition.system
-    found = []
-    if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > 1e-6:
-        return found
-    for i, component in enumerate(decomposition.components):
-        rows = np.hstack([-component.slice.b[:, None], component.slice.A])
-        fibres = component_fibres(system, component, rng)
-        answer, _ = is_member(point, accuracy, fibres, rows, rng, tracker)
-        if answer is Membership.UNDECIDED:
-            raise ValueError(f"whether the point lies on component {i} could not be decided")
-        if answer is Membership.MEMBER:
-            found.append(i)
+    answers = memberships(
+        decomposition, point, accuracy=accuracy, seed=seed, threads=threads, settings=settings
+    )
+    found = [i for i, answer in enumerate(answers) if answer is Membership.MEMBER]
+    undecided = [i for i, answer in enumerate(answers) if answer is Membership.UNDECIDED]
+    if undecided:
+        raise UndecidedError(found, undecided)
     return found

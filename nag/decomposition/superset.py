@@ -174,15 +174,24 @@ def witness_superset(
     rng: np.random.Generator,
     tracker: Tracker,
     progress: Progress | None = None,
+    start: Sequence[Fibre] = (),
+    known: Sequence[Polynomial] = (),
 ) -> Superset:
     """Witness points of all dimensions for ``equations`` in n variables, intersected in order.
 
     ``flag`` holds n slices; a point of dimension d lies on its first d rows. No point of a
     component is missed unless a path failed, and the points that lie on components of higher
     dimension are taken out again after each equation.
+
+    What is intersected is the whole space, or the pure-dimensional set whose points on ``flag``
+    are ``start`` and on which the polynomials ``known`` vanish.
     """
-    start = np.linalg.solve(flag[:, 1:], -flag[:, 0])
-    fibres: dict[int, list[Fibre]] = {n: [Fibre(Cut(n, 0, ()), n, start[None])]}
+    fibres: dict[int, list[Fibre]] = {}
+    for fibre in start:
+        fibres.setdefault(fibre.dimension, []).append(fibre)
+    if not fibres:
+        point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
+        fibres[n] = [Fibre(Cut(n, 0, ()), n, point[None])]
     counts, notes = PathCounts(), []
     avoid = Evaluator.of(nonzero, n)
     for k, f in enumerate(equations):
@@ -201,7 +210,7 @@ def witness_superset(
                     ends = intersect(fibre.only(~on), f, flag, gamma, tracker)
                     counts += ends.counts
                     pieces.setdefault(d - 1, []).append((fibre.cut.extended(f), ends))
-        so_far = Equations(tuple(equations[: k + 1]), n)
+        so_far = Equations((*known, *equations[: k + 1]), n)
         for d in sorted(pieces, reverse=True):
             candidates = _collect(pieces[d], n, d, avoid)
             kept.setdefault(d, []).extend(candidates.fibres)

@@ -49,6 +49,11 @@ class Slice:
         """Dimension of the sets that it cuts in points."""
         return len(self.b)
 
+    @property
+    def rows(self) -> np.ndarray:
+        """The slice as rows ``(-b, A)`` that act on homogeneous coordinates ``(1, x)``."""
+        return np.hstack([-self.b[:, None], self.A])
+
 
 @dataclass(frozen=True, eq=False)
 class WitnessSet:

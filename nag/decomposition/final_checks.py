@@ -1,0 +1,123 @@
+"""The last checks of a class of points before it is reported as a component."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations_with_replacement, permutations
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.decomposition.cutting import ON, numerical_corank, sharpen
+from nag.decomposition.fibres import Fibre, Tracker, move
+from nag.decomposition.frame import Frame
+from nag.decomposition.irreducible import Class
+from nag.decomposition.multiplicity import multiplicity
+from nag.decomposition.slices import complex_normal, unit_complex
+from nag.decomposition.witness import PathCounts, Status, WitnessSet
+
+# Multidegrees are counted only where so many choices of groups are enough.
+MOST_MULTIDEGREES = 100
+
+
+def _multidegree(
+    fibres: Sequence[Fibre],
+    rows: np.ndarray,
+    groups: Sequence[Sequence[int]],
+    frame: Frame,
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> tuple[np.ndarray | None, PathCounts]:
+    """Numbers of points with groups fixed at random values, by moving the slice there."""
+    d, counts = len(rows), PathCounts()
+    choices = list(combinations_with_replacement(range(len(groups)), d))
+    sizes = [len(g) for g in groups]
+    choices = [c for c in choices if all(c.count(g) <= sizes[g] for g in c)]
+    if not groups or len(choices) > MOST_MULTIDEGREES:
+        return None, counts
+    degrees = np.zeros((len(groups),) * d, dtype=int)
+    for choice in choices:
+        A = np.zeros((d, len(frame.t)), dtype=complex)
+        for row, g in enumerate(choice):
+            A[row, list(groups[g])] = complex_normal(rng, (sizes[g],))
+        target = frame.pulled_back(A, complex_normal(rng, (d,)))
+        finite = 0
+        if d == 0 or np.linalg.matrix_rank(target[:, 1:]) == d:
+            gamma = complex(unit_complex(rng))
+            for fibre in fibres:
+                ends = move(fibre, rows, target, gamma, tracker, endgame=True)
+                counts += ends.counts
+                if ends.failed.any():
+                    return None, counts
+                finite += int(ends.finite.sum())
+        for place in set(permutations(choice)):
+            degrees[place] = finite
+    return degrees, counts
+
+
+def _coranks(evaluator: Evaluator, x: np.ndarray) -> list[int]:
+    result = []
+    for point in x:
+        s = np.linalg.svd(evaluator.balanced_jacobian(point), compute_uv=False)
+        result.append(numerical_corank(s, len(point), 1e-9))
+    return result
+
+
+def checked_witness_set(
+    found: Class,
+    fibres: Sequence[Fibre],
+    rows: np.ndarray,
+    reduced: Evaluator,
+    original: Evaluator,
+    frame: Frame,
+    groups: Sequence[Sequence[int]],
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> tuple[WitnessSet, PathCounts]:
+    """A class of points as a witness set, after the final checks."""
+    d, counts = len(rows), PathCounts()
+    chosen, start = [], 0
+    for fibre in fibres:
+        local = found.indices[(found.indices >= start) & (found.indices < start + len(fibre))]
+        mask = np.zeros(len(fibre), dtype=bool)
+        mask[local - start] = True
+        start += len(fibre)
+        if mask.any():
+            chosen.append(fibre.only(mask))
+    points, steps = [], [0.0]
+    for fibre in chosen:
+        for z in fibre.points:
+            sharpened = sharpen(fibre.cut.evaluator, rows, z)
+            points.append(sharpened.z[: fibre.cut.n])
+            steps.append(sharpened.step if np.isfinite(sharpened.step) else np.inf)
+    y = np.array(points)
+    x = frame.points(y)
+    order = np.lexsort((x.imag[:, 0], x.real[:, 0])) if x.shape[1] else np.arange(len(x))
+    y, x = y[order], x[order]
+    residual = float(original.residuals(x).max(initial=0.0))
+    coranks = _coranks(reduced, y)
+    reasons = [found.reason] if found.reason else []
+    if residual > ON:
+        reasons.append("a point does not satisfy all equations")
+    if len(set(coranks)) > 1:
+        reasons.append("the corank of the Jacobian differs between its points")
+    multiple = 1 if coranks[0] == d else multiplicity(reduced, rows, y[0])
+    if multiple == 0:
+        reasons.append("its multiplicity was not found")
+    multidegree = None
+    if groups:
+        multidegree, counts = _multidegree(chosen, rows, groups, frame, rng, tracker)
+    return (
+        WitnessSet(
+            slice=frame.slice(rows),
+            points=x,
+            multiplicity=multiple,
+            status=Status.UNDECIDED if reasons else Status.IRREDUCIBLE,
+            residual=residual,
+            accuracy=max(*steps, np.finfo(float).eps),
+            corank=coranks[0],
+            multidegree=multidegree,
+            note="; ".join(reasons),
+        ),
+        counts,
+    )
