@@ -74,8 +74,7 @@ def step_flops(homotopy: Homotopy) -> int:
 
     def blocks(start: np.ndarray, coefficient: np.ndarray) -> int:
         real = sum(
-            (4 if not coefficient[a:b].imag.any() else 8) * int(b - a)
-            for a, b in pairwise(start)
+            (4 if not coefficient[a:b].imag.any() else 8) * int(b - a) for a, b in pairwise(start)
         )
         return real + 8 * (len(start) - 1)
 

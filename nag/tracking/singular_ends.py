@@ -171,6 +171,4 @@ def analyse(
     dimension = local_dimension(evaluator, found.z, max(1e3 * found.step, 1e-12))
     if dimension is None:
         return SingularEnd(found.z, Place.UNDECIDED, 0, found.step, found.condition)
-    return SingularEnd(
-        found.z, Place.ISOLATED, dimension, max(found.step, 1e-16), found.condition
-    )
+    return SingularEnd(found.z, Place.ISOLATED, dimension, max(found.step, 1e-16), found.condition)

@@ -239,8 +239,9 @@ class _Ends:
         finite = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
         points = begin.affine(paths.points[finite])
         accuracy = paths.accuracy[finite]
-        on = (evaluator.residuals(points) < np.maximum(ON, accuracy)[:, None]).all(axis=1)
-        finite, points, accuracy = finite[on], points[on], accuracy[on]
+        residuals = evaluator.residuals(points).max(axis=1, initial=0.0)
+        on = residuals < np.maximum(ON, accuracy)
+        finite, points, accuracy, residuals = finite[on], points[on], accuracy[on], residuals[on]
         regular = paths.status[finite] == PathStatus.REGULAR
         notes: list[str] = []
         solutions: list[Solution] = []
@@ -248,7 +249,7 @@ class _Ends:
         undecided: list[np.ndarray] = []
         for group in clusters(points, accuracy):
             best = group[int(np.argmin(accuracy[group]))]
-            x, error = points[best], float(accuracy[best])
+            x, error, residual = points[best], float(accuracy[best]), float(residuals[best])
             if problem.added:
                 on_components.append(x)
                 continue
@@ -270,6 +271,7 @@ class _Ends:
                     end.multiplicity,
                     end.condition,
                 )
+                residual = float(evaluator.residuals(x[None]).max())
                 if begin.complete and not problem.squared and multiplicity != len(group):
                     notes.append(
                         f"{len(group)} paths end at a solution of multiplicity {multiplicity}"
@@ -279,7 +281,7 @@ class _Ends:
                     x,
                     multiplicity,
                     bool(np.abs(x.imag).max() <= max(1e2 * error, 1e-10) * (1 + np.abs(x).max())),
-                    float(evaluator.residuals(x[None]).max()),
+                    residual,
                     error,
                     condition,
                     int(paths.precision[finite[best]]),

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import product
-from math import comb
+from math import comb, prod
 
 import numpy as np
 
@@ -30,6 +30,9 @@ Groups = tuple[tuple[int, ...], ...]
 MOST_TERMS = 5000
 # States of the count below; the search for groups skips what is dearer.
 MOST_STATES = 20_000
+# Partitions that the search tries: some always, and one more for so many paths to be saved.
+LEAST_TRIED, PATHS_FOR_A_TRY = 20, 20
+MOST_TRIED = 2000
 
 
 def bezout_number(degrees: np.ndarray, sizes: Sequence[int]) -> int:
@@ -71,23 +74,21 @@ def _states(groups: Groups) -> int:
     return int(np.prod([len(g) + 1 for g in groups], dtype=float))
 
 
-def best_groups(target: Target, given: Groups = (), effort: int = 50_000) -> tuple[Groups, int]:
+def best_groups(target: Target, given: Groups = ()) -> tuple[Groups, int]:
     """A partition of the variables with a small Bezout number, and that number.
 
     Local search from one group, from groups of one, from the connected parts of the monomials'
-    structure, and from the ``given`` ones; ``effort`` bounds the states visited.
+    structure, and from the ``given`` ones. The search looks at more partitions where more paths
+    could be saved.
     """
     n = target.n
     seen: dict[Groups, int] = {}
-    spent = 0
+    most = min(LEAST_TRIED + prod(target.degrees) // PATHS_FOR_A_TRY, MOST_TRIED)
 
     def value(groups: Groups) -> int | None:
-        nonlocal spent
         if groups not in seen:
-            states = _states(groups)
-            if states > MOST_STATES:
+            if len(seen) >= most or _states(groups) > MOST_STATES:
                 return None
-            spent += states + 20 * n
             seen[groups] = count(target, groups)
         return seen[groups]
 
@@ -100,7 +101,7 @@ def best_groups(target: Target, given: Groups = (), effort: int = 50_000) -> tup
         if here is None:
             continue
         current = (here, len(groups), groups)
-        while spent < effort:
+        while len(seen) < most:
             steps = [(value(g), len(g), g) for g in dict.fromkeys(_moves(current[2]))]
             better = min((s for s in steps if s[0] is not None), default=current)
             if better >= current:
