@@ -36,6 +36,8 @@ NEAR = 1e-7
 MOST_UNKNOWNS = 150
 # A random choice of null vectors may be an unlucky one.
 ATTEMPTS = 3
+# Gradients below this, relative to what their degree lets them have, are not scaled up further.
+FLAT = 1e-4
 # Newton's method from the end point of a path must arrive within this many steps.
 NEWTON_STEPS = 12
 
@@ -125,7 +127,7 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
         jacobian = evaluator.jacobian(z)
         matrix = np.vstack([jacobian, a[:, 1:]])
         right = np.concatenate([values, a[:, 0] + a[:, 1:] @ z])
-        weights = 1 / np.maximum(np.linalg.norm(matrix, axis=1), 1e-300)
+        weights = 1 / np.maximum(np.linalg.norm(matrix, axis=1), _floors(evaluator, z, len(a)))
         delta, *_ = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=1e-14)
         z = z - delta
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
@@ -136,6 +138,16 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
             break
     residual = float(evaluator.residuals(z[None]).max(initial=0.0))
     return Sharpened(z, step, step < 1e-10 and residual < 1e-11)
+
+
+def _floors(evaluator: Evaluator, z: np.ndarray, slices: int) -> np.ndarray:
+    """Least sizes that gradients are scaled by.
+
+    A gradient that vanishes at the solution (that of a square, say) is rounding error near it;
+    scaled to length one it would outvote the equations that determine the point.
+    """
+    size = max(1.0, float(np.abs(z).max(initial=1.0)))
+    return np.concatenate([FLAT * size ** (evaluator.degrees - 1.0), np.full(slices, 1e-300)])
 
 
 def numerical_corank(singular: np.ndarray, columns: int, small: float) -> int:
