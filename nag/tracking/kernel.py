@@ -295,7 +295,9 @@ def track_batch(
                     f[FIRST, lane] = n0
                     f[THETA, lane] = theta if n1 > 1e-11 else 0.0
                     c[ROUNDS, lane] = 0
-                    ok = n0 <= tolerance and (theta <= theta_max or n1 <= 1e-11)
+                    # Corrections that shorter steps do not make contract are rounding errors.
+                    rounding = n1 <= 1e-11 or (n1 <= floor and c[REJECTED, lane] >= 2)
+                    ok = n0 <= tolerance and (theta <= theta_max or rounding)
                 else:
                     c[ROUNDS, lane] += 1
                     ok = n0 <= 0.1 and (theta <= 0.5 or n1 <= floor)
