@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from nag.algebra.expression import Budget, parse_number, parse_polynomial
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import is_name, names_in, nearest, quote
 from nag.case_table import CaseError, Table, kind_of, read_toml, shown
@@ -29,7 +30,17 @@ __all__ = ["Case", "CaseError", "NamedPoint", "Truth", "read_case"]
 
 _KINDS = ("system", "mechanism")
 _KEYS = {
-    "system": ("title", "kind", "variables", "equations", "groups", "parameters", "point", "truth"),
+    "system": (
+        "title",
+        "kind",
+        "variables",
+        "equations",
+        "groups",
+        "parameters",
+        "symmetry",
+        "point",
+        "truth",
+    ),
     "mechanism": ("title", "kind", "ground", "parameters", "joint", "body", "truth"),
 }
 _TRUTH_KEYS = (
@@ -76,7 +87,10 @@ class Truth:
 
 @dataclass(frozen=True)
 class Case:
-    """A case file, read and checked. Either `system` or `mechanism` is there, as `kind` says."""
+    """A case file, read and checked. Either `system` or `mechanism` is there, as `kind` says.
+
+    `symmetries` are those that the file declares; each was verified exactly on the equations.
+    """
 
     title: str
     kind: Literal["system", "mechanism"]
@@ -86,6 +100,7 @@ class Case:
     mechanism: Mechanism | None = None
     points: tuple[NamedPoint, ...] = ()
     truth: tuple[Truth, ...] = ()
+    symmetries: tuple[SignedPermutation, ...] = ()
 
 
 def read_case(path: str | os.PathLike[str]) -> Case:
@@ -112,8 +127,16 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         mechanism = _read_mechanism(top, numbers)
         return Case(title, "mechanism", path, parameters, mechanism=mechanism, truth=truth)
     system = _read_system(top, numbers)
-    points = _read_points(top, system, numbers)
-    return Case(title, "system", path, parameters, system=system, points=points, truth=truth)
+    return Case(
+        title,
+        "system",
+        path,
+        parameters,
+        system=system,
+        points=_read_points(top, system, numbers),
+        truth=truth,
+        symmetries=_read_symmetries(top, system),
+    )
 
 
 @dataclass(frozen=True)
@@ -223,6 +246,27 @@ def _read_points(top: Table, system: PolynomialSystem, numbers: _Numbers) -> tup
                 at.append(numbers.number(coordinates.values[variable]))
         points.append(NamedPoint(name, tuple(at)))
     return tuple(points)
+
+
+def _read_symmetries(top: Table, system: PolynomialSystem) -> tuple[SignedPermutation, ...]:
+    symmetries = []
+    for table in top.tables("symmetry"):
+        table.allow(("map",))
+        wanted = '{ variable = "-variable", ... }'
+        images = table.get("map", dict, wanted)
+        for name, image in images.items():
+            if not isinstance(image, str):
+                table.fail("map", f"{quote(name)} is {kind_of(image)}; write {wanted}")
+        try:
+            symmetry = SignedPermutation.of_map(images, system.variables)
+        except SymmetryError as error:
+            table.fail("map", str(error))
+        try:
+            check_symmetry(system, symmetry)
+        except SymmetryError as error:
+            table.fail("map", f"is no symmetry: {error}; correct it or leave it out")
+        symmetries.append(symmetry)
+    return tuple(symmetries)
 
 
 def _read_truth(top: Table, kind: str) -> tuple[Truth, ...]:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.fibres import Tracker
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.frame import Frame
-from nag.decomposition.irreducible import irreducible_classes
+from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
 from nag.decomposition.witness import Decomposition, Status, WitnessSet
@@ -23,6 +27,7 @@ def decompose(
     threads: int = 1,
     settings: str = "default",
     progress: Progress | None = None,
+    symmetries: Sequence[SignedPermutation] = (),
 ) -> Decomposition:
     """Decompose the zero set of ``system`` into irreducible components over the complex numbers.
 
@@ -36,11 +41,22 @@ def decompose(
         threads: for path tracking.
         settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
         progress: called with a stage's name, the step reached and the number of steps.
+        symmetries: signed permutations of the variables that keep the equations. Of the components
+            that they carry into each other one is worked out and reported, with the size of its
+            orbit; `nag.decomposition.expansion.expanded` lists the others.
+
+    Raises:
+        nag.algebra.symmetry.SymmetryError: if one of ``symmetries`` does not keep the equations.
     """
+    for symmetry in symmetries:
+        check_symmetry(system, symmetry)
     rng = np.random.default_rng(seed)
     tracker = Tracker(settings, threads)
     elimination = eliminate_linear(system, graphs=False)
     reduced, frame = elimination.system, Frame.of(elimination)
+    actions = [
+        Action.of(g, frame.T, frame.t, frame.positions) for g in symmetries if not g.is_identity
+    ]
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
     flag = random_rows(rng, reduced.n, reduced.n)
@@ -56,15 +72,25 @@ def decompose(
             continue
         if progress is not None:
             progress("splitting", len(components), 0)
-        classes, spent = irreducible_classes(fibres, rows, rng, tracker)
+        orbits, spent, doubts = irreducible_orbits(fibres, rows, actions, rng, tracker)
         counts += spent
+        notes += [f"dimension {d}: {doubt}" for doubt in doubts]
         sets = []
-        for found in classes:
+        for orbit in orbits:
             component, spent = checked_witness_set(
-                found, fibres, rows, all_reduced, all_original, frame, system.groups, rng, tracker
+                orbit.representative,
+                fibres,
+                rows,
+                all_reduced,
+                all_original,
+                frame,
+                system.groups,
+                rng,
+                tracker,
             )
             counts += spent
-            sets.append(component)
+            size = 1 + len(orbit.carriers)
+            sets.append(replace(component, orbit=size, images=orbit.carriers))
         sets.sort(key=lambda c: c.degree)
         components.extend(sets)
     undecided = any(c.status is Status.UNDECIDED for c in components)

@@ -7,6 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 
 
@@ -74,6 +75,8 @@ class WitnessSet:
         precision: arithmetic that the points needed: ``"double"``, ``"double-double"`` or
             ``"mpmath N"``.
         note: why the status is undecided; empty otherwise.
+        images: symmetries of the system that carry it into the others of its orbit, one each;
+            empty where they are not known.
     """
 
     slice: Slice
@@ -87,6 +90,7 @@ class WitnessSet:
     orbit: int = 1
     precision: str = "double"
     note: str = ""
+    images: tuple[SignedPermutation, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", _read_only(self.points, complex))
@@ -98,7 +102,7 @@ class WitnessSet:
         if not isinstance(other, WitnessSet):
             return NotImplemented
         plain = ("multiplicity", "status", "residual", "accuracy", "corank", "orbit")
-        plain += ("precision", "note")
+        plain += ("precision", "note", "images")
         if (self.multidegree is None) != (other.multidegree is None):
             return False
         return (

@@ -20,6 +20,7 @@ import numpy as np
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 from nag.report.json_values import (
@@ -90,7 +91,10 @@ def _pairs(array: np.ndarray) -> list[Any]:
     return np.where(np.isfinite(doubles), doubles.astype(object), None).tolist()
 
 
-def _component_document(component: WitnessSet) -> dict[str, Any]:
+def _component_document(component: WitnessSet, variables: Sequence[str]) -> dict[str, Any]:
+    orbit: dict[str, Any] = {"size": component.orbit}
+    if component.images:
+        orbit["images"] = [g.text(variables) for g in component.images]
     document: dict[str, Any] = {"dimension": component.dimension, "degree": component.degree}
     if component.multidegree is not None:
         document["multidegree"] = component.multidegree.tolist()
@@ -98,7 +102,7 @@ def _component_document(component: WitnessSet) -> dict[str, Any]:
         "multiplicity": component.multiplicity,
         "status": str(component.status),
         "note": component.note,
-        "orbit": {"size": component.orbit},
+        "orbit": orbit,
         "residual": _real(component.residual),
         "accuracy": _real(component.accuracy),
         "precision": component.precision,
@@ -135,7 +139,7 @@ def document(decomposition: Decomposition, origin: Origin | None = None) -> dict
             "groups": [[system.variables[i] for i in group] for group in system.groups],
             "exact": system.exact,
         },
-        "components": [_component_document(c) for c in decomposition.components],
+        "components": [_component_document(c, system.variables) for c in decomposition.components],
     }
 
 
@@ -209,6 +213,7 @@ def _component(value: Any, system: PolynomialSystem, place: str) -> WitnessSet:
     if "multidegree" in table:
         multidegree = get("multidegree", _multidegree, len(system.groups), len(b))
     orbit = get("orbit", as_table)
+    size = as_count(entry(orbit, "size", f"{place}.orbit"), f"{place}.orbit.size", 1)
     return WitnessSet(
         slice=Slice(a, b),
         points=points,
@@ -218,10 +223,27 @@ def _component(value: Any, system: PolynomialSystem, place: str) -> WitnessSet:
         accuracy=get("accuracy", as_double),
         corank=get("corank", as_count),
         multidegree=multidegree,
-        orbit=as_count(entry(orbit, "size", f"{place}.orbit"), f"{place}.orbit.size", 1),
+        orbit=size,
         precision=get("precision", as_text),
         note=get("note", as_text),
+        images=_images(orbit.get("images", []), size, system, f"{place}.orbit.images"),
     )
+
+
+def _images(
+    value: Any, size: int, system: PolynomialSystem, place: str
+) -> tuple[SignedPermutation, ...]:
+    found = []
+    for i, item in enumerate(as_list(value, place)):
+        table = as_table(item, f"{place}[{i}]")
+        texts = {key: as_text(text, f"{place}[{i}].{key}") for key, text in table.items()}
+        try:
+            found.append(SignedPermutation.of_map(texts, system.variables))
+        except SymmetryError as error:
+            raise ExportError(f"{place}[{i}]: {error}") from None
+    if len(found) not in (0, size - 1):
+        raise wrong(place, "one symmetry for each other component of the orbit")
+    return tuple(found)
 
 
 def _polynomials(value: Any, variables: Sequence[str], place: str) -> list[Polynomial]:
