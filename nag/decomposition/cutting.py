@@ -33,7 +33,7 @@ NEARLY_SINGULAR = 1e-5
 # a singular end are themselves uncertain.
 NEAR = 1e-7
 # Deflated systems of more unknowns cost more than they are worth.
-MOST_UNKNOWNS = 150
+MOST_UNKNOWNS = 80
 # A random choice of null vectors may be an unlucky one.
 ATTEMPTS = 3
 # Gradients below this, relative to what their degree lets them have, are not scaled up further.
