@@ -107,6 +107,11 @@ def parser() -> argparse.ArgumentParser:
         description="Find the irreducible components of a mechanism's configuration space, or of "
         "the zero set of a polynomial system, and the mobility.",
     )
+    decompose.add_argument(
+        "--expand",
+        action="store_true",
+        help="list every component, not one of each orbit of the system's symmetries",
+    )
     decompose.set_defaults(run=_decompose)
 
     from nag.report import bench_command, solve_command
@@ -193,7 +198,8 @@ def _decompose(arguments: argparse.Namespace) -> int:
         progress_line(sys.stderr, arguments.quiet) as progress,
     ):
         from nag.decomposition import decompose
-        from nag.report.answer import system_of, through_points
+        from nag.decomposition.expansion import expanded
+        from nag.report.answer import symmetries_of, system_of, through_points
 
         decomposition = decompose(
             system_of(case, model),
@@ -201,7 +207,10 @@ def _decompose(arguments: argparse.Namespace) -> int:
             threads=arguments.threads,
             settings=arguments.settings,
             progress=progress,
+            symmetries=symmetries_of(case, model),
         )
+        if arguments.expand:
+            decomposition = expanded(decomposition)
         points = through_points(decomposition, case, model, arguments.threads)
 
     from nag.report.answer import accounted, answer_lines, origin

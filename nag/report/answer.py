@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from nag.algebra.number import Number, is_zero, number_text
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition.expansion import expanded
 from nag.decomposition.witness import Decomposition, Status
 from nag.report.agreement import agreement_text, compare, in_words, kinds
 from nag.report.export import Origin
@@ -35,7 +37,7 @@ class Through:
     Attributes:
         name: name of the point.
         solution: whether the point satisfies the equations.
-        components: indices of the components through it.
+        components: indices of the components through it, among all that the orbits stand for.
         doubt: why the components are not known; empty if they are.
     """
 
@@ -53,6 +55,13 @@ def system_of(case: Case, model: Model | None) -> PolynomialSystem:
     return system
 
 
+def symmetries_of(case: Case, model: Model | None) -> tuple[SignedPermutation, ...]:
+    """Symmetries of the system: sign changes of Euler parameters, or what the case declares."""
+    if model is None:
+        return case.symmetries
+    return tuple(SignedPermutation.of_signs(signs) for signs in model.symmetries)
+
+
 def points_of(case: Case, model: Model | None) -> list[tuple[str, tuple[Number, ...]]]:
     """Named points of the system: of a mechanism, its reference configuration."""
     if model is not None:
@@ -66,7 +75,7 @@ def through_points(
     """Which components pass through the case's named points."""
     from nag.decomposition.membership import components_through
 
-    found = []
+    found, everything = [], expanded(decomposition)
     for name, point in points_of(case, model):
         if not all(is_zero(value) for value in decomposition.system(point)):
             found.append(Through(name, solution=False))
@@ -74,7 +83,7 @@ def through_points(
         at = np.array([complex(float(x)) for x in point])
         try:
             indices = components_through(
-                decomposition,
+                everything,
                 at,
                 seed=decomposition.seed,
                 threads=threads,
@@ -124,8 +133,9 @@ def _mobility_rows(
     if model is not None:
         label, free = "mobility", model.structure.cut_freedoms
         counted = f" (Gruebler-Kutzbach counts {model.gruebler_kutzbach})"
+    everything = expanded(decomposition).components
     for point in points:
-        components = [decomposition.components[i] for i in point.components]
+        components = [everything[i] for i in point.components]
         if not point.solution:
             text = f"{point.name} is no solution of the equations"
         elif point.doubt:
@@ -141,6 +151,14 @@ def _mobility_rows(
     return rows
 
 
+def _orbit_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
+    sizes = [component.orbit for component in decomposition.components]
+    if max(sizes, default=1) == 1:
+        return []
+    text = f"symmetries leave {len(sizes)} of {sum(sizes)} components to work out, in orbits of "
+    return [("orbits", text + ", ".join(map(str, sorted(sizes))))]
+
+
 def answer_lines(
     decomposition: Decomposition,
     case: Case,
@@ -154,7 +172,7 @@ def answer_lines(
         head = _model_rows(model) + head
     if not decomposition.complete:
         head.append(("", "INCOMPLETE, see below"))
-    tail = _mobility_rows(decomposition, model, points)
+    tail = _orbit_rows(decomposition) + _mobility_rows(decomposition, model, points)
     tail += [("open", line) for line in remarks(decomposition)]
     tail += [
         ("paths", paths_line(decomposition)),
