@@ -15,14 +15,17 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.local_ring import corank_at, local_dimension
 
 MOST_DEFLATIONS = 4
-MOST_UNKNOWNS = 80
+MOST_UNKNOWNS = 60
 NEWTON_STEPS = 12
 # Distances, relative to the point, at which further points of the solution set are looked for.
-NEARBY = (0.02, 0.07)
+NEARBY = (0.02, 0.1)
+# Values there that count as zero; next to a multiple component more cannot be reached.
+NOTHING = 1e-13
 
 
 class Place(Enum):
@@ -76,18 +79,24 @@ def _deflated(
     """The polynomials and ``J (q1 + q2 L) = 0``, exact, in the variables ``(z, L)``."""
     m, k = q1.shape[1], q2.shape[1]
     total = n + m * k
-    unknowns = Polynomial.variables(total)[n:]
     result = [f.with_variables(total, range(n)) for f in polynomials]
+    constant = [[Fraction(v) for v in row] for row in q1.tolist()]
+    slopes = [[Fraction(v) for v in row] for row in q2.tolist()]
+    none = (0,) * (m * k)
     for f in polynomials:
-        gradient = [f.derivative(i).with_variables(total, range(n)) for i in range(n)]
+        gradient = [f.derivative(i) for i in range(n)]
         for column in range(m):
-            value = Polynomial(total, {})
+            terms: dict[tuple[int, ...], Number] = {}
             for i, derivative in enumerate(gradient):
-                if derivative:
-                    entry = Polynomial.constant(total, Fraction(q1[i, column]))
-                    for j in range(k):
-                        entry = entry + unknowns[column * k + j] * Fraction(q2[i, j])
-                    value = value + derivative * entry
+                entry = [(none, constant[i][column])]
+                for j in range(k):
+                    place = column * k + j
+                    entry.append(((*none[:place], 1, *none[place + 1 :]), slopes[i][j]))
+                for e, c in derivative.terms.items():
+                    for unknown, weight in entry:
+                        key = e + unknown
+                        terms[key] = terms[key] + c * weight if key in terms else c * weight
+            value = Polynomial(total, terms)
             if value:
                 result.append(value)
     return result
@@ -125,7 +134,7 @@ def has_neighbours(
     """Whether zeros are found on random hyperplanes that pass near the zero ``x``.
 
     Gauss-Newton finds them if ``x`` lies on a curve; near an isolated zero of order k the values
-    at distance r are of the size of r^k, which is no rounding error for k below 10.
+    at distance r are of the size of r^k, which is no rounding error for k below 12.
     """
     _, s, vh = np.linalg.svd(evaluator.jacobian(x))
     m = max(1, corank_at(s, len(x), accuracy))
@@ -155,7 +164,7 @@ def _zero_on(evaluator: Evaluator, x: np.ndarray, v: np.ndarray, distance: float
             if np.linalg.norm(delta) < 1e-15 * (1 + np.linalg.norm(y)):
                 break
     residual = float(evaluator.residuals(y[None]).max(initial=0.0))
-    return residual < 3e-15 and bool(abs(v.conj() @ (y - x) - distance) < 1e-9 * distance)
+    return residual < NOTHING and bool(abs(v.conj() @ (y - x) - distance) < 1e-9 * distance)
 
 
 def analyse(

@@ -1,0 +1,131 @@
+"""Exports of solutions fit their schema and read back equal; the command prints what it found."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.cli import main
+from nag.report.json_values import ExportError
+from nag.report.solutions_export import (
+    FORMAT,
+    VERSION,
+    document,
+    export_text,
+    read_solutions,
+    schema,
+    write_solutions,
+)
+from nag.tracking.solutions import SolveResult
+from nag.tracking.solve import solve
+
+CASE = """
+title = "A circle and a cubic"
+kind = "system"
+variables = ["x", "y"]
+equations = ["x^2 + y^2 - 5", "x^2*y - 4"]
+"""
+
+
+@pytest.fixture(scope="module")
+def result() -> SolveResult:
+    names = ("x", "y")
+    equations = ["x^2 + y^3", "y^2*(y - 1)"]
+    return solve(PolynomialSystem(names, [parse_polynomial(e, names) for e in equations]), seed=3)
+
+
+def test_the_schema_is_a_schema_of_what_is_written(result: SolveResult) -> None:
+    jsonschema.Draft202012Validator.check_schema(schema())
+    value = document(result, "title", "file.toml")
+    jsonschema.validate(value, schema())
+    assert (value["format"], value["version"]) == (FORMAT, VERSION)
+    assert [s["multiplicity"] for s in value["solutions"]].count(4) == 1
+
+
+def test_an_export_reads_back_equal(result: SolveResult, tmp_path: Path) -> None:
+    write_solutions(result, tmp_path / "a.json", "title", "file.toml")
+    back = read_solutions(tmp_path / "a.json")
+    assert (back.title, back.file) == ("title", "file.toml")
+    assert back.result.points.tobytes() == result.points.tobytes()
+    assert export_text(back.result, back.title, back.file) == export_text(
+        result, "title", "file.toml"
+    )
+    assert back.result.system == result.system
+    assert back.result.paths == result.paths
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda d: d.update(format="other"), "format: must be"),
+        (lambda d: d.update(version=2), "version: must be 1"),
+        (lambda d: d.pop("solutions"), "'solutions' is missing"),
+        (lambda d: d["solutions"][0].update(point=[[0, 0]]), "point: must be of length 2"),
+        (lambda d: d["solutions"][0].update(multiplicity=0), "multiplicity: must be an integer"),
+        (lambda d: d["system"].update(groups=[["z"]]), "'z' is not one of the variables"),
+        (lambda d: d.update(complete=1), "complete: must be true or false"),
+    ],
+)
+def test_what_is_no_export_is_refused_with_its_place(
+    change: object, message: str, result: SolveResult, tmp_path: Path
+) -> None:
+    value = document(result)
+    change(value)
+    file = tmp_path / "bad.json"
+    file.write_text(json.dumps(value), "utf-8")
+    with pytest.raises(ExportError, match=message):
+        read_solutions(file)
+
+
+def test_the_command_prints_a_table_and_writes_the_same_bytes_for_any_number_of_threads(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(CASE, "utf-8")
+    texts = []
+    for threads in ("1", "2"):
+        target = tmp_path / f"{threads}.json"
+        arguments = ["solve", str(case), "--json", str(target), "--threads", threads, "--quiet"]
+        assert main(arguments) == 0
+        texts.append(target.read_bytes())
+    assert texts[0] == texts[1]
+    out = capsys.readouterr().out
+    assert "6 isolated solutions" in out
+    assert "fewest paths" in out
+    value = json.loads(texts[0])
+    jsonschema.validate(value, schema())
+    points = np.array(value["solutions"][0]["point"]).view(float)
+    assert points.shape == (2, 2)
+
+
+def test_bad_input_is_one_line_and_status_two(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = tmp_path / "case.toml"
+    case.write_text(CASE, "utf-8")
+    assert main(["solve", str(case), "--start", "best"]) == 2
+    assert main(["solve", str(tmp_path / "none.toml")]) == 2
+    assert main(["solve", str(case), "--json", str(tmp_path / "no" / "where.json")]) == 2
+    lines = capsys.readouterr().err.strip().splitlines()
+    assert len(lines) == 3 and all(line.startswith("nag: ") for line in lines)
+
+
+def test_too_many_paths_are_one_line_and_status_two(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    names = [f"x{i}" for i in range(8)]
+    equations = ", ".join(f'"{v}^10 + {names[i - 1]} - 1"' for i, v in enumerate(names))
+    case = tmp_path / "case.toml"
+    listed = ", ".join(f'"{v}"' for v in names)
+    case.write_text(
+        f'title = "x"\nkind = "system"\nvariables = [{listed}]\nequations = [{equations}]\n',
+        "utf-8",
+    )
+    assert main(["solve", str(case), "--start", "total", "--quiet"]) == 2
+    assert "100000000 paths" in capsys.readouterr().err

@@ -1,0 +1,204 @@
+"""Solving: every isolated solution once, with its multiplicity; everything else said apart."""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.cases import read_case
+from nag.mechanism.model import model
+from nag.tracking.solutions import SolveResult
+from nag.tracking.solve import clusters, solve, symmetric
+from nag.tracking.start.target import StartError
+
+BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
+
+
+def system(variables: str, *equations: str, **more: object) -> PolynomialSystem:
+    names = variables.split()
+    return PolynomialSystem(names, [parse_polynomial(e, names) for e in equations], **more)
+
+
+def multiplicities(result: SolveResult) -> Counter[int]:
+    return Counter(s.multiplicity for s in result.solutions)
+
+
+def sorted_points(result: SolveResult) -> np.ndarray:
+    points = result.points
+    return points[np.lexsort((np.rint(points * 1e6)).T)]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "griewank-osborne",
+        "cbms1",
+        "cbms2",
+        "mth191",
+        "kss-5",
+        "caprasse",
+        "planar-3-rpr",
+        "inverse-6r",
+        "stewart-gough",
+        "katsura-6",
+        "cyclic-5",
+        "noon-5",
+        "eco-8",
+    ],
+)
+def test_benchmarks_have_the_solutions_that_are_known(name: str) -> None:
+    case = read_case(BENCHMARKS / f"{name}.toml")
+    known: Counter[int] = Counter()
+    for truth in case.truth:
+        known[truth.multiplicity] += truth.count
+    result = solve(case.system or model(case.mechanism).system, seed=1)
+    assert multiplicities(result) == known
+    assert result.complete
+    assert result.paths.failed == 0
+    assert max(s.residual for s in result.solutions) < 1e-14
+    assert max(s.accuracy for s in result.solutions) < 1e-10
+
+
+@pytest.mark.parametrize("start", ["auto", "total", "multihomogeneous", "polyhedral"])
+def test_every_start_system_leads_to_the_same_solutions(start: str) -> None:
+    f = system("x y", "x^2*y + 3*x*y - 2", "x*y^2 - 5*y + x + 1")
+    result = solve(f, start=start, seed=3)
+    assert result.complete
+    reference = solve(f, start="total", seed=0)
+    assert np.allclose(sorted_points(result), sorted_points(reference), atol=1e-9)
+
+
+def test_solutions_on_coordinate_hyperplanes_are_solutions_like_others() -> None:
+    f = system("x y z", "x*(x - 2)", "y*(x + y - 5)", "z*(z - x - 1)")
+    wanted = {(x, y, z) for x in (0, 2) for y in (0, 5 - x) for z in (0, 1 + x)}
+        (0, 0, 0),
+        (0, 5, 0),
+        (2, 0, 0),
+        (2, 3, 0),
+        (0, 0, 1),
+        (0, 5, 1),
+        (2, 0, 3),
+        (2, 3, 3),
+    }
+    for start in ("auto", "polyhedral", "total"):
+        result = solve(f, start=start, seed=2)
+        assert result.complete
+        assert {tuple(np.rint(p.real)) for p in result.points} == wanted
+        assert np.abs(result.points - np.rint(result.points.real)).max() < 1e-12
+
+
+def test_a_multiple_solution_at_the_origin_has_its_multiplicity() -> None:
+    for start in ("total", "polyhedral"):
+        result = solve(system("x y", "x^2 + y^3", "y^2 - x^3"), start=start)
+        origin = [s for s in result.solutions if np.abs(s.point).max() < 1e-10]
+        assert [s.multiplicity for s in origin] == [4]
+        assert sum(s.multiplicity for s in result.solutions) == 9
+        assert result.complete
+
+
+def test_curves_are_told_apart_from_isolated_points() -> None:
+    f = system("x y", "(x^2 + y^2 - 1)*(x - 2)", "(x^2 + y^2 - 1)*(y - 3)")
+    result = solve(f, seed=1)
+    assert np.allclose(result.points, [[2, 3]])
+    assert result.positive_dimensional
+    on = result.on_components
+    assert np.abs((on**2).sum(axis=1) - 1).max() < 1e-6
+    assert result.complete
+    assert any("positive dimension" in note for note in result.notes)
+
+
+def test_a_double_line_is_no_isolated_solution() -> None:
+    result = solve(system("x y z", "x^2", "x*y + y^2", "z^2*y - y + x"), seed=1)
+    assert result.solutions == ()
+    assert result.positive_dimensional
+
+
+def test_fewer_equations_than_variables_have_no_isolated_solution() -> None:
+    result = solve(system("x y z", "x^2 + y^2 - 1", "z - x*y"), seed=0)
+    assert result.solutions == ()
+    assert len(result.on_components) == 4
+    assert result.positive_dimensional
+
+
+def test_overdetermined_systems_keep_only_common_solutions() -> None:
+    f = system("x y", "x^2 + y^2 - 5", "x*y - 2", "x + y - 3")
+    result = solve(f, seed=4)
+    assert {tuple(np.round(p.real, 12)) for p in result.points} == {(1, 2), (2, 1)}
+    assert result.complete
+    assert len(result.real) == 2
+    inconsistent = solve(system("x y", "x^2 + y^2 - 5", "x*y - 2", "x + y - 4"), seed=4)
+    assert inconsistent.solutions == () and inconsistent.complete
+
+
+def test_points_where_a_polynomial_must_not_vanish_are_excluded() -> None:
+    f = system("x y", "x^2 - 3*x + 2", "y - x")
+    x = Polynomial.variable(2, 0)
+    result = solve(PolynomialSystem(f.variables, f.polynomials, nonzero=[x - 1]))
+    assert np.allclose(result.points, [[2, 2]])
+    assert result.excluded == 1
+
+
+def test_constants_and_empty_systems_need_no_paths() -> None:
+    assert solve(system("x", "x - x + 3")).solutions == ()
+    assert solve(system("x", "x - x + 3")).complete
+    assert len(solve(PolynomialSystem((), ())).solutions) == 1
+
+
+def test_no_solutions_at_all() -> None:
+    result = solve(system("x y", "x + y - 1", "x + y - 2"))
+    assert result.solutions == () and not result.positive_dimensional and result.complete
+
+
+def test_badly_scaled_systems_are_scaled() -> None:
+    big = 10**9
+    f = system("x y", f"x^2 - {big**2}", f"{big}*y^2*x - 4")
+    result = solve(f, seed=2)
+    assert len(result.solutions) == 4
+    assert np.allclose(np.abs(result.points[:, 0]), big)
+    assert np.allclose(np.abs(result.points[:, 1]), 2 / big)
+
+
+def test_same_seed_same_answer_for_any_number_of_threads() -> None:
+    f = read_case(BENCHMARKS / "katsura-7.toml").system
+    one, two = solve(f, seed=5, threads=1), solve(f, seed=5, threads=2)
+    assert one.points.tobytes() == two.points.tobytes()
+    assert one.paths == two.paths
+    assert [s.condition for s in one.solutions] == [s.condition for s in two.solutions]
+
+
+def test_too_many_paths_are_refused_with_one_line() -> None:
+    n = 12
+    variables = [f"x{i}" for i in range(n)]
+    x = Polynomial.variables(n)
+    dense = sum(x, Polynomial.constant(n, 1))
+    polynomials = [dense * (v - i) ** 4 + i + 2 for i, v in enumerate(x)]
+    with pytest.raises(StartError, match="paths"):
+        solve(PolynomialSystem(variables, polynomials), start="total")
+
+
+def test_clusters_join_points_within_their_errors() -> None:
+    points = np.array([[1, 2], [1 + 1e-9, 2], [1, 2.001], [1, 2 - 1e-9]], dtype=complex)
+    groups = clusters(points, np.full(4, 1e-12))
+    assert [g.tolist() for g in groups] == [[0, 1, 3], [2]]
+
+
+def test_a_missing_conjugate_is_noticed() -> None:
+    result = solve(system("x", "x^4 + x + 1"))
+    assert symmetric(result.solutions)
+    assert not symmetric(result.solutions[1:])
+
+
+def test_rational_solutions_are_found_to_rounding() -> None:
+    half = Fraction(1, 2)
+    x = Polynomial.variables(2)
+    f = [(x[0] - half) * (x[0] - 3), (x[1] + half) * (x[1] - x[0])]
+    points = sorted_points(solve(PolynomialSystem(("x", "y"), f)))
+    wanted = {(0.5, -0.5), (0.5, 0.5), (3.0, -0.5), (3.0, 3.0)}
+    assert {tuple(np.round(p.real, 12)) for p in points} == wanted

@@ -1,0 +1,147 @@
+"""Start systems: solved exactly, as many solutions as the count says, regular all of them."""
+
+from __future__ import annotations
+
+from math import comb, prod
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.polynomial import Polynomial
+from nag.tracking.start.choice import choose
+from nag.tracking.start.multihomogeneous import (
+    best_groups,
+    bezout_number,
+    count,
+    multihomogeneous,
+)
+from nag.tracking.start.scaling import independent_rows, scaled_terms, variable_scales
+from nag.tracking.start.target import Start, StartError, Target
+from nag.tracking.start.total_degree import bezout, total_degree
+
+
+def target(variables: str, *equations: str) -> Target:
+    names = variables.split()
+    return Target.of([parse_polynomial(e, names) for e in equations], len(names))
+
+
+SYSTEMS = [
+    target("x y", "x^2 + y^2 - 5", "x^3*y - 2"),
+    target("x y z", "x + 2*y - 3*z - 1", "x^2 - y*z + 3", "z^3 + x*y - 7"),
+    target("x y z", "x - y + 2", "x + y + z", "x*y*z - 4"),
+]
+EIGENVALUES = target("l a b", "2*a + b - l*a", "a - 3*b - l*b", "3*a + 5*b - 1")
+
+
+def residual_at_start(start: Start) -> float:
+    points = start.homotopy.normalized(start.points)
+    return float(np.abs(start.homotopy.values(points, 1.0)).max(initial=0.0))
+
+
+def are_distinct_and_regular(start: Start) -> bool:
+    homotopy = start.homotopy
+    points = homotopy.normalized(start.points)
+    jacobian = np.concatenate([homotopy.jacobian(points, 1.0), homotopy.patch(points)], axis=1)
+    smallest = np.linalg.svd(jacobian, compute_uv=False)[:, -1]
+    affine = start.affine(points)
+    apart = np.linalg.norm(affine[:, None] - affine[None], axis=2)
+    apart += np.eye(len(affine))
+    return bool(smallest.min() > 1e-6 and apart.min() > 1e-6)
+
+
+@pytest.mark.parametrize("each", SYSTEMS)
+def test_total_degree_has_bezouts_number_of_regular_solutions(each: Target) -> None:
+    start = total_degree(each, np.random.default_rng(0))
+    assert len(start.points) == bezout(each) == prod(each.degrees)
+    assert residual_at_start(start) < 1e-14
+    assert are_distinct_and_regular(start)
+
+
+def test_linear_equations_hold_all_the_way() -> None:
+    start = total_degree(SYSTEMS[2], np.random.default_rng(1))
+    assert len(start.homotopy.A0) == 2
+    assert not start.homotopy.A1.any()
+    assert len(start.points) == 3
+
+
+def test_multihomogeneous_has_its_number_of_regular_solutions() -> None:
+    groups = ((0,), (1, 2))
+    start = multihomogeneous(EIGENVALUES, groups, np.random.default_rng(0))
+    assert len(start.points) == count(EIGENVALUES, groups) == 2
+    assert residual_at_start(start) < 1e-14
+    assert are_distinct_and_regular(start)
+
+
+def test_groups_are_found() -> None:
+    groups, number = best_groups(EIGENVALUES)
+    assert (groups, number) == (((0,), (1, 2)), 2)
+    multilinear = target("x y z", *(f"x*y*z + {a}*x*y + {a * a}*z - {a}" for a in (2, 3, 5)))
+    assert best_groups(multilinear) == (((0,), (1,), (2,)), 6)
+
+
+@given(st.lists(st.integers(1, 4), min_size=1, max_size=5))
+def test_one_group_gives_bezouts_number(degrees: list[int]) -> None:
+    assert bezout_number(np.array(degrees)[:, None], [len(degrees)]) == prod(degrees)
+
+
+@given(st.integers(1, 5), st.integers(1, 5))
+def test_bilinear_systems_have_binomial_numbers(a: int, b: int) -> None:
+    degrees = np.ones((a + b, 2), dtype=int)
+    assert bezout_number(degrees, [a, b]) == comb(a + b, a)
+
+
+@settings(deadline=None, max_examples=25)
+@given(st.permutations(range(5)), st.integers(0, 10**6))
+def test_a_partition_gives_at_most_what_the_search_ends_with(order: list[int], seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    rows = []
+    for _ in range(5):
+        exponents = rng.integers(0, 2, (4, 5))
+        rows.append(Polynomial(5, {tuple(e): 1 for e in exponents.tolist()} | {(0,) * 5: 1}))
+    each = Target.of(rows, 5)
+    groups, number = best_groups(each)
+    assert number == count(each, groups) <= bezout(each)
+    split = (tuple(sorted(order[:2])), tuple(sorted(order[2:])))
+    assert best_groups(each, split)[1] <= count(each, split)
+
+
+def test_auto_takes_the_fewest_paths_and_says_why() -> None:
+    start, reason = choose(EIGENVALUES, "auto", (), np.random.default_rng(0), "default", 1)
+    assert start.name == "multihomogeneous" and len(start.points) == 2
+    assert "total degree 4" in reason and "multihomogeneous 2" in reason
+
+
+def test_unknown_kinds_and_too_many_paths_are_refused() -> None:
+    with pytest.raises(ValueError, match="auto, total"):
+        choose(EIGENVALUES, "best", (), np.random.default_rng(0), "default", 1)
+    names = [f"x{i}" for i in range(8)]
+    huge = target(" ".join(names), *(f"{v}^10 + {names[i - 1]} - 1" for i, v in enumerate(names)))
+    with pytest.raises(StartError, match="100000000 paths"):
+        total_degree(huge, np.random.default_rng(0))
+
+
+def test_scaling_makes_coefficients_of_one_size() -> None:
+    f = [
+        parse_polynomial("1000000*x^2 - 4", ["x", "y"]),
+        parse_polynomial("x*y/1000000000 - 1", ["x", "y"]),
+    ]
+    scales = variable_scales(f, 2)
+    for each in f:
+        sizes = [abs(float(c)) for c in scaled_terms(each, scales).values()]
+        assert max(sizes) / min(sizes) < 4
+        assert 1 <= max(sizes) < 2
+
+
+def test_rows_with_the_same_monomials_become_orthogonal_and_keep_their_zeros() -> None:
+    f = [
+        dict(parse_polynomial(t, ["x", "y"]).terms)
+        for t in ("x*y - 2*x + 3*y - 6", "1001*x*y - 2000*x + 3001*y - 6003")
+    ]
+    rows = independent_rows(f)
+    matrix = np.array([[float(row[e]) for e in f[0]] for row in rows])
+    assert np.allclose(matrix @ matrix.T, np.eye(2), atol=1e-6)
+    before = np.array([[float(row[e]) for e in f[0]] for row in f])
+    assert np.linalg.matrix_rank(np.vstack([before, matrix]), tol=1e-6) == 2
