@@ -293,10 +293,11 @@ def track_batch(
                 left = min(theta, 1.0) * n1
                 if state == 0:
                     f[FIRST, lane] = n0
-                    f[THETA, lane] = theta if n1 > 1e-11 else 0.0
+                    # Corrections that do not contract any more are rounding errors.
+                    rounding = n1 <= (1e-7 if ending else 1e-9)
+                    f[THETA, lane] = 0.0 if rounding else theta
                     c[ROUNDS, lane] = 0
-                    # Corrections that shorter steps do not make contract are rounding errors.
-                    rounding = n1 <= 1e-11 or (n1 <= floor and c[REJECTED, lane] >= 2)
+                    rounding = rounding or (n1 <= floor and c[REJECTED, lane] >= 2)
                     ok = n0 <= tolerance and (theta <= theta_max or rounding)
                 else:
                     c[ROUNDS, lane] += 1
