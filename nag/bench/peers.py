@@ -67,16 +67,14 @@ def _call(command: list[str], folder: str, limit: float) -> tuple[float, str | N
 
 def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
     names, texts = _texts(system)
-    # The second call is timed: the first one loads what it needs.
     script = (
         'needsPackage "NumericalAlgebraicGeometry";\n'
         f"R = CC_53[{', '.join(names)}];\n"
         f"F = {{{', '.join(texts)}}};\n"
-        "warm = R_0; solveSystem {x - 1} where x := warm;\n"
         "t = elapsedTiming (S = solveSystem F);\n"
         'print("result " | toString(t#0) | " " | toString(#S));\n'
         "exit 0\n"
-    ).replace("warm = R_0; solveSystem {x - 1} where x := warm;\n", "")
+    )
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "system.m2"
         file.write_text(script, "utf-8")
