@@ -73,8 +73,13 @@ def checked_witness_set(
     groups: Sequence[Sequence[int]],
     rng: np.random.Generator,
     tracker: Tracker,
+    scheme: bool = True,
 ) -> tuple[WitnessSet, PathCounts]:
-    """A class of points as a witness set, after the final checks."""
+    """A class of points as a witness set, after the final checks.
+
+    Without ``scheme`` the set need not be a component of the scheme of the equations; then its
+    multiplicity is 1 if it is a reduced one, and 0, not known, otherwise.
+    """
     d, counts = len(rows), PathCounts()
     chosen, start = [], 0
     for fibre in fibres:
@@ -101,8 +106,10 @@ def checked_witness_set(
         reasons.append("a point does not satisfy all equations")
     if len(set(coranks)) > 1:
         reasons.append("the corank of the Jacobian differs between its points")
-    multiple = 1 if coranks[0] == d else multiplicity(reduced, rows, y[0])
-    if multiple == 0:
+    multiple = int(coranks[0] == d)
+    if scheme and not multiple:
+        multiple = multiplicity(reduced, rows, y[0])
+    if scheme and multiple == 0:
         reasons.append("its multiplicity was not found")
     multidegree = None
     if groups:
