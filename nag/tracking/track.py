@@ -192,10 +192,10 @@ def _classified(homotopy: Homotopy, raw: _Raw, endgame: bool) -> Paths:
         status[ended] = np.where(
             far, PathStatus.AT_INFINITY, np.where(regular, PathStatus.REGULAR, PathStatus.SINGULAR)
         )
-        if not endgame:
-            lost = ended[~regular]
-            status[lost] = PathStatus.FAILED
-            reason[lost] = Reason.ENDGAME
+        # A path that ran straight to a singular end has not been judged by an endgame.
+        lost = ended[~regular & (raw.outcome[ended] == STRAIGHT)]
+        status[lost] = PathStatus.FAILED
+        reason[lost] = Reason.ENDGAME
     winding = np.where(status == PathStatus.FAILED, 0, raw.winding)
     return Paths(
         points, status, winding, accuracy, smallest, condition, raw.steps, precision, reason
