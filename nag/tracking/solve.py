@@ -135,6 +135,23 @@ class _Problem:
         return cls(system, mended, nonzero, target, added, len(equations) > n)
 
 
+def ends_of(
+    system: PolynomialSystem,
+    begin: Start,
+    paths: Paths,
+    reason: str,
+    rng: np.random.Generator,
+    seed: int,
+    settings: str,
+) -> SolveResult:
+    """The result for a square system whose paths, in its own variables, were tracked already."""
+    n = system.n
+    target = Target(n, tuple(dict(f.terms) for f in system.polynomials))
+    nonzero = Evaluator.of(system.nonzero, n)
+    problem = _Problem(system, system.polynomials, nonzero, target, 0, False)
+    return _result(problem, begin, reason, paths, rng, seed, settings)
+
+
 def _random_linear(n: int, rng: np.random.Generator) -> Polynomial:
     weights = [Fraction(int(w), 128) for w in rng.integers(-128, 129, n + 1)]
     terms = {(0,) * n: weights[n]}

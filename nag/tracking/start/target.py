@@ -94,7 +94,7 @@ class Start:
     def affine(self, points: np.ndarray) -> np.ndarray:
         """Values of the variables at projective points, shape ``(P, n)``."""
         shift = len(self.groups)
-        n = self.homotopy.N - shift
+        n = sum(len(group) for group in self.groups)
         result = np.empty((len(points), n), dtype=np.complex128)
         for k, group in enumerate(self.groups):
             indices = list(group)

@@ -1,0 +1,180 @@
+"""Parameter homotopies: a family solved once for random parameters, then for many given ones.
+
+Reference: Morgan & Sommese, Coefficient-parameter polynomial continuation, 1989.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.tracking.compiled import compile_rows
+from nag.tracking.homotopy import Homotopy, straight_line
+from nag.tracking.paths import PathStatus
+from nag.tracking.settings import Settings
+from nag.tracking.solutions import SolveResult
+from nag.tracking.solve import ends_of
+from nag.tracking.start.choice import choose
+from nag.tracking.start.target import (
+    Start,
+    StartError,
+    Target,
+    Terms,
+    group_degrees,
+    homogenized,
+    unit,
+)
+from nag.tracking.track import track
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """Square systems that depend on parameters.
+
+    Attributes:
+        variables: names of the ``n`` unknowns.
+        parameters: names of the ``k`` parameters.
+        polynomials: ``n`` polynomials in the unknowns followed by the parameters.
+    """
+
+    variables: tuple[str, ...]
+    parameters: tuple[str, ...]
+    polynomials: tuple[Polynomial, ...]
+
+    def __post_init__(self) -> None:
+        for name in ("variables", "parameters", "polynomials"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        n, total = self.n, self.n + len(self.parameters)
+        if len(self.polynomials) != n:
+            raise ValueError(f"{len(self.polynomials)} equations for {n} unknowns")
+        if any(f.n != total for f in self.polynomials):
+            raise ValueError(f"the polynomials must be in {n} unknowns and the parameters")
+
+    @property
+    def n(self) -> int:
+        """Number of unknowns."""
+        return len(self.variables)
+
+    @property
+    def linear(self) -> bool:
+        """Whether all coefficients are polynomials of degree one in the parameters."""
+        indices = range(self.n, self.n + len(self.parameters))
+        return all(f.degree_in(indices) <= 1 for f in self.polynomials)
+
+    def terms(self, values: Sequence[Number | complex]) -> tuple[Terms, ...]:
+        """The equations' terms where the parameters have these values."""
+        result = []
+        for f in self.polynomials:
+            terms: dict[tuple[int, ...], Number | complex] = {}
+            for e, c in f.terms.items():
+                value = c if all(isinstance(v, type(c)) for v in values) else complex(c)
+                for v, k in zip(values, e[self.n :], strict=True):
+                    value = value * v**k if k else value
+                key = e[: self.n]
+                terms[key] = terms[key] + value if key in terms else value
+            result.append(terms)
+        return tuple(result)
+
+    def at(self, values: Sequence[Number]) -> PolynomialSystem:
+        """The system where the parameters have these exact values."""
+        images = [*Polynomial.variables(self.n)]
+        images += [Polynomial.constant(self.n, v) for v in values]
+        return PolynomialSystem(self.variables, [f.compose(images) for f in self.polynomials])
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A family solved for random parameters: what `solve_family` starts from.
+
+    Attributes:
+        values: the parameters, complex, shape ``(k,)``.
+        points: the isolated solutions there, shape ``(P, n)``.
+        complete: whether all paths to them arrived, at regular solutions.
+    """
+
+    family: Family
+    values: np.ndarray
+    points: np.ndarray
+    complete: bool
+
+
+def solve_generic(
+    family: Family,
+    *,
+    start: str = "auto",
+    seed: int = 0,
+    threads: int = 1,
+    settings: Settings | str = "default",
+) -> Solved:
+    """Solve a family for random complex parameters.
+
+    Raises:
+        StartError: if there would be too many paths.
+    """
+    rng = np.random.default_rng(seed)
+    values = unit(rng, len(family.parameters)) * (0.5 + rng.random(len(family.parameters)))
+    target = Target(family.n, family.terms([complex(v) for v in values]))
+    begin, _ = choose(target, start, (), rng, settings, threads)
+    paths = track(begin.homotopy, begin.points, settings, threads)
+    points = begin.affine(paths.points[paths.where(PathStatus.REGULAR)])
+    doubtful = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)
+    return Solved(family, values, points, begin.complete and len(doubtful) == 0)
+
+
+def solve_family(
+    solved: Solved,
+    targets: Sequence[Sequence[Number]],
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: Settings | str = "default",
+) -> list[SolveResult]:
+    """Solve a family for each of the given exact parameters, by as many paths as it has solutions.
+
+    Raises:
+        StartError: if a target has a wrong number of parameters.
+    """
+    family = solved.family
+    name = settings if isinstance(settings, str) else "custom"
+    results = []
+    for number, values in enumerate(targets):
+        if len(values) != len(family.parameters):
+            raise StartError(
+                f"target {number + 1}: {len(values)} values for {len(family.parameters)} parameters"
+            )
+        begin = _start(solved, values)
+        paths = track(begin.homotopy, begin.points, settings, threads)
+        reason = f"parameter homotopy: {len(begin.points)} solutions for random parameters"
+        rng = np.random.default_rng([seed, number])
+        results.append(ends_of(family.at(values), begin, paths, reason, rng, seed, name))
+    return results
+
+
+def _start(solved: Solved, values: Sequence[Number]) -> Start:
+    family, n = solved.family, solved.family.n
+    groups = (tuple(range(n)),)
+    ones = np.ones((len(solved.points), 1), dtype=np.complex128)
+    points = np.hstack([ones, solved.points])
+    if family.linear:
+        first = family.terms([complex(v) for v in solved.values])
+        second = family.terms([complex(v) for v in values])
+        degrees = group_degrees(first, groups)
+        homotopy = straight_line(
+            homogenized(first, n, groups, degrees), homogenized(second, n, groups, degrees), 1.0
+        )
+    else:
+        # The parameters become unknowns that linear equations move along a straight line.
+        rows = compile_rows(family.polynomials)
+        k = len(family.parameters)
+        there = np.array([complex(v) for v in values])
+        A0 = np.hstack([-there[:, None], np.zeros((k, n)), np.eye(k)])
+        A1 = np.zeros_like(A0)
+        A1[:, 0] = there - solved.values
+        homotopy = Homotopy(rows, A0, A1)
+        points = np.hstack([points, np.repeat(solved.values[None], len(points), axis=0)])
+    return Start("parameter", homotopy, points, groups, solved.complete)
