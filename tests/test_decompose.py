@@ -17,7 +17,8 @@ from nag.decomposition.witness import Decomposition, Status
 from nag.mechanism.model import model
 from nag.report.agreement import Verdict, compare
 
-CASES = sorted((Path(__file__).parent.parent / "cases").glob("*.toml"))
+FOLDER = Path(__file__).parent.parent / "cases"
+CASES = [*sorted(FOLDER.glob("*.toml")), *sorted(FOLDER.glob("literature/*.toml"))]
 
 
 def system(variables: str, *equations: str) -> PolynomialSystem:
@@ -107,7 +108,7 @@ def test_union_of_a_sphere_a_curve_and_points_is_taken_apart() -> None:
 
 
 def test_same_seed_gives_the_same_numbers_for_any_number_of_threads() -> None:
-    case = read_case(CASES[0].parent / "double-rhombus.toml")
+    case = read_case(FOLDER / "double-rhombus.toml")
     one, two = (decompose(case.system, seed=5, threads=threads) for threads in (1, 2))
     assert one == two
 
