@@ -146,9 +146,9 @@ def _as_array(signs: Sequence[int]) -> Any:
 def check_symmetry(system: PolynomialSystem, g: SignedPermutation) -> None:
     """Make sure that ``g`` carries the solutions of ``system`` into themselves.
 
-    Every equation must become a rational combination of multiples, of no higher degree, of the
-    equations; every polynomial of ``nonzero`` one of them, up to a factor; and each group of
-    variables must stay together, in its place.
+    Every equation must become a rational combination of multiples of the equations, of no higher
+    degree than these have; every polynomial of ``nonzero`` one of them, up to a factor; and each
+    group of variables must stay together, in its place.
 
     Raises:
         SymmetryError: if that is not so, or cannot be shown in this way.
@@ -187,7 +187,7 @@ def _in_span(f: Polynomial, equations: Sequence[Polynomial]) -> bool:
         return False
     rest = f
     basis: dict[Exponents, Mapping[Exponents, Fraction]] = {}
-    for multiple in _multiples(equations, f.degree):
+    for multiple in _multiples(equations, max(g.degree for g in equations)):
         row = _reduced(dict(multiple.terms), basis)
         if not row:
             continue

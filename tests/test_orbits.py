@@ -1,0 +1,181 @@
+"""Orbits: one component of each is worked out, and the answer is the same as without symmetry."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.symmetry import SignedPermutation, SymmetryError
+from nag.algebra.system import PolynomialSystem
+from nag.cases import read_case
+from nag.decomposition import decompose
+from nag.decomposition.expansion import expanded, positions
+from nag.decomposition.fibres import Tracker
+from nag.decomposition.orbits import Action, irreducible_orbits, join, located
+from nag.decomposition.slices import random_rows
+from nag.decomposition.superset import witness_superset
+from nag.report.agreement import Verdict, compare, kinds
+from nag.report.export import read_decomposition, write_decomposition
+
+CASES = Path(__file__).parent.parent / "cases"
+
+
+def system(variables: str, *equations: str) -> PolynomialSystem:
+    names = tuple(variables.split())
+    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
+
+
+def symmetry(variables: str, **images: str) -> SignedPermutation:
+    return SignedPermutation.of_map(images, tuple(variables.split()))
+
+
+def orbit_sizes(answer) -> list[tuple[int, int, int]]:
+    return sorted((c.dimension, c.degree, c.orbit) for c in answer.components)
+
+
+@pytest.mark.parametrize(
+    "name", ["rhombus-chain-2", "rhombus-chain-3", "literature/adjacent-minors-2x6"]
+)
+@pytest.mark.parametrize("seed", [0, 1])
+def test_cases_with_symmetries_agree_with_what_is_known(name: str, seed: int) -> None:
+    case = read_case(CASES / f"{name}.toml")
+    answer = decompose(case.system, seed=seed, symmetries=case.symmetries)
+    assert answer.complete
+    assert len(answer.components) < sum(c.orbit for c in answer.components)
+    for each in (answer, expanded(answer)):
+        agreement = compare(each, case.truth)
+        assert agreement is not None and agreement.verdict is Verdict.AGREES
+        assert not agreement.unlisted
+    plain = decompose(case.system, seed=seed)
+    assert kinds(answer.components) == kinds(plain.components)
+    assert answer.paths.tracked < plain.paths.tracked
+
+
+def test_orbits_are_those_of_the_group() -> None:
+    # Bars 1 and 2 may change places, and -4, 5 and -6: the orbits of 3 pairings are 2 + 1 and 3.
+    case = read_case(CASES / "rhombus-chain-2.toml")
+    answer = decompose(case.system, seed=4, symmetries=case.symmetries)
+    assert orbit_sizes(answer) == [(2, 4, 3), (2, 4, 6)]
+
+
+def test_expanded_components_are_different_components_of_the_system() -> None:
+    case = read_case(CASES / "rhombus-chain-2.toml")
+    answer = decompose(case.system, seed=2, symmetries=case.symmetries)
+    everything = expanded(answer).components
+    assert [c.orbit for c in everything] == [1] * 9
+    assert Counter(positions(answer)) == Counter(
+        {i: c.orbit for i, c in enumerate(answer.components)}
+    )
+    # The components are the zero sets of different pairs of linear forms: c_i = +-c_j.
+    forms = set()
+    for component in everything:
+        x = component.points
+        assert np.abs(x @ component.slice.A.T - component.slice.b).max() < 1e-10
+        values = Evaluator.of(case.system.polynomials, case.system.n).residuals(x)
+        assert values.max() < 1e-12
+        c = x[:, ::2]
+        forms.add(
+            frozenset(
+                (i, j, sign)
+                for i in range(7)
+                for j in range(i)
+                for sign in (1, -1)
+                if np.abs(c[:, i] - sign * c[:, j]).max() < 1e-9
+            )
+        )
+    assert len(forms) == 9
+
+
+def test_points_curves_and_surfaces_in_orbits() -> None:
+    sphere = "(x^2 + y^2 + z^2 - 9)"
+    equations = [f"{sphere}*(x^2 - 1)", f"{sphere}*(y^2 - 1)*(x^2 - 4)", f"{sphere}*(y^2 - 1)*z"]
+    signs = [symmetry("x y z", **{v: f"-{v}"}) for v in "xyz"]
+    answer = decompose(system("x y z", *equations), seed=0, symmetries=signs)
+    assert answer.complete
+    # x = +-1 and y = +-1: four lines in one orbit; and the sphere.
+    assert orbit_sizes(answer) == [(1, 1, 4), (2, 2, 1)]
+    points = decompose(
+        system("x y z", "x^2 - 1", "y^2 - 4", "z^2 - 9"), seed=0, symmetries=[*signs[:2]]
+    )
+    assert orbit_sizes(points) == [(0, 1, 4), (0, 1, 4)]
+
+
+def test_multiplicities_hold_for_the_whole_orbit() -> None:
+    swap = symmetry("x y z", x="y", y="x")
+    answer = decompose(system("x y z", "x^2*y^2*z"), seed=1, symmetries=[swap])
+    assert sorted((c.multiplicity, c.orbit) for c in answer.components) == [(1, 1), (2, 2)]
+    assert kinds(expanded(answer).components) == kinds(answer.components)
+
+
+def test_a_symmetry_of_a_single_component_is_no_orbit() -> None:
+    turn = symmetry("x y z", x="-y", y="x")
+    answer = decompose(system("x y z", "x^2 + y^2 - z"), seed=0, symmetries=[turn])
+    assert orbit_sizes(answer) == [(2, 2, 1)]
+    identity = symmetry("x y z")
+    answer = decompose(system("x y z", "x*y"), seed=0, symmetries=[identity])
+    assert orbit_sizes(answer) == [(2, 1, 1), (2, 1, 1)]
+
+
+def test_linear_equations_are_solved_before_symmetries_act() -> None:
+    # z = 1 - x - y is eliminated; the three variables are exchanged by the group all the same.
+    cycle = symmetry("x y z", x="y", y="z", z="x")
+    answer = decompose(system("x y z", "x + y + z - 1", "x*y*z"), seed=5, symmetries=[cycle])
+    assert orbit_sizes(answer) == [(1, 1, 3)]
+
+
+def test_a_map_that_is_no_symmetry_is_refused() -> None:
+    with pytest.raises(SymmetryError, match="equation 2"):
+        decompose(system("x y", "x*y", "x - 1"), symmetries=[symmetry("x y", x="y", y="x")])
+
+
+def test_exports_hold_the_orbits_and_read_back(tmp_path) -> None:
+    case = read_case(CASES / "rhombus-chain-2.toml")
+    answer = decompose(case.system, seed=0, symmetries=case.symmetries)
+    write_decomposition(answer, tmp_path / "export.json")
+    again = read_decomposition(tmp_path / "export.json")
+    assert again == answer
+    assert expanded(again) == expanded(answer)
+
+
+def test_orbits_are_the_same_for_any_number_of_threads() -> None:
+    case = read_case(CASES / "rhombus-chain-2.toml")
+    one, two = (
+        decompose(case.system, seed=7, threads=n, symmetries=case.symmetries) for n in (1, 2)
+    )
+    assert one == two
+
+
+def test_a_missing_point_is_noticed() -> None:
+    swap = symmetry("x y", x="y", y="x")
+    equations = system("x y", "(x^2 - 2)*(y^2 - 2)").polynomials
+    rng, tracker = np.random.default_rng(0), Tracker()
+    flag = random_rows(rng, 2, 2)
+    fibres = witness_superset(equations, 2, (), flag, rng, tracker).fibres[1]
+    action = Action.of(swap, np.eye(2), np.zeros(2), (0, 1))
+    orbits, _, notes = irreducible_orbits(fibres, flag[:1], [action], rng, tracker)
+    assert [len(o.carriers) for o in orbits] == [1, 1] and not notes
+    (fibre,) = fibres
+    less = fibre.only(np.arange(4) > 0)
+    orbits, _, notes = irreducible_orbits([less], flag[:1], [action], rng, tracker)
+    assert [len(o.carriers) for o in orbits] == [0, 0, 0]
+    assert notes == ("1 images of points under a symmetry are not among the points",)
+
+
+def test_joins_are_carried_on_by_permutations() -> None:
+    labels = np.arange(6)
+    join(labels, [(0, 1)], [np.array([2, 3, 4, 5, 0, 1])])
+    assert labels.tolist() == [0, 0, 2, 2, 4, 4]
+    join(labels, [(0, 2)], [np.array([2, 3, 4, 5, 0, 1])])
+    assert labels.tolist() == [0] * 6
+
+
+def test_ends_are_located_only_where_that_is_clear() -> None:
+    points = np.array([[0.0], [1.0]])
+    assert located(np.array([[1 + 1e-9], [5.0]]), points).tolist() == [1, -1]
+    assert located(np.array([[1e-5]]), points) is None
+    assert located(np.array([[1e-8]]), np.array([[0.0], [3e-8]])) is None
