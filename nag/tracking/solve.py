@@ -30,6 +30,8 @@ ATTEMPTS = 3
 ON = 1e-9
 # End points that are closer than this (relative) are one; distinct solutions hardly ever are.
 SAME = 1e-8
+# Points evaluated at once.
+BLOCK = 2048
 
 
 def solve(
@@ -256,7 +258,7 @@ class _Ends:
         finite = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
         points = begin.affine(paths.points[finite])
         accuracy = paths.accuracy[finite]
-        residuals = evaluator.residuals(points).max(axis=1, initial=0.0)
+        residuals = _residuals(evaluator, points)
         on = residuals < np.maximum(ON, accuracy)
         finite, points, accuracy, residuals = finite[on], points[on], accuracy[on], residuals[on]
         regular = paths.status[finite] == PathStatus.REGULAR
@@ -316,6 +318,13 @@ class _Ends:
             len(solutions) - len(kept),
             tuple(notes),
         )
+
+
+def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:
+    """The largest residual at each point; a block at a time, as there may be 10^5 points."""
+    blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)]
+    found = [evaluator.residuals(block).max(axis=1, initial=0.0) for block in blocks]
+    return np.concatenate([np.zeros(0), *found])
 
 
 def _vanishes(nonzero: Evaluator, solution: Solution) -> bool:

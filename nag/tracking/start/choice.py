@@ -18,6 +18,8 @@ from nag.tracking.start.total_degree import bezout, total_degree
 KINDS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy")
 # So few paths are tracked in less time than another start system takes to be found.
 FEW = 300
+# A start system of the target's monomials is itself found by some five regular paths a solution.
+WORK = 4
 
 
 def choose(
@@ -59,9 +61,11 @@ def choose(
         try:
             volume = mixed_volume(target, rng)
             counts.append(f"mixed volume {volume}")
-            if 0 < volume < least:
+            if 0 < WORK * volume <= least:
                 start = polyhedral(target, volume, rng, settings, threads)
                 return start, f"polyhedral, the fewest paths: {', '.join(counts)}"
+            if 0 < volume < least:
+                counts.append("whose start system would take more work than it saves")
         except StartError as error:
             counts.append(str(error))
     elif least > 1:
