@@ -29,6 +29,7 @@ class Settings:
         levels: largest number of radii of the endgame, each a tenth of the one before.
         shortcut: whether paths may run straight to t = 0 where their Taylor series converges.
         retries: how often failed paths are tracked again with ever tighter control.
+        tightened: how often these settings were tightened.
     """
 
     tolerance: float = 1e-4
@@ -45,7 +46,8 @@ class Settings:
     samples: int = 8
     levels: int = 12
     shortcut: bool = True
-    retries: int = 2
+    retries: int = 3
+    tightened: int = 0
 
 
 NAMED = {
@@ -69,17 +71,25 @@ def named(settings: Settings | str) -> Settings:
 
 
 def tighter(settings: Settings) -> Settings:
-    """The next tighter settings, for a path that failed."""
+    """The next tighter settings, for a path that failed or jumped.
+
+    First only the shortcut is given up, as the endgame decides what a straight run cannot; then
+    the steps become shorter; the endgame begins further in from the third time on, which helps
+    where branch points are near, and harms where the Jacobian decays fast.
+    """
     from dataclasses import replace
 
+    if settings.shortcut:
+        return replace(settings, shortcut=False)
+    first = settings.tightened == 0
     return replace(
         settings,
+        tightened=settings.tightened + 1,
         tolerance=settings.tolerance * 1e-2,
         newton=max(settings.newton * 1e-1, 1e-10),
         newton_end=max(settings.newton_end * 1e-1, 1e-12),
         contraction=settings.contraction * 0.5,
         radius_factor=settings.radius_factor * 0.6,
-        max_steps=settings.max_steps * 4,
-        endgame_radius=settings.endgame_radius * 0.3,
-        shortcut=False,
+        max_steps=settings.max_steps * 2,
+        endgame_radius=settings.endgame_radius * (1.0 if first else 0.3),
     )
