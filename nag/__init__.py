@@ -15,6 +15,8 @@ _HOME = {
     "Polynomial": "nag.algebra.polynomial",
     "PolynomialSystem": "nag.algebra.system",
     "Slice": "nag.decomposition.witness",
+    "SolveResult": "nag.tracking.solutions",
+    "Solution": "nag.tracking.solutions",
     "Status": "nag.decomposition.witness",
     "WitnessSet": "nag.decomposition.witness",
     "decompose": "nag.decomposition",
@@ -22,7 +24,10 @@ _HOME = {
     "model": "nag.mechanism.model",
     "read_case": "nag.cases",
     "read_decomposition": "nag.report.export",
+    "read_solutions": "nag.report.solutions_export",
+    "solve": "nag.tracking.solve",
     "write_decomposition": "nag.report.export",
+    "write_solutions": "nag.report.solutions_export",
 }
 
 __all__ = [*sorted(_HOME), "__version__"]
