@@ -18,7 +18,7 @@ import numpy as np
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.cutting import NEARLY_SINGULAR, ON, Cut, Equations, numerical_corank
+from nag.decomposition.cutting import NEARLY_SINGULAR, ON, Cut, Equations
 from nag.decomposition.fibres import Fibre, Tracker, admit, move
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.frame import Frame
@@ -360,8 +360,8 @@ def _multiple_point(
     if near is None:
         return None, PathCounts()
     s = np.linalg.svd(equations.evaluator.balanced_jacobian(near), compute_uv=False)
-    corank = numerical_corank(s, len(near), NEARLY_SINGULAR)
-    below = range(corank - 1, -1, -1)
+    rank = int(np.sum(s > NEARLY_SINGULAR * max(1.0, s.max(initial=0.0))))
+    below = range(len(near) - rank - 1, -1, -1)
     return _found(near, below, 1e-7, True, pools, equations, flag, rng, tracker)
 
 
