@@ -44,7 +44,8 @@ def installed() -> list[str]:
     return [name for name in PROGRAMS if shutil.which(name)]
 
 
-def _texts(system: PolynomialSystem) -> tuple[list[str], list[str]]:
+def plain_texts(system: PolynomialSystem) -> tuple[list[str], list[str]]:
+    """Variables renamed so that every program reads them, and the equations in them."""
     names = [f"x{chr(97 + i // 26)}{chr(97 + i % 26)}" for i in range(system.n)]
     return names, [f.text(names) for f in system.polynomials]
 
@@ -54,7 +55,8 @@ def run_peer(program: str, system: PolynomialSystem, limit: float) -> Peer:
     return {"M2": _macaulay2, "phc": _phcpack}[program](system, limit)
 
 
-def _call(command: list[str], folder: str, limit: float) -> tuple[float, str | None]:
+def call(command: list[str], folder: str, limit: float) -> tuple[float, str | None]:
+    """Seconds that a command took and what it printed, None if it ran into the limit."""
     begin = time.perf_counter()
     try:
         done = subprocess.run(
@@ -66,7 +68,7 @@ def _call(command: list[str], folder: str, limit: float) -> tuple[float, str | N
 
 
 def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
-    names, texts = _texts(system)
+    names, texts = plain_texts(system)
     script = (
         'needsPackage "NumericalAlgebraicGeometry";\n'
         f"R = CC_53[{', '.join(names)}];\n"
@@ -78,7 +80,7 @@ def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "system.m2"
         file.write_text(script, "utf-8")
-        process, output = _call(["M2", "--script", str(file)], folder, limit)
+        process, output = call(["M2", "--script", str(file)], folder, limit)
     if output is None:
         return Peer("M2", None, process, None, f"no answer in {limit:.0f} s")
     found = re.search(r"result (\S+) (\d+)", output)
@@ -88,14 +90,14 @@ def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
 
 
 def _phcpack(system: PolynomialSystem, limit: float) -> Peer:
-    _, texts = _texts(system)
+    _, texts = plain_texts(system)
     count = len(texts)
     head = f"{count}\n" if count == system.n else f"{count} {system.n}\n"
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "system"
         file.write_text(head + "".join(f"{t};\n" for t in texts), "utf-8")
         command = ["phc", "-b", "-0", "system", "answer"]
-        process, output = _call(command, folder, limit)
+        process, output = call(command, folder, limit)
         answer = Path(folder) / "answer"
         if output is None:
             return Peer("phc", None, process, None, f"no answer in {limit:.0f} s")

@@ -7,6 +7,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from nag.report import bench_decompose
+from nag.report.bench_decompose import BenchError
+
 if TYPE_CHECKING:
     from nag.bench.measure import Measured
     from nag.bench.peers import Peer
@@ -34,10 +37,6 @@ NAMES = (
 )
 
 
-class BenchError(ValueError):
-    """Bad input to the command; the message is one line for the user."""
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag bench``."""
     parser.add_argument(
@@ -55,6 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--peers", action="store_true", help="run M2 and phc too, where installed")
     parser.add_argument("--json", metavar="FILE", help="write the table to FILE as JSON")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    bench_decompose.add_arguments(parser)
 
 
 def files(names: list[str] | None, folder: str) -> list[Path]:
@@ -82,6 +82,9 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         BenchError: if a benchmark cannot be read, or the table cannot be written.
     """
+    if options.decompose or options.growth is not None or options.chart is not None:
+        return bench_decompose.run(options)
+
     from nag.bench.measure import as_json, flop_rate, measure
     from nag.bench.peers import installed, run_peer
     from nag.cases import CaseError, read_case

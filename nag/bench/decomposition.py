@@ -1,0 +1,212 @@
+"""Benchmarks of decompositions: their times, beside Macaulay2's, and how they grow."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.bench.peers import call, plain_texts
+from nag.cases import Truth
+from nag.decomposition import decompose
+from nag.report.agreement import Verdict, compare
+
+# Best of so many runs; a run that takes longer than LONG seconds is not repeated.
+RUNS = 5
+LONG = 3.0
+
+
+@dataclass(frozen=True)
+class Decomposed:
+    """One system decomposed.
+
+    Attributes:
+        case: name of the system.
+        components: number of components found; dimension: the largest of theirs.
+        paths: paths tracked; failed: how many of them failed.
+        seconds: warm, one thread, best of a few.
+        complete: as in the decomposition; right: complete, and as it is known to be.
+    """
+
+    case: str
+    components: int
+    dimension: int
+    paths: int
+    failed: int
+    seconds: float
+    complete: bool
+    right: bool
+
+    def document(self) -> dict[str, Any]:
+        """As a JSON object."""
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class PeerDecomposed:
+    """What Macaulay2's ``numericalIrreducibleDecomposition`` took.
+
+    Attributes:
+        seconds: of the call alone, or None; process: of the whole process.
+        right: whether its components are the known ones, None without an answer.
+        remark: what it found that is not right, or why there is no answer.
+    """
+
+    seconds: float | None
+    process: float
+    right: bool | None
+    remark: str = ""
+
+    def document(self) -> dict[str, Any]:
+        """As a JSON object."""
+        return asdict(self)
+
+
+def measure_decomposition(
+    name: str,
+    system: PolynomialSystem,
+    truth: Sequence[Truth],
+    symmetries: Sequence[SignedPermutation] = (),
+    formulation: str | None = None,
+    seed: int = 0,
+) -> Decomposed:
+    """Decompose ``system`` warm, on one thread, and compare with what is known."""
+    best, runs = float("inf"), 0
+    # The first run compiles what is not compiled yet, and counts only if it is a long one.
+    while runs <= RUNS:
+        begin = time.perf_counter()
+        answer = decompose(system, seed=seed, symmetries=symmetries)
+        seconds = time.perf_counter() - begin
+        best = min(best, seconds) if runs else best
+        runs += 1
+        if runs > 1 and seconds > LONG:
+            break
+    agreement = compare(answer, truth, formulation)
+    agrees = agreement is None or (agreement.verdict is Verdict.AGREES and not agreement.unlisted)
+    return Decomposed(
+        case=name,
+        components=sum(c.orbit for c in answer.components),
+        dimension=answer.dimension,
+        paths=answer.paths.tracked,
+        failed=answer.paths.failed,
+        seconds=best,
+        complete=answer.complete,
+        right=agrees and answer.complete,
+    )
+
+
+def macaulay2_installed() -> bool:
+    return shutil.which("M2") is not None
+
+
+def macaulay2(system: PolynomialSystem, truth: Sequence[Truth], limit: float) -> PeerDecomposed:
+    """Decompose ``system`` with Macaulay2 on one thread, for at most ``limit`` seconds."""
+    names, equations = plain_texts(system)
+    script = (
+        'needsPackage "NumericalAlgebraicGeometry";\n'
+        f"R = CC_53[{', '.join(names)}];\n"
+        f"F = {{{', '.join(equations)}}};\n"
+        "t = elapsedTiming (S = numericalIrreducibleDecomposition ideal F);\n"
+        'print("result " | toString(t#0));\n'
+        'for d in keys S do for w in S#d do print("component " | toString d | " " '
+        "| toString(degree w));\n"
+        "exit 0\n"
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "system.m2"
+        file.write_text(script, "utf-8")
+        process, output = call(["M2", "--script", str(file)], folder, limit)
+    if output is None:
+        return PeerDecomposed(None, process, None, f"no answer in {limit:.0f} s")
+    result = re.search(r"result (\S+)", output)
+    if not result:
+        return PeerDecomposed(None, process, None, "no answer")
+    found = Counter((int(d), int(g)) for d, g in re.findall(r"component (\d+) (\d+)", output))
+    known: Counter[tuple[int, int]] = Counter()
+    for item in truth:
+        known[item.dimension, item.degree] += item.count
+    right = not known or found == known
+    listed = ", ".join(f"{n} x ({d}, {g})" for (d, g), n in sorted(found.items()))
+    remark = "" if right else f"found {listed or 'nothing'} (dimension, degree)"
+    return PeerDecomposed(float(result[1]), process, right, remark)
+
+
+def rhombus_chain(k: int) -> tuple[PolynomialSystem, tuple[Truth, ...]]:
+    """A chain of k rhombi, each sharing a bar with the next (PT13 eq. 8 and 9 continued).
+
+    Each rhombus pairs its bars off in 3 ways with one bar free to turn: 3^k products of k circles.
+    """
+    names = tuple(f"{x}{i}" for i in range(3 * k + 1) for x in "cs")
+    equations = ["c0 - 1", "s0"]
+    for r in range(k):
+        bars = (0, 1, 2, 3) if r == 0 else (3 * r + 1, 3 * r, 3 * r + 2, 3 * r + 3)
+        equations += ["{0}{1} - {0}{2} - {0}{3} + {0}{4}".format(x, *bars) for x in "cs"]
+    equations += [f"c{i}^2 + s{i}^2 - 1" for i in range(3 * k + 1)]
+    system = PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
+    return system, (Truth(dimension=k, degree=2**k, count=3**k),)
+
+
+def growth(longest: int, seed: int = 0) -> list[Decomposed]:
+    """Chains of 1 to ``longest`` rhombi, decomposed."""
+    rows = []
+    for k in range(1, longest + 1):
+        system, truth = rhombus_chain(k)
+        rows.append(measure_decomposition(f"chain of {k}", system, truth, seed=seed))
+    return rows
+
+
+def growth_exponent(rows: Sequence[Decomposed], quantity: str) -> float:
+    """Slope of ``quantity`` against the number of components, both logarithmic, by least squares.
+
+    Raises:
+        ValueError: if there are fewer than two rows.
+    """
+    import numpy as np
+
+    if len(rows) < 2:
+        raise ValueError("a slope needs two chains at least")
+    x = np.log([row.components for row in rows])
+    y = np.log([getattr(row, quantity) for row in rows])
+    return float(np.polyfit(x, y, 1)[0])
+
+
+def growth_chart(rows: Sequence[Decomposed], path: str) -> None:
+    """Seconds and paths against the number of components, as an image; needs matplotlib."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7, 3.2), layout="constrained")
+    components = [row.components for row in rows]
+    for axes, quantity, label in zip(
+        figure.subplots(1, 2), ("seconds", "paths"), ("seconds", "paths tracked"), strict=True
+    ):
+        axes.loglog(components, [getattr(row, quantity) for row in rows], "o-", color="C0")
+        slope = growth_exponent(rows, quantity)
+        axes.set_title(f"{label}: components^{slope:.2f}", fontsize=10)
+        axes.set_xlabel("irreducible components")
+        axes.set_ylabel(label)
+        axes.set_xticks(components, [str(c) for c in components])
+        axes.minorticks_off()
+        axes.grid(True, alpha=0.3)
+    figure.savefig(path, dpi=150)
+
+
+def as_json(rows: Sequence[Decomposed], peers: dict[str, PeerDecomposed]) -> str:
+    """The whole table as JSON text."""
+    documents = [
+        row.document() | ({"M2": peers[row.case].document()} if row.case in peers else {})
+        for row in rows
+    ]
+    return (
+        json.dumps({"format": "nag-bench-decompose", "version": 1, "systems": documents}, indent=2)
+        + "\n"
+    )

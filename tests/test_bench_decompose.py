@@ -1,0 +1,97 @@
+"""Benchmarks of decompositions: the systems are those of the cases, bad input gets one line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from nag.bench.decomposition import (
+    Decomposed,
+    PeerDecomposed,
+    as_json,
+    growth_chart,
+    growth_exponent,
+    measure_decomposition,
+    rhombus_chain,
+)
+from nag.cases import read_case
+from nag.cli import main
+from nag.report.bench_decompose import table
+
+CASES = Path(__file__).parent.parent / "cases"
+
+
+def row(components: int, seconds: float, paths: int = 1, right: bool = True) -> Decomposed:
+    return Decomposed(f"{components}", components, 1, paths, 0, seconds, True, right)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "rhombus-chain-2",
+        "rhombus-chain-3",
+        "benchmarks/rhombus-chain-4",
+        "benchmarks/rhombus-chain-5",
+    ],
+)
+def test_chains_are_those_of_the_case_files(name: str) -> None:
+    case = read_case(CASES / f"{name}.toml")
+    system, truth = rhombus_chain(int(name[-1]))
+    assert system == case.system
+    assert [(t.dimension, t.degree, t.count) for t in truth] == [
+        (t.dimension, t.degree, t.count) for t in case.truth
+    ]
+
+
+def test_growth_is_the_slope_in_logarithms() -> None:
+    rows = [row(3**k, 2.0 * 9.0**k, 5 * 3**k) for k in range(1, 5)]
+    assert growth_exponent(rows, "seconds") == pytest.approx(2)
+    assert growth_exponent(rows, "paths") == pytest.approx(1)
+    with pytest.raises(ValueError, match="two chains"):
+        growth_exponent(rows[:1], "paths")
+
+
+def test_a_decomposition_is_measured_against_what_is_known() -> None:
+    system, truth = rhombus_chain(1)
+    measured = measure_decomposition("chain", system, truth)
+    assert measured.right and measured.complete
+    assert (measured.components, measured.dimension, measured.failed) == (3, 1, 0)
+    wrong = measure_decomposition("chain", system, rhombus_chain(2)[1])
+    assert wrong.complete and not wrong.right
+
+
+def test_table_shows_what_the_other_program_answers() -> None:
+    peers = {
+        "3": PeerDecomposed(1.5, 2.0, True),
+        "9": PeerDecomposed(None, 200.0, None, "no answer in 200 s"),
+    }
+    lines = table([row(3, 0.5), row(9, 0.5, right=False)], peers)
+    assert lines[1].split()[-4:] == ["0.5000", "1.500", "3.0", "right"]
+    assert lines[2].split(maxsplit=7)[5:7] == ["WRONG", "0.5000"]
+    assert lines[2].split(maxsplit=7)[7] == "-  > 400  no answer in 200 s"
+    rows = json.loads(as_json([row(3, 0.5)], peers))["systems"]
+    assert rows[0]["M2"]["seconds"] == 1.5
+
+
+def test_chart_is_drawn(tmp_path) -> None:
+    pytest.importorskip("matplotlib")
+    path = tmp_path / "growth.png"
+    growth_chart([row(3**k, 0.1 * 3**k, 10 * 3**k) for k in (1, 2, 3)], str(path))
+    assert path.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--decompose", "--case", "none"], "there is no"),
+        (["--growth", "1"], "is not a number from 2 to 6"),
+        (["--chart", "x.png"], "ask for that as well"),
+        (["--decompose", "--json", "/no/such/folder/x.json"], "--json"),
+    ],
+)
+def test_bad_input_gets_one_line(arguments: list[str], message: str, capsys) -> None:
+    assert main(["bench", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert message in error and error.count("\n") == 1
