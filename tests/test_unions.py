@@ -11,7 +11,7 @@ from nag.decomposition.witness import Status
 
 # A point embedded in a curve, or where components meet, stays a singular end that neither
 # membership nor deflation settles: the components are right, the answer says it is incomplete.
-OPEN = {11, 39, 48}
+OPEN = {39}
 
 
 @pytest.mark.parametrize(
