@@ -26,6 +26,7 @@ COMPLETE, INCOMPLETE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 SETTINGS = ("fast", "default", "careful")
 MOST_THREADS = 256
 LARGEST_SEED = 2**63 - 1
+MOST_STARTS = 10**6
 
 
 class UsageError(ValueError):
@@ -53,6 +54,10 @@ def _seed(text: str) -> int:
 
 def _threads(text: str) -> int:
     return _whole(text, 1, MOST_THREADS)
+
+
+def _starts(text: str) -> int:
+    return _whole(text, 1, MOST_STARTS)
 
 
 def _available_threads() -> int:
@@ -112,9 +117,44 @@ def parser() -> argparse.ArgumentParser:
         action="store_true",
         help="list every component, not one of each orbit of the system's symmetries",
     )
+    decompose.add_argument(
+        "--method",
+        choices=("complete", "sampling"),
+        default="complete",
+        help="find all components, or those that Newton's method reaches from random points, for "
+        "systems that are too large; that is never complete (default: complete)",
+    )
+    decompose.add_argument(
+        "--starts",
+        type=_starts,
+        metavar="N",
+        help="with --method sampling: number of random points (default: 100)",
+    )
     decompose.set_defaults(run=_decompose)
 
-    from nag.report import bench_command, solve_command
+    from nag.report import (
+        bench_command,
+        intersect_command,
+        member_command,
+        sample_command,
+        solve_command,
+    )
+
+    for module, name, text in (
+        (member_command, "member", "say which components a point lies on"),
+        (sample_command, "sample", "find random points of a component"),
+        (intersect_command, "intersect", "find the intersection of two components"),
+    ):
+        command = commands.add_parser(
+            name,
+            parents=[running],
+            allow_abbrev=False,
+            help=text,
+            description=f"{text[0].upper()}{text[1:]}. The components are those of an export of "
+            "`nag decompose --json`, or of a case, which is decomposed first.",
+        )
+        module.add_arguments(command)
+        command.set_defaults(run=_with_components, module=module)
 
     solve = commands.add_parser(
         "solve",
@@ -187,6 +227,8 @@ def _check_json(target: str, case: str) -> None:
 
 def _decompose(arguments: argparse.Namespace) -> int:
     started = time.perf_counter()
+    if arguments.starts is not None and arguments.method != "sampling":
+        raise UsageError("--starts: is for --method sampling")
     if arguments.json is not None:
         _check_json(arguments.json, arguments.case)
     case, model = _read(arguments)
@@ -197,18 +239,28 @@ def _decompose(arguments: argparse.Namespace) -> int:
         compilation_notice(sys.stderr, arguments.quiet),
         progress_line(sys.stderr, arguments.quiet) as progress,
     ):
-        from nag.decomposition import decompose
+        from nag.decomposition import by_sampling, decompose
         from nag.decomposition.expansion import expanded
         from nag.report.answer import symmetries_of, system_of, through_points
 
-        decomposition = decompose(
-            system_of(case, model),
-            seed=arguments.seed,
-            threads=arguments.threads,
-            settings=arguments.settings,
-            progress=progress,
-            symmetries=symmetries_of(case, model),
-        )
+        if arguments.method == "sampling":
+            decomposition = by_sampling(
+                system_of(case, model),
+                seed=arguments.seed,
+                threads=arguments.threads,
+                settings=arguments.settings,
+                progress=progress,
+                **({} if arguments.starts is None else {"starts": arguments.starts}),
+            )
+        else:
+            decomposition = decompose(
+                system_of(case, model),
+                seed=arguments.seed,
+                threads=arguments.threads,
+                settings=arguments.settings,
+                progress=progress,
+                symmetries=symmetries_of(case, model),
+            )
         if arguments.expand:
             decomposition = expanded(decomposition)
         points = through_points(decomposition, case, model, arguments.threads)
@@ -229,6 +281,20 @@ def _decompose(arguments: argparse.Namespace) -> int:
     if failure is not None:
         raise failure
     return COMPLETE if decomposition.complete else INCOMPLETE
+
+
+def _with_components(arguments: argparse.Namespace) -> int:
+    from nag.report.witness_input import WitnessInputError, is_export
+
+    if arguments.json is not None:
+        _check_json(arguments.json, arguments.case)
+    source = None if is_export(arguments.case) else _read(arguments)
+    try:
+        lines, complete = arguments.module.run(arguments, source)
+    except WitnessInputError as error:
+        raise UsageError(str(error)) from None
+    _print(lines)
+    return COMPLETE if complete else INCOMPLETE
 
 
 def _solve(arguments: argparse.Namespace) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
@@ -94,18 +96,12 @@ def witness_at(
         )
         if len(points) == component.degree and np.isfinite(accuracy) and residual < ON:
             order = np.lexsort((points.imag[:, 0], points.real[:, 0])) if system.n else [0]
-            return WitnessSet(
+            return replace(
+                component,
                 slice=to_slice(goal),
                 points=points[order],
-                multiplicity=component.multiplicity,
-                status=component.status,
                 residual=residual,
                 accuracy=accuracy,
-                corank=component.corank,
-                multidegree=component.multidegree,
-                orbit=component.orbit,
-                precision=component.precision,
-                note=component.note,
             )
         lost = (
             f"of the {component.degree} points of the component, the slice meets {infinite} at "

@@ -20,7 +20,7 @@ from nag.decomposition.membership import Membership, component_fibres, is_member
 from nag.decomposition.witness import WitnessSet
 
 STARTS = 24
-# Nearest points are found to half the digits; nearer than this, relative to their size, they are one.
+# Nearest points are known to about half the digits; within this, relative to size, they are one.
 SAME = 1e-6
 # Steps along the component towards the given point, and when they have arrived.
 MOST_STEPS = 60

@@ -18,10 +18,6 @@ from nag.decomposition.witness import WitnessSet
 ATTEMPTS = 4
 
 
-class SamplingError(ValueError):
-    """Points that could not be found, with the reason."""
-
-
 @dataclass(frozen=True, eq=False)
 class Samples:
     """Points of a component.
@@ -35,6 +31,18 @@ class Samples:
     points: np.ndarray
     residual: float
     accuracy: float
+
+
+class SamplingError(ValueError):
+    """Points that could not be found, with the reason.
+
+    Attributes:
+        found: the points before the one that could not be found.
+    """
+
+    def __init__(self, reason: str, found: Samples) -> None:
+        self.found = found
+        super().__init__(reason)
 
 
 def sample(
@@ -75,6 +83,11 @@ def sample(
                 points[k], accuracy = x[0], max(accuracy, step)
                 break
         else:
-            raise SamplingError(f"point {k + 1} of {count}: {ATTEMPTS} paths failed")
+            some = _samples(evaluator, points[:k], accuracy)
+            raise SamplingError(f"point {k + 1} of {count}: {ATTEMPTS} paths failed", some)
+    return _samples(evaluator, points, accuracy)
+
+
+def _samples(evaluator: Evaluator, points: np.ndarray, accuracy: float) -> Samples:
     points.setflags(write=False)
     return Samples(points, float(evaluator.residuals(points).max(initial=0.0)), accuracy)

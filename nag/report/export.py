@@ -79,11 +79,11 @@ def schema() -> dict[str, Any]:
     return json.loads((resources.files("nag.report") / "schema" / name).read_text("utf-8"))
 
 
-def _real(value: float) -> float | None:
+def real_or_null(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def _pairs(array: np.ndarray) -> list[Any]:
+def pairs(array: np.ndarray) -> list[Any]:
     """A complex array as nested lists with ``[re, im]`` in place of each entry."""
     doubles = np.ascontiguousarray(array).view(float).reshape(*array.shape, 2)
     if np.isfinite(doubles).all():
@@ -91,7 +91,7 @@ def _pairs(array: np.ndarray) -> list[Any]:
     return np.where(np.isfinite(doubles), doubles.astype(object), None).tolist()
 
 
-def _component_document(component: WitnessSet, variables: Sequence[str]) -> dict[str, Any]:
+def component_document(component: WitnessSet, variables: Sequence[str]) -> dict[str, Any]:
     orbit: dict[str, Any] = {"size": component.orbit}
     if component.images:
         orbit["images"] = [g.text(variables) for g in component.images]
@@ -103,12 +103,12 @@ def _component_document(component: WitnessSet, variables: Sequence[str]) -> dict
         "status": str(component.status),
         "note": component.note,
         "orbit": orbit,
-        "residual": _real(component.residual),
-        "accuracy": _real(component.accuracy),
+        "residual": real_or_null(component.residual),
+        "accuracy": real_or_null(component.accuracy),
         "precision": component.precision,
         "corank": component.corank,
-        "slice": {"A": _pairs(component.slice.A), "b": _pairs(component.slice.b)},
-        "points": _pairs(component.points),
+        "slice": {"A": pairs(component.slice.A), "b": pairs(component.slice.b)},
+        "points": pairs(component.points),
     }
 
 
@@ -139,7 +139,7 @@ def document(decomposition: Decomposition, origin: Origin | None = None) -> dict
             "groups": [[system.variables[i] for i in group] for group in system.groups],
             "exact": system.exact,
         },
-        "components": [_component_document(c, system.variables) for c in decomposition.components],
+        "components": [component_document(c, system.variables) for c in decomposition.components],
     }
 
 
@@ -150,14 +150,14 @@ def _depth(value: Any) -> float:
     return 1 + max(map(_depth, value), default=0) if isinstance(value, list) else 0
 
 
-def _lay_out(value: Any, indent: str = "") -> str:
+def lay_out(value: Any, indent: str = "") -> str:
     """JSON text with one line for each key, and one line for each point."""
     deeper = indent + "  "
     if isinstance(value, dict) and value:
-        parts = [f"{json.dumps(k)}: {_lay_out(v, deeper)}" for k, v in value.items()]
+        parts = [f"{json.dumps(k)}: {lay_out(v, deeper)}" for k, v in value.items()]
         left, right = "{}"
     elif isinstance(value, list) and (_depth(value) > 2 or any(isinstance(v, str) for v in value)):
-        parts = [_lay_out(v, deeper) for v in value]
+        parts = [lay_out(v, deeper) for v in value]
         left, right = "[]"
     else:
         return json.dumps(value, allow_nan=False)
@@ -166,7 +166,7 @@ def _lay_out(value: Any, indent: str = "") -> str:
 
 def export_text(decomposition: Decomposition, origin: Origin | None = None) -> str:
     """The export as JSON text, ASCII, the same for equal arguments."""
-    return _lay_out(document(decomposition, origin)) + "\n"
+    return lay_out(document(decomposition, origin)) + "\n"
 
 
 def write_decomposition(
