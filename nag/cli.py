@@ -239,11 +239,13 @@ def _decompose(arguments: argparse.Namespace) -> int:
         compilation_notice(sys.stderr, arguments.quiet),
         progress_line(sys.stderr, arguments.quiet) as progress,
     ):
-        from nag.decomposition import by_sampling, decompose
+        from nag.decomposition import decompose
         from nag.decomposition.expansion import expanded
         from nag.report.answer import symmetries_of, system_of, through_points
 
         if arguments.method == "sampling":
+            from nag.decomposition import by_sampling
+
             decomposition = by_sampling(
                 system_of(case, model),
                 seed=arguments.seed,
