@@ -257,7 +257,7 @@ def _find_cut(
     n, evaluator = equations.n, equations.evaluator
     polynomials, total, z, levels = list(equations.polynomials), n, x, []
     for _ in range(1 + MOST_DEFLATIONS if deflate else 1):
-        found = _regular_subset(polynomials, evaluator, tuple(levels), rows, x, z, accuracy)
+        found = _regular_subset(polynomials, evaluator, tuple(levels), rows, x, z, accuracy, rng)
         if found is not None or not deflate:
             return found
         free = total - len(rows)
@@ -293,6 +293,7 @@ def _regular_subset(
     x: np.ndarray,
     z: np.ndarray,
     accuracy: float,
+    rng: np.random.Generator,
 ) -> tuple[Cut, np.ndarray] | None:
     n, total = len(x), len(z)
     sharpened = sharpen(evaluator, rows, z)
@@ -303,8 +304,33 @@ def _regular_subset(
     chosen = _square_rows(evaluator, rows, sharpened.z)
     if chosen is None:
         return None
-    cut = Cut(n, total - n, tuple(polynomials[i] for i in chosen), levels)
-    again = sharpen(cut.evaluator, rows, sharpened.z)
-    if again.converged and regular_on(cut.evaluator, rows, again):
-        return cut, again.z
+    subset = tuple(polynomials[i] for i in chosen)
+    for candidates in (subset, _combinations(polynomials, len(subset), rng)):
+        cut = Cut(n, total - n, candidates, levels)
+        again = sharpen(cut.evaluator, rows, sharpened.z)
+        if again.converged and regular_on(cut.evaluator, rows, again):
+            return cut, again.z
     return None
+
+
+def _combinations(
+    polynomials: Sequence[Polynomial], count: int, rng: np.random.Generator
+) -> tuple[Polynomial, ...]:
+    """Random exact combinations of polynomials of comparable size.
+
+    A subset that is independent may still be much worse conditioned than all equations together.
+    """
+    scaled = [f * (1 / leading_power(f)) for f in polynomials]
+    result = []
+    for row in _dyadic(rng, (count, len(scaled))):
+        total = Polynomial(scaled[0].n, {})
+        for weight, f in zip(row, scaled, strict=True):
+            total = total + f * Fraction(weight)
+        result.append(total)
+    return tuple(result)
+
+
+def leading_power(f: Polynomial) -> Fraction:
+    """The power of two next to the size of the largest coefficient of ``f``; 1 for zero."""
+    size = max((abs(float(c)) for c in f.terms.values()), default=1.0)
+    return Fraction(2) ** int(np.floor(np.log2(size)))

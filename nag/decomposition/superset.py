@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.cutting import ON, Cut, Equations
+from nag.decomposition.cutting import ON, Cut, Equations, leading_power
 from nag.decomposition.fibres import (
     SAME,
     Fibre,
@@ -51,18 +50,13 @@ def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
     return [i for *_, i in sorted(keys)]
 
 
-def _normalised(f: Polynomial) -> Polynomial:
-    scale = max((abs(Fraction(float(c))) for c in f.terms.values()), default=Fraction(1))
-    return f * (1 / scale)
-
-
 def intersect(
     fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker
 ) -> Moved:
     """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0."""
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     n, total = cut.n, cut.n + cut.aux
-    f = _normalised(f)
+    f = f * (1 / leading_power(f))
     u = Polynomial.variable(total + 1, total)
     place = range(total)
     rows = [g.with_variables(total + 1, place) for g in cut.polynomials]
@@ -74,7 +68,10 @@ def intersect(
     a0[d - 1] = 0
     a0[d - 1, -1] = 1
     a1[d - 1] = gamma * slices[d - 1] - a0[d - 1]
-    values = Evaluator.of([f], n).values(fibre.x)[:, 0]
+    # An evaluator divides by the largest coefficient.
+    values = Evaluator.of([f], n).values(fibre.x)[:, 0] * max(
+        map(abs, map(float, f.terms.values()))
+    )
     roots = np.exp(2j * np.pi * np.arange(degree) / degree)
     u_start = (values.astype(complex) ** (1 / degree))[:, None] * roots[None, :]
     starts = np.concatenate(
