@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.fibres import Fibre, Tracker
@@ -326,13 +327,11 @@ def _linear_on_two_slices(points: _Points, indices: np.ndarray) -> tuple[bool, P
 
 def located(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
     """Indices of the ``points`` that ``ends`` are, -1 for none; None if that is not clear."""
-    distances = np.linalg.norm(ends[:, None, :] - points[None, :, :], axis=2)
-    nearest = distances.argmin(axis=1)
-    rows = np.arange(len(ends))
-    closest = distances[rows, nearest]
-    distances[rows, nearest] = np.inf
+    tree = cKDTree(np.hstack([points.real, points.imag]))
+    distances, indices = tree.query(np.hstack([ends.real, ends.imag]), k=[1, 2])
+    nearest, closest = indices[:, 0], distances[:, 0]
     scale = 1 + np.linalg.norm(points[nearest], axis=1)
-    hit = (closest < NEAR * scale) & (closest < 1e-3 * distances.min(axis=1))
+    hit = (closest < NEAR * scale) & (closest < 1e-3 * distances[:, 1])
     if not (hit | (closest > FAR * scale)).all():
         return None
     return np.where(hit, nearest, -1)
