@@ -60,7 +60,7 @@ class Endgame(NamedTuple):
     HINT,
 ) = range(12)
 # Columns of Endgame.whole.
-PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, STALLED, SHORT_STEPS, NO_SHORTCUT = range(8)
+PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, STALLED, SHORT_STEPS, NO_SHORTCUT, NEAR = range(9)
 
 
 def endgame_state(
@@ -80,7 +80,7 @@ def endgame_state(
         np.zeros((8, N), dtype=np.complex128),
         np.zeros((8, N), dtype=np.complex128),
         np.zeros((8, 12)),
-        np.zeros((8, 8), dtype=np.int64),
+        np.zeros((8, 9), dtype=np.int64),
         exponent,
         active,
         shortcut,
@@ -250,11 +250,18 @@ def arrived(s, e, lane, x, noise, hint, radius, t):
         e.real[lane, SAVED_RE] = t.real
         e.real[lane, SAVED_IM] = t.imag
         e.real[lane, SAVED_ANGLE] = e.real[lane, ANGLE]
-        if e.shortcut and e.whole[lane, NO_SHORTCUT] == 0 and radius > 1.5 * abs(t):
+        if e.shortcut and e.whole[lane, NO_SHORTCUT] == 0 and radius > 1.25 * abs(t):
             e.whole[lane, PHASE] = SHORTCUT
             e.whole[lane, SHORT_STEPS] = 0
             e.real[lane, NEXT_RE] = 0.0
             e.real[lane, NEXT_IM] = 0.0
+            return 0
+        # Loops are for singular ends: there the radius of convergence is |t|, twice running. Else
+        # the nearest singularity may lie beside t = 0, and further in the path runs straight.
+        near = radius < 1.1 * abs(t)
+        wait = e.whole[lane, LEVEL] < 4 and not (near and e.whole[lane, NEAR] == 1)
+        e.whole[lane, NEAR] = 1 if near else 0
+        if e.shortcut and e.whole[lane, NO_SHORTCUT] == 0 and wait and _shrink(e, lane):
             return 0
         _begin_loop(s, e, lane, x)
     _keep_sample(s, e, lane, x)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numba
@@ -13,6 +11,7 @@ from nag.tracking.endgame import (
     BEST_ERROR,
     ENDGAME,
     FAILED,
+    LOOP,
     MAIN,
     NEXT_IM,
     NEXT_RE,
@@ -44,6 +43,7 @@ from nag.tracking.jets import (
     right_side,
     values,
 )
+from nag.tracking.kernel_cache import Kernel
 from nag.tracking.lanes import fma, fnma, load, select_less, splat, store
 from nag.tracking.linear_algebra import factorize, pivot_ratio, substitute
 
@@ -283,7 +283,8 @@ def track_batch(
             n0 = norms[lane] ** 0.5
             n1 = norms[8 + lane] ** 0.5
             ending = e.whole[lane, PHASE] != MAIN
-            tolerance = min(tolerance_main, 1e-4) if ending else tolerance_main
+            looping = e.whole[lane, PHASE] == LOOP
+            tolerance = min(tolerance_main, 1e-4) if looping else tolerance_main
             arriving = w.tr[lane] == f[GOAL_RE, lane] and w.ti[lane] == f[GOAL_IM, lane]
             newton = newton_end if ending or arriving or state == 1 else newton_main
             finite = n0 < 1e100 and n1 < 1e100
@@ -413,10 +414,8 @@ def track_batch(
                     busy += 1
 
 
-def _example() -> tuple:
+def _example() -> tuple[Any, ...]:
     """Arguments of the types with which the kernel is compiled."""
-    import numpy as np
-
     from nag.algebra.polynomial import Polynomial
     from nag.tracking.compiled import compile_rows
     from nag.tracking.jets import system, work
@@ -444,28 +443,20 @@ def _example() -> tuple:
     )
 
 
-def _stamp() -> tuple[int, int]:
-    """Stamp of all sources that the kernel is made of, for numba's cache knows of one file only."""
-    files = sorted(Path(__file__).parent.glob("*.py"))
-    return max(f.stat().st_mtime_ns for f in files), sum(f.stat().st_size for f in files)
-
-
-@cache
-def _signature() -> tuple:
-    track_batch._cache._cache_file._source_stamp = _stamp()
-    return tuple(numba.typeof(argument) for argument in _example())
+track_lanes = Kernel(track_batch, _example)
 
 
 def compiled() -> bool:
-    """Whether the kernel is compiled already, here or in the cache on disk."""
-    if track_batch.signatures:
-        return True
-    overload = track_batch._cache.load_overload(_signature(), track_batch.targetctx)
-    return overload is not None
+    """Whether all kernels are compiled already, here or in the cache on disk."""
+    from nag.tracking.newton_kernel import newton_lanes
+
+    return track_lanes.compiled and newton_lanes.compiled
 
 
-def ready() -> Any:
-    """The compiled kernel; compiles it, or loads it from the cache, if need be."""
-    if not track_batch.signatures:
-        track_batch.compile(_signature())
-    return track_batch
+def ready() -> Kernel:
+    """The tracking kernel; all kernels are compiled, or loaded from the cache, if need be."""
+    from nag.tracking.newton_kernel import newton_lanes
+
+    track_lanes.prepare()
+    newton_lanes.prepare()
+    return track_lanes

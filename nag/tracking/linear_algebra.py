@@ -101,6 +101,44 @@ def substitute(n, ar, ai, pivots, br, bi):
 
 
 @numba.njit(nogil=True)
+def substitute_adjoint(n, ar, ai, pivots, br, bi):
+    """Overwrite the right-hand side by the solution with the conjugate transposed matrix."""
+    for i in range(n):
+        re = load(br, i)
+        im = load(bi, i)
+        for j in range(i):
+            ur = load(ar, j * n + i)
+            ui = load(ai, j * n + i)
+            xr = load(br, j)
+            xi = load(bi, j)
+            re = fnma(ui, xi, fnma(ur, xr, re))
+            im = fma(ui, xr, fnma(ur, xi, im))
+        pr = load(ar, i * n + i)
+        pi = load(ai, i * n + i)
+        store(br, i, fma(im, pi, re * pr))
+        store(bi, i, fnma(re, pi, im * pr))
+    for i in range(n - 2, -1, -1):
+        re = load(br, i)
+        im = load(bi, i)
+        for j in range(i + 1, n):
+            lr = load(ar, j * n + i)
+            li = load(ai, j * n + i)
+            xr = load(br, j)
+            xi = load(bi, j)
+            re = fnma(li, xi, fnma(lr, xr, re))
+            im = fma(li, xr, fnma(lr, xi, im))
+        store(br, i, re)
+        store(bi, i, im)
+    for k in range(n - 1, -1, -1):
+        for lane in range(8):
+            p = int(pivots[8 * k + lane])
+            if p != k:
+                a, b = 8 * k + lane, 8 * p + lane
+                br[a], br[b] = br[b], br[a]
+                bi[a], bi[b] = bi[b], bi[a]
+
+
+@numba.njit(nogil=True)
 def pivot_ratio(n, ar, ai, lane):
     """Smallest over largest pivot in one lane: a cheap hint at the condition."""
     low, high = 1e300, 0.0

@@ -1,4 +1,4 @@
-"""Newton's method at a fixed t with residuals in extended precision."""
+"""Newton's method at a fixed t with residuals in double-double."""
 
 from __future__ import annotations
 
@@ -15,17 +15,23 @@ class Refined(NamedTuple):
 
     Attributes:
         points: unit norm in each group, shape ``(P, N)``.
-        error: estimated relative error of each point.
+        error: estimated relative error of each point: length of the last Newton step, at least
+            2e-16; inf where there was none, or it was no small step.
         moved: distance of each point from where it started.
-        smallest: smallest singular value of the Jacobian at each point, patches included;
-            polynomial rows are scaled by their largest coefficient, linear rows to unit norm.
-        condition: largest over smallest singular value.
+        before: smallest singular value of the Jacobian where the point started, patches included;
+            polynomial rows are scaled by their largest coefficient, linear rows to about unit
+            norm (by powers of two).
+        smallest: the same at the end.
+        size: Frobenius norm of the Jacobian.
+        condition: ``size / smallest``.
     """
 
     points: np.ndarray
     error: np.ndarray
     moved: np.ndarray
+    before: np.ndarray
     smallest: np.ndarray
+    size: np.ndarray
     condition: np.ndarray
 
 
@@ -39,6 +45,9 @@ def refine(
 ) -> Refined:
     """Newton's method from ``points`` for rows, slices ``A x = 0`` and patches.
 
+    Residuals are evaluated in double-double from exact coefficients, so that a regular point is
+    found to the last digit of double precision.
+
     Args:
         rows: polynomial rows, or a whole homotopy, whose linear rows are then used if ``A`` is
             None.
@@ -50,35 +59,43 @@ def refine(
     A point where the Jacobian is singular is returned with a large ``error`` and whatever
     Newton's method made of it; compare ``moved`` with what was expected.
     """
+    from nag.tracking.jets import system, work
+    from nag.tracking.newton_kernel import low_parts, newton_lanes
+
     homotopy = rows if isinstance(rows, Homotopy) else Homotopy(rows, A)
-    if isinstance(rows, Homotopy) and A is not None:
-        homotopy = Homotopy(rows.rows, A, None, rows.factors, rows.infinity)
-    points = homotopy.normalized(points)
-    P = len(points)
-    if P == 0:
-        nothing = np.zeros(0)
-        return Refined(points, nothing, nothing, nothing, nothing)
-    start = points
-    error = np.full(P, np.inf)
-    with np.errstate(all="ignore"):
-        for _ in range(iterations):
-            patch = homotopy.patch(points)
-            J, scale = _scaled_jacobian(homotopy, points, t, patch)
-            residual = homotopy.values(points.astype(np.clongdouble), t).astype(np.complex128)
-            rhs = np.concatenate([residual, np.zeros((P, patch.shape[1]))], axis=1) / scale
-            step = _solve(J, rhs)
-            good = np.isfinite(step).all(axis=1) & (np.linalg.norm(step, axis=1) < 0.5)
-            step[~good] = 0
-            error = np.where(good, np.linalg.norm(step, axis=1), np.inf)
-            points = homotopy.normalized(points - step)
-        J, _ = _scaled_jacobian(homotopy, points, t, homotopy.patch(points))
-        values = np.linalg.svd(J, compute_uv=False)
-    smallest = values[:, -1]
-    condition = values[:, 0] / np.maximum(smallest, 1e-300)
-    # The last step was the error before it; what is left is rounding of the point itself.
-    error = np.maximum(np.minimum(error, error**2 * condition), 2e-16)
-    moved = np.linalg.norm(aligned_difference(homotopy, points, start), axis=1)
-    return Refined(points, error, moved, smallest, condition)
+    fixed = _at(homotopy, t, homotopy.A0 + t * homotopy.A1 if A is None else A)
+    start = homotopy.normalized(points)
+    result = start.copy()
+    P = len(start)
+    before, smallest, error, size = np.zeros(P), np.zeros(P), np.full(P, np.inf), np.zeros(P)
+    if P:
+        newton_lanes(
+            system(fixed),
+            work(fixed, 1),
+            low_parts(fixed),
+            result,
+            iterations,
+            before,
+            smallest,
+            error,
+            size,
+        )
+    # A matrix that is singular in double precision leaves NaN.
+    before, smallest = (np.where(np.isfinite(v), v, 0.0) for v in (before, smallest))
+    result = np.where(np.isfinite(result), result, start)
+    moved = np.linalg.norm(aligned_difference(homotopy, result, start), axis=1)
+    size = np.where(np.isfinite(size), size, 0.0)
+    condition = size / np.maximum(smallest, 1e-300)
+    return Refined(result, np.maximum(error, 2e-16), moved, before, smallest, size, condition)
+
+
+def _at(homotopy: Homotopy, t: complex, A: np.ndarray) -> Homotopy:
+    """The homotopy at ``t``, with linear rows scaled to norms between 1/2 and 1."""
+    A = np.array(A, dtype=np.complex128).reshape(-1, homotopy.N)
+    exponents = np.frexp(np.linalg.norm(A, axis=1))[1]
+    factors = tuple((a + t * b, 0.0) for a, b in homotopy.factors)
+    scaled = A * np.ldexp(1.0, -exponents)[:, None]
+    return Homotopy(homotopy.rows, scaled, None, factors, homotopy.infinity)
 
 
 def aligned_difference(homotopy: Homotopy, first: np.ndarray, second: np.ndarray) -> np.ndarray:
@@ -90,33 +107,3 @@ def aligned_difference(homotopy: Homotopy, first: np.ndarray, second: np.ndarray
         size = np.abs(product)
         second[:, g] *= np.where(size > 0, product / np.where(size > 0, size, 1), 1)
     return first - second
-
-
-def _scaled_jacobian(
-    homotopy: Homotopy, points: np.ndarray, t: complex, patch: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Jacobian with patches, linear rows scaled to unit norm, and the scales of all rows.
-
-    Polynomial rows are scaled by their coefficients when they are compiled and never by their
-    gradient at a point: a gradient that vanishes there is what a singular point shows.
-    """
-    J = np.concatenate([homotopy.jacobian(points, t), patch], axis=1)
-    scale = np.ones(J.shape[:2])
-    first = len(homotopy.rows)
-    last = first + len(homotopy.A0)
-    norms = np.linalg.norm(J[:, first:last], axis=2)
-    scale[:, first:last] = np.where(norms > 0, norms, 1.0)
-    return J / scale[:, :, None], scale
-
-
-def _solve(J: np.ndarray, rhs: np.ndarray) -> np.ndarray:
-    try:
-        return np.linalg.solve(J, rhs[:, :, None])[:, :, 0]
-    except np.linalg.LinAlgError:
-        result = np.full(rhs.shape, np.nan, dtype=np.complex128)
-        for k in range(len(J)):
-            try:
-                result[k] = np.linalg.solve(J[k], rhs[k])
-            except np.linalg.LinAlgError:
-                result[k] = np.linalg.lstsq(J[k], rhs[k], rcond=None)[0]
-        return result

@@ -51,7 +51,7 @@ class Paths:
         accuracy: estimated relative error of the point; inf for failed paths.
         smallest: smallest singular value of the Jacobian at the point, patches included;
             polynomial rows are scaled by their largest coefficient, linear rows to unit norm.
-        condition: largest over smallest singular value.
+        condition: Frobenius norm of the Jacobian over ``smallest``.
         steps: predictor steps, rejected ones included, of all attempts.
         precision: decimal digits of the arithmetic used: 16, 32 (residuals in double-double) or
             more (mpmath).

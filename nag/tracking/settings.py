@@ -32,13 +32,13 @@ class Settings:
         tightened: how often these settings were tightened.
     """
 
-    tolerance: float = 1e-4
+    tolerance: float = 1e-3
     newton: float = 1e-7
     newton_end: float = 1e-9
     contraction: float = 0.1
-    order: int = 3
+    order: int = 5
     floor: float = 1e-6
-    radius_factor: float = 0.5
+    radius_factor: float = 0.4
     safety: float = 0.2
     max_steps: int = 4000
     endgame_radius: float = 0.1
@@ -51,9 +51,9 @@ class Settings:
 
 
 NAMED = {
-    "fast": Settings(tolerance=1e-3, radius_factor=0.65, safety=0.3),
+    "fast": Settings(tolerance=1e-2, radius_factor=0.5),
     "default": Settings(),
-    "careful": Settings(tolerance=1e-6, radius_factor=0.35, newton=1e-9, max_steps=20000),
+    "careful": Settings(tolerance=1e-5, radius_factor=0.3, newton=1e-9, max_steps=20000),
 }
 
 

@@ -170,19 +170,18 @@ def _classified(homotopy: Homotopy, raw: _Raw, endgame: bool) -> Paths:
     if len(ended):
         rough = homotopy.normalized(points[ended])
         error = np.maximum(raw.error[ended], 1e-15)
-        plain = refine(homotopy, None, rough, iterations=0)
         sharp = refine(homotopy, None, rough)
         regular = (
             (raw.winding[ended] == 1)
-            & (plain.smallest > 300 * error)
+            & (sharp.before > 300 * error)
             & (sharp.moved <= 1e3 * error + 1e-11)
-            & (sharp.smallest > 0.5 * plain.smallest)
+            & (sharp.smallest > 0.5 * sharp.before)
             & (sharp.error < 1e-8)
         )
         points[ended] = np.where(regular[:, None], sharp.points, rough)
         accuracy[ended] = np.where(regular, sharp.error, error)
-        smallest[ended] = np.where(regular, sharp.smallest, plain.smallest)
-        condition[ended] = np.where(regular, sharp.condition, plain.condition)
+        smallest[ended] = np.where(regular, sharp.smallest, sharp.before)
+        condition[ended] = sharp.size / np.maximum(smallest[ended], 1e-300)
         precision[ended[regular]] = 32
         sizes = np.abs(points[ended][:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
         limit = np.where(
