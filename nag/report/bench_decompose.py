@@ -127,7 +127,7 @@ def _cases(options: argparse.Namespace) -> tuple[list[Decomposed], dict[str, Pee
 
 
 def table(rows: list[Decomposed], peers: dict[str, PeerDecomposed]) -> list[str]:
-    """Decompositions as aligned lines, times in seconds."""
+    """Decompositions as aligned lines, times in seconds of the processor."""
     from nag.report.table import align
 
     head = ["system", "components", "dimension", "paths", "failed", "answer", "seconds"]
@@ -145,7 +145,7 @@ def table(rows: list[Decomposed], peers: dict[str, PeerDecomposed]) -> list[str]
                 cells.append("right" if peer.right else peer.remark)
         lines.append([str(cell) for cell in cells])
     left = {0, 5, 9} if peers else {0, 5}
-    text = [*align(lines, left), "", "seconds: warm, one thread, best of five."]
+    text = [*align(lines, left), "", "seconds: processor time, warm, one thread, best of five."]
     if peers:
         text.append(
             "x: how many times as long numericalIrreducibleDecomposition of M2 takes, once."
