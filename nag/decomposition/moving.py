@@ -34,7 +34,7 @@ def orthonormal_rows(rows: np.ndarray) -> np.ndarray:
     if len(rows) == 0:
         return rows
     u, s, vh = np.linalg.svd(rows[:, 1:], full_matrices=False)
-    if len(rows) > rows.shape[1] - 1 or s[-1] < DEPENDENT * s[0]:
+    if len(rows) > rows.shape[1] - 1 or s[-1] <= DEPENDENT * s[0]:
         raise SliceError("the equations of the slice are linearly dependent")
     return np.hstack([(u.conj().T @ rows[:, :1]) / s[:, None], vh])
 

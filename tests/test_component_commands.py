@@ -1,0 +1,199 @@
+"""nag member, nag sample, nag intersect, nag decompose --method sampling."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+from nag.cli import main
+from nag.report.export import read_export
+from nag.report.witness_input import schema
+
+CASES = Path(__file__).parent.parent / "cases"
+
+CROSS = """
+title = "A circle and a line"
+kind = "system"
+variables = ["x", "y"]
+equations = ["(x^2 + y^2 - 1)*(x - y)"]
+[[point]]
+name = "crossing"
+at = { x = "sqrt(2)/2", y = "sqrt(2)/2" }
+[[point]]
+name = "right"
+at = { x = 1, y = 0 }
+[[point]]
+name = "outside"
+at = { x = 7, y = 0 }
+"""
+
+
+@pytest.fixture
+def case(tmp_path) -> str:
+    file = tmp_path / "cross.toml"
+    file.write_text(CROSS)
+    return str(file)
+
+
+@pytest.fixture
+def export(case, tmp_path, capsys) -> str:
+    file = str(tmp_path / "cross.json")
+    assert main(["decompose", case, "--quiet", "--json", file]) == 0
+    capsys.readouterr()
+    return file
+
+
+def document(kind: str, file: Path) -> dict:
+    content = json.loads(file.read_text())
+    jsonschema.validate(content, schema(kind))
+    assert content["format"] == kind and content["case"]["file"] == "cross.toml"
+    return content
+
+
+@pytest.mark.parametrize("kind", ["nag-membership", "nag-samples", "nag-intersection"])
+def test_schemas_are_schemas(kind: str) -> None:
+    jsonschema.Draft202012Validator.check_schema(schema(kind))
+
+
+@pytest.mark.parametrize(
+    ("point", "exact", "answers"),
+    [
+        (["crossing"], True, ["member", "member"]),
+        (["right"], True, ["foreign", "member"]),
+        (["outside"], False, ["foreign", "foreign"]),
+        (["--at", "y = sqrt(2)/2, x=1/sqrt(2)"], True, ["member", "member"]),
+        (["--at", "x=3/5,y=-4/5"], True, ["foreign", "member"]),
+        (["--at", "x=0.7071067811865476,y=0.7071067811865476"], True, ["member", "member"]),
+        (["--at", "x=0.6000000000000001,y=0.8"], False, ["foreign", "member"]),
+        (["--at", "x=0.61,y=0.8"], False, ["foreign", "foreign"]),
+    ],
+)
+def test_member_says_which_components_a_point_lies_on(
+    case, tmp_path, capsys, point, exact, answers
+) -> None:
+    target = tmp_path / "member.json"
+    assert main(["member", case, *point, "--quiet", "--json", str(target)]) == 0
+    content = document("nag-membership", target)
+    assert [c["answer"] for c in content["components"]] == answers
+    assert [(c["number"], c["degree"]) for c in content["components"]] == [(1, 1), (2, 2)]
+    assert content["exact"] is exact and content["complete"] is True
+    out = capsys.readouterr().out
+    on = answers.count("member")
+    expected = f"on {on} of 2 components; local dimension 1" if on else "on no component"
+    assert f"answer     {expected}\n" in out
+
+
+def test_an_export_answers_as_its_case_does(case, export, capsys) -> None:
+    at = ["--at", "x = 3/5, y = 4/5", "--quiet"]
+    assert main(["member", export, *at]) == 0
+    first = capsys.readouterr().out
+    assert main(["member", case, *at]) == 0
+    second = capsys.readouterr().out
+    assert first.split("\nrun")[0] == second.split("\nrun")[0]
+
+
+def test_the_reference_of_a_mechanism_is_a_point(capsys) -> None:
+    assert main(["member", str(CASES / "bennett.toml"), "reference", "--quiet"]) == 0
+    out = capsys.readouterr().out
+    assert "equations  hold exactly" in out
+    assert "on 1 of 1 components; local dimension 1" in out
+
+
+def test_samples_are_written_to_rounding_and_do_not_depend_on_threads(
+    export, tmp_path, capsys
+) -> None:
+    files = []
+    for threads in ("1", "2"):
+        target = tmp_path / f"{threads}.json"
+        argv = ["sample", export, "--component", "2", "--count", "25", "--threads", threads]
+        assert main([*argv, "--quiet", "--seed", "3", "--json", str(target)]) == 0
+        files.append(target.read_bytes())
+    assert files[0] == files[1]
+    content = document("nag-samples", target)
+    assert content["component"]["degree"] == 2 and content["residual"] < 1e-14
+    points = np.array(content["points"]) @ [1, 1j]
+    assert points.shape == (25, 2)
+    assert np.abs((points**2).sum(axis=1) - 1).max() < 1e-12
+    assert "25, the first 20 are shown" in capsys.readouterr().out
+
+
+def test_intersect_finds_the_crossings(export, tmp_path, capsys) -> None:
+    target = tmp_path / "meet.json"
+    argv = ["intersect", export, "--components", "1", "2", "--quiet", "--json", str(target)]
+    assert main(argv) == 0
+    content = document("nag-intersection", target)
+    assert [(c["dimension"], c["degree"]) for c in content["components"]] == [(0, 1), (0, 1)]
+    points = np.array([c["points"] for c in content["components"]]) @ [1, 1j]
+    assert np.abs(np.abs(points) - np.sqrt(0.5)).max() < 1e-14
+    assert "answer     2 components of dimension 0, degree 1" in capsys.readouterr().out
+
+
+def test_components_that_do_not_meet_are_a_complete_answer(tmp_path, capsys) -> None:
+    file = tmp_path / "parallel.toml"
+    file.write_text(
+        'title = "Parallels"\nkind = "system"\nvariables = ["x", "y"]\nequations = ["x^2 - 1"]\n'
+    )
+    assert main(["intersect", str(file), "--components", "1", "2", "--quiet"]) == 0
+    assert "answer     they do not meet" in capsys.readouterr().out
+
+
+def test_an_incomplete_decomposition_leaves_memberships_incomplete(case, tmp_path, capsys) -> None:
+    file = tmp_path / "sampled.json"
+    argv = ["decompose", case, "--method", "sampling", "--starts", "12", "--quiet"]
+    assert main([*argv, "--json", str(file)]) == 1
+    out = capsys.readouterr().out
+    assert "INCOMPLETE" in out
+    assert "12 random points; components may be missing" in " ".join(out.split())
+    assert len(read_export(file).decomposition.components) == 2
+    assert main(["member", str(file), "--at", "x=1,y=0", "--quiet"]) == 1
+    assert "the decomposition is incomplete" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("argv", "part"),
+    [
+        (["member", "{case}"], "give either the name of a point of the case or --at"),
+        (["member", "{case}", "right", "--at", "x=1,y=0"], "not both"),
+        (["member", "{case}", "rigth"], "has no point 'rigth' (did you mean 'right'?)"),
+        (["member", "{export}", "right"], "has no named points; use --at"),
+        (["member", "{case}", "--at", "x=1"], "--at: no value for y"),
+        (["member", "{case}", "--at", "x=1,y"], "write 'variable = number'"),
+        (["member", "{case}", "--at", ""], "write 'variable = number'"),
+        (["member", "{case}", "--at", "x=1,x=2,y=0"], "x is given twice"),
+        (["member", "{case}", "--at", "x=1,z=2"], "'z' is not one of the variables"),
+        (["member", "{case}", "--at", "x=1/0,y=0"], "--at: x: "),
+        (["member", "{case}", "--at", "x=__import__('os'),y=0"], "--at: x: "),
+        (["member", "{export}", "--at", "x=1,y=0", "--formulation", "E"], "is an export"),
+        (["member", "{folder}/none.json", "--at", "x=1"], "none.json"),
+        (["sample", "{export}", "--component", "3"], "--component: 3: there are components 1 to 2"),
+        (["sample", "{export}", "--component", "0"], "is not a component's number"),
+        (["sample", "{export}", "--count", "0"], "is not between 1 and"),
+        (["sample", "{export}", "--count", "1e9"], "is not a whole number"),
+        (["intersect", "{export}"], "--components"),
+        (["intersect", "{export}", "--components", "1"], "--components"),
+        (["intersect", "{export}", "--components", "1", "9"], "there are components 1 to 2"),
+        (["sample", "{export}", "--json", "{export}"], "name another file"),
+        (["decompose", "{case}", "--starts", "5"], "--starts: is for --method sampling"),
+        (["decompose", "{case}", "--method", "guessing"], "invalid choice"),
+    ],
+)
+def test_bad_input_gets_one_line(case, export, capsys, argv, part) -> None:
+    words = {"case": case, "export": export, "folder": str(Path(case).parent)}
+    assert main([word.format(**words) for word in argv]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith("nag: ") and err.count("\n") == 1
+    assert part in err
+
+
+def test_exports_that_are_none_get_one_line(tmp_path, capsys) -> None:
+    file = tmp_path / "broken.json"
+    file.write_text('{"format": "nag-decomposition", "version": 1}')
+    assert main(["sample", str(file)]) == 2
+    assert capsys.readouterr().err.startswith("nag: ")
+    file.write_text('{"format"')
+    assert main(["sample", str(file)]) == 2
+    assert "is not JSON" in capsys.readouterr().err

@@ -1,0 +1,159 @@
+"""Intersections of components with each other and with equations."""
+
+from __future__ import annotations
+
+from collections import Counter
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.cases import read_case
+from nag.decomposition import (
+    decompose,
+    intersect_components,
+    intersect_equations,
+    intersect_pair,
+    memberships,
+    sample,
+)
+from nag.decomposition.intersection import Intersection, IntersectionError
+from nag.decomposition.membership import Membership
+
+CASES = Path(__file__).parent.parent / "cases"
+
+
+def system(variables: str, *equations: str) -> PolynomialSystem:
+    names = tuple(variables.split())
+    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
+
+
+def kinds(found: Intersection) -> Counter[tuple[int, int]]:
+    assert found.complete and not found.notes
+    assert all(c.residual < 1e-12 and c.accuracy < 1e-12 for c in found.components)
+    return Counter((c.dimension, c.degree) for c in found.components)
+
+
+SPHERE = "x^2 + y^2 + z^2 - 1"
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize(
+    ("equations", "expected"),
+    [
+        (["x*y"], {(0, 1): 1}),
+        (["x*(y - x^2)"], {(0, 1): 1}),
+        (["(x - 2)*(x - 3)"], {}),
+        ([f"({SPHERE})*(z - 1/2)"], {(1, 2): 1}),
+        # The plane z = 1 touches the sphere in a point, and meets it in two complex lines.
+        ([f"({SPHERE})*(z - 1)"], {(1, 1): 2}),
+        ([f"({SPHERE})*(x - 1/2)", f"({SPHERE})*(y - 1/3)"], {(0, 1): 2}),
+        (["(y - x^2)*(x - 2)", "(z - x^3)*(x - 2)"], {(0, 1): 1}),
+        (["x^2 - 1", "y*(x - 1)"], {}),
+    ],
+)
+def test_two_components_meet_where_algebra_says(equations, expected, seed: int) -> None:
+    names = "x y" if "z" not in "".join(equations) and len(equations) == 1 else "x y z"
+    both = decompose(system(names, *equations), seed=seed)
+    assert len(both.components) == 2
+    assert kinds(intersect_pair(both, 0, 1, seed=seed)) == Counter(expected)
+
+
+@pytest.mark.parametrize(
+    "equations", [["x*z - y^2"], ["y - x^2", "z - x^3"], ["z^2", "x^2 - y"], ["x - 1", "y", "z"]]
+)
+def test_a_component_meets_itself_in_itself(equations) -> None:
+    decomposition = decompose(system("x y z", *equations))
+    (component,) = decomposition.components
+    assert kinds(intersect_pair(decomposition, 0, 0)) == {
+        (component.dimension, component.degree): 1
+    }
+
+
+def test_components_of_different_systems_meet() -> None:
+    conic, line = system("x y", "x^2 + y^2 - 1"), system("x y", "x - y")
+    first, second = decompose(conic).components[0], decompose(line).components[0]
+    found = intersect_components(conic, first, second, other=line)
+    assert kinds(found) == {(0, 1): 2}
+    points = np.sort_complex(np.array([c.points[0, 0] for c in found.components]))
+    assert np.abs(points - [-np.sqrt(0.5), np.sqrt(0.5)]).max() < 1e-15
+
+
+@pytest.mark.parametrize(
+    ("further", "expected"),
+    [
+        (["x^2 - y"], {(1, 4): 1}),
+        (["z"], {(1, 2): 1}),
+        (["z - 1"], {(1, 1): 2}),
+        (["x", "y"], {(0, 1): 2}),
+        (["x", "y", "z"], {}),
+        (["0"], {(2, 2): 1}),
+        ([SPHERE], {(2, 2): 1}),
+        (["1"], {}),
+        (["(x - 1/2)*(y - 1/2)", "(x - 1/2)*z"], {(1, 2): 1, (0, 1): 2}),
+    ],
+)
+def test_a_component_meets_further_equations_where_algebra_says(further, expected) -> None:
+    sphere = system("x y z", SPHERE)
+    (component,) = decompose(sphere).components
+    found = intersect_equations(sphere, component, system("x y z", *further))
+    assert kinds(found) == Counter(expected)
+
+
+def test_only_the_component_is_met_and_not_its_whole_system() -> None:
+    both = system("x y z", f"({SPHERE})*(x - 5)")
+    plane, sphere = decompose(both).components
+    assert (plane.degree, sphere.degree) == (1, 2)
+    further = system("x y z", "y")
+    assert kinds(intersect_equations(both, plane, further)) == {(1, 1): 1}
+    assert kinds(intersect_equations(both, sphere, further)) == {(1, 2): 1}
+
+
+def test_what_an_intersection_finds_can_be_worked_with() -> None:
+    both = decompose(system("x y z", f"({SPHERE})*(z - 1/2)"))
+    (circle,) = intersect_pair(both, 0, 1).components
+    x = sample(both.system, circle, 5).points
+    assert np.abs(x[:, 2] - 0.5).max() < 1e-14
+    assert np.abs(x[:, 0] ** 2 + x[:, 1] ** 2 - 0.75).max() < 1e-13
+
+
+def test_the_curves_of_the_rhombus_cross_in_its_flat_poses() -> None:
+    case = read_case(CASES / "rhombus.toml")
+    rhombus = decompose(case.system)
+    assert len(rhombus.components) == 3
+    poses = []
+    for i, j in combinations(range(3), 2):
+        found = intersect_pair(rhombus, i, j)
+        assert kinds(found) == {(0, 1): 1}
+        (pose,) = found.components[0].points
+        rounded = np.round(pose.real)
+        assert np.abs(pose - rounded).max() < 1e-12
+        assert set(rounded.tolist()) <= {-1.0, 0.0, 1.0}
+        answers = memberships(rhombus, rounded)
+        assert [k for k in range(3) if answers[k] is Membership.MEMBER] == [i, j]
+        poses.append(tuple(rounded.tolist()))
+    assert len(set(poses)) == 3
+
+
+def test_the_same_seed_gives_the_same_intersection_for_any_number_of_threads() -> None:
+    both = decompose(system("x y z", f"({SPHERE})*(z - 1/2)"))
+    first, second = (intersect_pair(both, 0, 1, seed=3, threads=threads) for threads in (1, 2))
+    assert first == second
+
+
+def test_a_point_that_deflation_does_not_reach_is_not_passed_over() -> None:
+    lines = system("x y", "x*y")
+    first = next(c for c in decompose(lines).components if abs(c.points[0, 0]) < 1e-12)
+    found = intersect_equations(lines, first, system("x y", "y"))
+    # The line x = 0 meets y = 0 in a point; the two systems together cannot tell it from the line
+    # y = 0, so either it is found or the answer is incomplete.
+    assert [c.dimension for c in found.components] == [0] or not found.complete
+
+
+def test_different_variables_are_refused() -> None:
+    conic = system("x y", "x^2 + y^2 - 1")
+    with pytest.raises(IntersectionError, match="variables differ: x, y and x, z"):
+        intersect_equations(conic, decompose(conic).components[0], system("x z", "x"))
