@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+import shlex
 from pathlib import Path
 
 import jsonschema
@@ -197,3 +199,18 @@ def test_exports_that_are_none_get_one_line(tmp_path, capsys) -> None:
     file.write_text('{"format"')
     assert main(["sample", str(file)]) == 2
     assert "is not JSON" in capsys.readouterr().err
+
+
+def test_the_commands_of_the_readme_run(tmp_path, monkeypatch, capsys) -> None:
+    readme = (CASES.parent / "README.md").read_text("utf-8")
+    lines = re.findall(r"^    nag (.* rhombus\.json.*)$", readme, re.MULTILINE)
+    assert [line.split()[0] for line in lines] == ["decompose", "member", "sample", "intersect"]
+    (tmp_path / "cases").symlink_to(CASES)
+    monkeypatch.chdir(tmp_path)
+    printed = []
+    for line in lines:
+        assert main([*shlex.split(line), "--quiet"]) == 0
+        printed.append(capsys.readouterr().out)
+    assert "on 1 of 3 components; local dimension 1" in printed[1]
+    assert len(json.loads((tmp_path / "points.json").read_text())["points"]) == 100
+    assert "1 component of dimension 0, degree 1" in printed[3]
