@@ -252,6 +252,7 @@ def _decompose(arguments: argparse.Namespace) -> int:
                 threads=arguments.threads,
                 settings=arguments.settings,
                 progress=progress,
+                symmetries=symmetries_of(case, model),
                 **({} if arguments.starts is None else {"starts": arguments.starts}),
             )
         else:

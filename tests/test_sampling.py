@@ -10,10 +10,12 @@ import pytest
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.cases import read_case
 from nag.decomposition import by_sampling, decompose, memberships, real_points_near, sample
 from nag.decomposition import sampling as sampling_module
+from nag.decomposition.expansion import expanded
 from nag.decomposition.membership import Membership
 from nag.decomposition.sampling import SamplingError
 from nag.decomposition.witness import Decomposition, Status
@@ -182,9 +184,26 @@ def test_few_starts_find_some_components_and_each_is_whole() -> None:
     assert "of 4 random points" in answer.notes[0]
 
 
-def test_the_cube_in_euler_parameters_has_curves_of_the_half_angles_degree() -> None:
+@pytest.mark.parametrize("seed", [0, 1])
+def test_the_cube_in_euler_parameters_is_one_orbit_of_sixteen_curves(seed: int) -> None:
     cube = model(read_case(CASES / "bricard-cube.toml").mechanism, "E")
     assert (cube.system.n, len(cube.system.polynomials)) == (16, 16)
-    answer = by_sampling(cube.system, starts=6)
-    assert set(kinds(answer)) == {(1, 8, 1)}
-    assert 1 <= len(answer.components) <= 6
+    signs = [SignedPermutation.of_signs(s) for s in cube.symmetries]
+    answer = by_sampling(cube.system, starts=6, seed=seed, symmetries=signs)
+    assert kinds(answer) == {(1, 8, 1): 1}
+    assert answer.components[0].orbit == 16
+    curves = expanded(answer)
+    assert kinds(curves) == {(1, 8, 1): 16}
+    reference = np.array([float(x) for x in cube.reference])
+    assert memberships(curves, reference).count(Membership.MEMBER) == 1
+
+
+def test_symmetries_add_what_was_not_met_and_join_what_was() -> None:
+    of = system("x y", "(x^2 - 1)*(y^2 - x)*(y^2 + x)")
+    flip = SignedPermutation.of_signs((-1, 1))
+    for starts in (3, 60):
+        answer = by_sampling(of, starts=starts, symmetries=[flip])
+        assert all(c.orbit == 2 for c in answer.components)
+        met = set(kinds(expanded(answer)))
+        assert met <= {(1, 1, 1), (1, 2, 1)}
+    assert kinds(expanded(answer)) == {(1, 1, 1): 2, (1, 2, 1): 2}

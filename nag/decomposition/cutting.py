@@ -131,11 +131,12 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
         delta, *_ = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=1e-14)
         z = z - delta
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
-        slow += step > 0.25 * last and step > 1e-13
+        # Rounding alone keeps the steps at a badly conditioned point from shrinking further.
+        if step < 1e-14 or (step < 1e-10 and step > 0.25 * last):
+            break
+        slow += step > 0.25 * last
         if not np.isfinite(step) or slow > 2:
             return Sharpened(z, np.inf, False)
-        if step < 1e-14 or (step < 1e-11 and step >= last):
-            break
     residual = float(evaluator.residuals(z[None]).max(initial=0.0))
     return Sharpened(z, step, step < 1e-10 and residual < 1e-11)
 

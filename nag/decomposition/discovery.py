@@ -17,6 +17,7 @@ import numpy as np
 
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.cutting import NEARLY_SINGULAR, ON, Cut, Equations
 from nag.decomposition.fibres import Fibre, Tracker, admit, move
@@ -28,8 +29,9 @@ from nag.decomposition.membership import Membership, is_member
 from nag.decomposition.monodromy import carried
 from nag.decomposition.slices import complex_normal, random_rows, rows_through, unit_complex
 from nag.decomposition.superset import Progress, forbidden
+from nag.decomposition.symmetric_images import in_orbits
 from nag.decomposition.trace import is_linear, second_differences
-from nag.decomposition.witness import Decomposition, PathCounts, WitnessSet
+from nag.decomposition.witness import Decomposition, PathCounts, Status, WitnessSet
 
 STARTS = 100
 ATTEMPTS = 3
@@ -238,6 +240,7 @@ def by_sampling(
     threads: int = 1,
     settings: str = "default",
     progress: Progress | None = None,
+    symmetries: Sequence[SignedPermutation] = (),
 ) -> Decomposition:
     """The irreducible components that Newton's method finds from ``starts`` random points.
 
@@ -248,7 +251,14 @@ def by_sampling(
         system: as for `nag.decomposition.decompose`.
         starts: number of starting points.
         progress: called with a stage's name, the step reached and the number of steps.
+        symmetries: as for `nag.decomposition.decompose`; what they carry a component to is found
+            with it.
+
+    Raises:
+        nag.algebra.symmetry.SymmetryError: if one of ``symmetries`` does not keep the equations.
     """
+    for symmetry in symmetries:
+        check_symmetry(system, symmetry)
     rng = np.random.default_rng([seed, 7])
     tracker = Tracker(settings, threads)
     elimination = eliminate_linear(system, graphs=False)
@@ -316,6 +326,19 @@ def by_sampling(
         notes.append(f"{once} of {len(components)} components were met only once")
     if refused:
         notes.append(f"{refused} singular points could not be made regular")
+    whole = [c for c in components if c.status is Status.IRREDUCIBLE]
+    if symmetries and whole:
+        try:
+            options = {"seed": seed, "threads": threads, "settings": settings}
+            orbits = in_orbits(system, whole, symmetries, **options)
+        except ValueError as error:
+            notes.append(f"orbits of the symmetries are not known: {error}")
+        else:
+            unmet = sum(c.orbit for c in orbits) - len(whole)
+            if unmet:
+                notes.append(f"{unmet} components were found by symmetry only")
+            components = [*orbits, *(c for c in components if c.status is not Status.IRREDUCIBLE)]
+            components.sort(key=lambda c: (-c.dimension, c.degree))
     return Decomposition(
         system=system,
         components=tuple(components),

@@ -1,0 +1,77 @@
+"""Components that symmetries of the system carry known ones to, known or not themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.expansion import image
+from nag.decomposition.moving import witness_at
+from nag.decomposition.witness import Slice, WitnessSet
+
+# Points nearer than this, relative to their size, are one.
+SAME = 1e-8
+
+
+def in_orbits(
+    system: PolynomialSystem,
+    components: Sequence[WitnessSet],
+    symmetries: Sequence[SignedPermutation],
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> list[WitnessSet]:
+    """One component of each orbit, with the symmetries that carry it into the others.
+
+    An image of a component is told from the others by one of its points, moved to the common
+    slice. Images that are in nobody's list are added to the orbit all the same.
+
+    Args:
+        components: complete ones, those of one dimension on a common slice.
+        symmetries: signed permutations that keep the system.
+
+    Raises:
+        nag.decomposition.moving.SliceError: if points cannot be moved to the common slice.
+    """
+
+    def moved(component: WitnessSet, target: Slice) -> np.ndarray:
+        if component.dimension == 0:
+            return component.points
+        options = {"seed": seed, "threads": threads, "settings": settings}
+        return witness_at(system, component, target, **options).points
+
+    absorbed: set[int] = set()
+    found: list[WitnessSet] = []
+    for i, first in enumerate(components):
+        if i in absorbed:
+            continue
+        members = [(SignedPermutation.identity(system.n), first.points)]
+        for carrier, _ in members:
+            for symmetry in symmetries:
+                way = symmetry.after(carrier)
+                there = image(first, way)
+                (end,) = moved(replace(there, points=there.points[:1]), first.slice)
+                if any(_among(end, points) for _, points in members):
+                    continue
+                # Components that stand earlier have their whole orbits.
+                for j in range(i + 1, len(components)):
+                    like = components[j].dimension == first.dimension
+                    if like and _among(end, components[j].points):
+                        absorbed.add(j)
+                        members.append((way, components[j].points))
+                        break
+                else:
+                    members.append((way, moved(there, first.slice)))
+        images = tuple(way for way, _ in members[1:])
+        found.append(replace(first, orbit=len(members), images=images))
+    return found
+
+
+def _among(x: np.ndarray, points: np.ndarray) -> bool:
+    distances = np.linalg.norm(points - x, axis=1)
+    return bool((distances < SAME * (1 + np.linalg.norm(x))).any())
