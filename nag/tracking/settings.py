@@ -30,6 +30,9 @@ class Settings:
         shortcut: whether paths may run straight to t = 0 where their Taylor series converges.
         retries: how often failed paths are tracked again with ever tighter control.
         tightened: how often these settings were tightened.
+        high_precision_paths: how many of the paths that fail at last are tracked with mpmath; each
+            may take seconds to minutes.
+        digits: decimal digits of that.
     """
 
     tolerance: float = 1e-3
@@ -48,12 +51,16 @@ class Settings:
     shortcut: bool = True
     retries: int = 3
     tightened: int = 0
+    high_precision_paths: int = 0
+    digits: int = 34
 
 
 NAMED = {
     "fast": Settings(tolerance=1e-2, radius_factor=0.5),
     "default": Settings(),
-    "careful": Settings(tolerance=1e-5, radius_factor=0.3, newton=1e-9, max_steps=20000),
+    "careful": Settings(
+        tolerance=1e-5, radius_factor=0.3, newton=1e-9, max_steps=20000, high_precision_paths=4
+    ),
 }
 
 

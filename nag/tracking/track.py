@@ -60,7 +60,7 @@ def track(
         indices = np.array(sorted(again))
         new = _attempt(homotopy, starts[indices], chosen, threads, endgame, end_exponent)
         paths = _merged(paths, new, indices)
-    return paths
+    return _in_high_precision(homotopy, starts, paths, named(settings), endgame, end_exponent)
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,6 +155,48 @@ def _run(
         with ThreadPoolExecutor(batches) as pool:
             list(pool.map(batch, range(batches)))
     return raw
+
+
+def _in_high_precision(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    paths: Paths,
+    settings: Settings,
+    endgame: bool,
+    end_exponent: int,
+) -> Paths:
+    """Track again with mpmath what failed in doubles, as many paths as the settings allow."""
+    failed = paths.where(PathStatus.FAILED)
+    failed = failed[paths.reason[failed] != Reason.START][: settings.high_precision_paths]
+    if not len(failed):
+        return paths
+    from nag.tracking.oracle import track_one
+
+    ends = [
+        track_one(
+            homotopy,
+            starts[i],
+            digits=settings.digits,
+            tolerance=min(settings.tolerance, 1e-4),
+            endgame=endgame,
+            end_exponent=end_exponent,
+            max_winding=settings.max_winding,
+        )
+        for i in failed
+    ]
+    outcome = CAUCHY if endgame else STRAIGHT
+    raw = _Raw(
+        np.array([end.point for end in ends]),
+        np.array([outcome if end.winding else 0 for end in ends]),
+        np.array([end.winding for end in ends]),
+        np.array([end.error for end in ends]),
+        np.array([end.steps for end in ends]),
+        np.array([0 if end.winding else Reason.ENDGAME for end in ends]),
+    )
+    new = _classified(homotopy, raw, endgame)
+    return _merged(
+        paths, replace(new, precision=np.full(len(ends), settings.digits, np.int16)), failed
+    )
 
 
 def _classified(homotopy: Homotopy, raw: _Raw, endgame: bool) -> Paths:
