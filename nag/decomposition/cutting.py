@@ -306,11 +306,14 @@ def _regular_subset(
     if chosen is None:
         return None
     subset = tuple(polynomials[i] for i in chosen)
-    for candidates in (subset, _combinations(polynomials, len(subset), rng)):
-        cut = Cut(n, total - n, candidates, levels)
+    for combined in (False, True):
+        chosen = _combinations(polynomials, len(subset), rng) if combined else subset
+        cut = Cut(n, total - n, chosen, levels)
         again = sharpen(cut.evaluator, rows, sharpened.z)
         if again.converged and regular_on(cut.evaluator, rows, again):
             return cut, again.z
+        if not regular_on(evaluator, rows, sharpened):
+            return None
     return None
 
 
@@ -321,13 +324,15 @@ def _combinations(
 
     A subset that is independent may still be much worse conditioned than all equations together.
     """
-    scaled = [f * (1 / leading_power(f)) for f in polynomials]
+    powers = [leading_power(f) for f in polynomials]
     result = []
-    for row in _dyadic(rng, (count, len(scaled))):
-        total = Polynomial(scaled[0].n, {})
-        for weight, f in zip(row, scaled, strict=True):
-            total = total + f * Fraction(weight)
-        result.append(total)
+    for row in _dyadic(rng, (count, len(polynomials))):
+        terms: dict[tuple[int, ...], Number] = {}
+        for weight, power, f in zip(row, powers, polynomials, strict=True):
+            factor = Fraction(weight) / power
+            for exponents, coefficient in f.terms.items():
+                terms[exponents] = terms.get(exponents, 0) + coefficient * factor
+        result.append(Polynomial(polynomials[0].n, terms))
     return tuple(result)
 
 
