@@ -60,7 +60,7 @@ class Endgame(NamedTuple):
     HINT,
 ) = range(12)
 # Columns of Endgame.whole.
-PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, STALLED, SHORT_STEPS, NO_SHORTCUT, NEAR = range(9)
+PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, SHORT_STEPS, NO_SHORTCUT, NEAR = range(8)
 
 
 def endgame_state(
@@ -80,7 +80,7 @@ def endgame_state(
         np.zeros((8, N), dtype=np.complex128),
         np.zeros((8, N), dtype=np.complex128),
         np.zeros((8, 12)),
-        np.zeros((8, 9), dtype=np.int64),
+        np.zeros((8, 8), dtype=np.int64),
         exponent,
         active,
         shortcut,
@@ -241,7 +241,7 @@ def arrived(s, e, lane, x, noise, hint, radius, t):
             e.real[lane, HINT] = hint
             e.whole[lane, WINDING] = 1
             return 10 + STRAIGHT
-        retreat(s, e, lane)
+        retreat(s, e, lane, True)
         return -1
     if phase in (MAIN, SHRINK):
         if phase == MAIN:
@@ -286,14 +286,13 @@ def arrived(s, e, lane, x, noise, hint, radius, t):
     same = winding == e.whole[lane, LAST_WINDING]
     trusted = ratio < 1e-6 or quiet or (ratio < 1e-4 and same and e.real[lane, LAST_RATIO] < 1e-4)
     if trusted:
-        if error < e.real[lane, BEST_ERROR]:
+        known = e.real[lane, BEST_ERROR]
+        if error < known:
             e.best[lane, :] = mean
             e.real[lane, BEST_ERROR] = error
             e.whole[lane, WINDING] = winding
-            e.whole[lane, STALLED] = 0
-        else:
-            e.whole[lane, STALLED] += 1
-        if e.real[lane, BEST_ERROR] < 1e-12 or e.whole[lane, STALLED] >= 1:
+        # What a tenth of the radius does not improve tenfold is noise.
+        if e.real[lane, BEST_ERROR] < 1e-11 or error > 0.1 * known:
             return 10 + CAUCHY
     e.real[lane, LAST_RATIO] = ratio
     e.whole[lane, LAST_WINDING] = winding
@@ -305,8 +304,13 @@ def arrived(s, e, lane, x, noise, hint, radius, t):
 
 
 @numba.njit(nogil=True)
-def retreat(s, e, lane):
-    """Give the shortcut up and begin to loop at the point saved where it began."""
+def retreat(s, e, lane, reached):
+    """Give the shortcut up and go back to where it began.
+
+    If t = 0 was ``reached``, the path is smooth there and its end singular: a loop will tell.
+    Otherwise a branch point is near, and a loop is better made further in.
+    """
     e.whole[lane, NO_SHORTCUT] = 1
-    _begin_loop(s, e, lane, e.saved[lane])
-    _keep_sample(s, e, lane, e.saved[lane])
+    if reached or not _shrink(e, lane):
+        _begin_loop(s, e, lane, e.saved[lane])
+        _keep_sample(s, e, lane, e.saved[lane])

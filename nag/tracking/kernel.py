@@ -286,7 +286,7 @@ def track_batch(
             looping = e.whole[lane, PHASE] == LOOP
             tolerance = min(tolerance_main, 1e-4) if looping else tolerance_main
             arriving = w.tr[lane] == f[GOAL_RE, lane] and w.ti[lane] == f[GOAL_IM, lane]
-            newton = newton_end if ending or arriving or state == 1 else newton_main
+            newton = newton_end if arriving or state == 1 else newton_main
             finite = n0 < 1e100 and n1 < 1e100
             ok = finite
             if finite:
@@ -304,13 +304,14 @@ def track_batch(
                     c[ROUNDS, lane] += 1
                     ok = n0 <= 0.1 and (theta <= 0.5 or n1 <= floor)
                 if ok:
-                    if left <= newton or (c[ROUNDS, lane] >= 3 and n1 <= floor):
+                    idle = c[ROUNDS, lane] >= 1 and theta > 0.3
+                    if left <= newton or ((c[ROUNDS, lane] >= 3 or idle) and n1 <= floor):
                         accepted[lane] = 1.0
                     elif c[ROUNDS, lane] >= 5:
                         ok = False
             if accepted[lane] > 0.5:
                 f[ACCURACY, lane] = left if left > 1e-15 else 1e-15
-                if c[ROUNDS, lane] >= 3 and n1 > f[ACCURACY, lane]:
+                if c[ROUNDS, lane] >= 1 and left > newton:
                     f[ACCURACY, lane] = n1
                 last = norms[8 * (order + 1) + lane] ** 0.5
                 radius = 1e6
@@ -369,7 +370,7 @@ def track_batch(
             done = 0
             path = c[PATH, lane]
             if state == -3:
-                retreat(s, e, lane)
+                retreat(s, e, lane, False)
                 _restart(s, w, e, f, c, lane)
                 continue
             if state == -2:

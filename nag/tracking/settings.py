@@ -13,7 +13,7 @@ class Settings:
         tolerance: largest first Newton correction after a prediction, relative to the point; the
             tests that saw no path jump used at most 1e-4.
         newton: estimated relative error at which the corrector stops between the ends.
-        newton_end: the same where a path arrives and within the endgame.
+        newton_end: the same where a path arrives, at t = 0 or at a sample of the endgame.
         contraction: largest ratio of the second to the first Newton correction after a prediction;
             it bounds the part that the first one takes of the distance to any other path.
         order: of the Taylor coefficients.
@@ -37,7 +37,7 @@ class Settings:
 
     tolerance: float = 1e-3
     newton: float = 1e-7
-    newton_end: float = 1e-9
+    newton_end: float = 1e-12
     contraction: float = 0.1
     order: int = 5
     floor: float = 1e-6
@@ -94,7 +94,6 @@ def tighter(settings: Settings) -> Settings:
         tightened=settings.tightened + 1,
         tolerance=settings.tolerance * 1e-2,
         newton=max(settings.newton * 1e-1, 1e-10),
-        newton_end=max(settings.newton_end * 1e-1, 1e-12),
         contraction=settings.contraction * 0.5,
         radius_factor=settings.radius_factor * 0.6,
         max_steps=settings.max_steps * 2,
