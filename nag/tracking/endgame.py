@@ -9,10 +9,12 @@ judgement of convergence by the Fourier modes of negative order is explained at 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
+
+from nag.tracking.lanes import pointer
 
 MAIN, SHORTCUT, LOOP, SHRINK = 0, 1, 2, 3
 # Outcomes of a path.
@@ -26,15 +28,18 @@ class Endgame(NamedTuple):
 
     ``samples``: normalised points round the current loop. ``patch``: linear forms that normalise
     them. ``best``: best estimate of the end point so far; ``saved``: the point at the endgame's
-    first radius. ``real`` and ``whole``: scalars by lane, see the index constants.
+    first radius. ``mean, turn``: scratch. ``real`` and ``whole``: scalars by lane, see the index
+    constants.
     """
 
-    samples: np.ndarray
-    patch: np.ndarray
-    best: np.ndarray
-    saved: np.ndarray
-    real: np.ndarray
-    whole: np.ndarray
+    samples: Any
+    patch: Any
+    best: Any
+    saved: Any
+    mean: Any
+    turn: Any
+    real: Any
+    whole: Any
     exponent: int
     active: bool
     shortcut: bool
@@ -59,8 +64,10 @@ class Endgame(NamedTuple):
     NOISE,
     HINT,
 ) = range(12)
+REALS = 12
 # Columns of Endgame.whole.
 PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, SHORT_STEPS, NO_SHORTCUT, NEAR = range(8)
+WHOLES = 8
 
 
 def endgame_state(
@@ -74,13 +81,16 @@ def endgame_state(
     levels: int,
 ) -> Endgame:
     """Fresh state for eight lanes in ``N`` coordinates."""
+    room = per_loop * max_winding + 1
     return Endgame(
-        np.zeros((8, per_loop * max_winding + 1 if active else 1, N), dtype=np.complex128),
-        np.zeros((8, N), dtype=np.complex128),
-        np.zeros((8, N), dtype=np.complex128),
-        np.zeros((8, N), dtype=np.complex128),
-        np.zeros((8, 12)),
-        np.zeros((8, 8), dtype=np.int64),
+        np.zeros(8 * room * N if active else 1, dtype=np.complex128),
+        np.zeros(8 * N, dtype=np.complex128),
+        np.zeros(8 * N, dtype=np.complex128),
+        np.zeros(8 * N, dtype=np.complex128),
+        np.zeros(N, dtype=np.complex128),
+        np.zeros(room, dtype=np.complex128),
+        np.zeros(8 * REALS),
+        np.zeros(8 * WHOLES, dtype=np.int64),
         exponent,
         active,
         shortcut,
@@ -92,32 +102,67 @@ def endgame_state(
 
 
 @numba.njit(nogil=True)
+def bare_endgame(e):
+    """The same state with pointers for arrays, which are then flat."""
+    return Endgame(
+        pointer(e.samples),
+        pointer(e.patch),
+        pointer(e.best),
+        pointer(e.saved),
+        pointer(e.mean),
+        pointer(e.turn),
+        pointer(e.real),
+        pointer(e.whole),
+        e.exponent,
+        e.active,
+        e.shortcut,
+        e.radius,
+        e.per_loop,
+        e.max_winding,
+        e.levels,
+    )
+
+
+@numba.njit(nogil=True)
+def _at(s, e, lane, k):
+    return (lane * (e.per_loop * e.max_winding + 1) + k) * s.N
+
+
+@numba.njit(nogil=True)
+def _keep(s, target, lane, x):
+    for j in range(s.N):
+        target[s.N * lane + j] = x[j]
+
+
+@numba.njit(nogil=True)
 def _aim(e, lane):
-    radius = e.real[lane, RADIUS]
-    angle = e.real[lane, ANGLE]
+    radius = e.real[REALS * lane + RADIUS]
+    angle = e.real[REALS * lane + ANGLE]
     s = complex(radius * math.cos(angle), radius * math.sin(angle))
     t = s / (1.0 + s)
-    e.real[lane, NEXT_RE] = t.real
-    e.real[lane, NEXT_IM] = t.imag
+    e.real[REALS * lane + NEXT_RE] = t.real
+    e.real[REALS * lane + NEXT_IM] = t.imag
 
 
 @numba.njit(nogil=True)
 def begin(e, lane):
     """Phase and first target of a path that starts at t = 1."""
-    e.whole[lane, :] = 0
-    e.real[lane, :] = 0.0
-    e.real[lane, BEST_ERROR] = 1e300
-    e.real[lane, LAST_RATIO] = 1e300
-    e.whole[lane, PHASE] = MAIN
+    for k in range(WHOLES):
+        e.whole[WHOLES * lane + k] = 0
+    for k in range(REALS):
+        e.real[REALS * lane + k] = 0.0
+    e.real[REALS * lane + BEST_ERROR] = 1e300
+    e.real[REALS * lane + LAST_RATIO] = 1e300
+    e.whole[WHOLES * lane + PHASE] = MAIN
     if e.active:
-        e.real[lane, RADIUS] = e.radius
+        e.real[REALS * lane + RADIUS] = e.radius
         _aim(e, lane)
 
 
 @numba.njit(nogil=True)
 def _begin_loop(s, e, lane, x):
-    e.whole[lane, PHASE] = LOOP
-    e.whole[lane, SAMPLE] = 0
+    e.whole[WHOLES * lane + PHASE] = LOOP
+    e.whole[WHOLES * lane + SAMPLE] = 0
     last = s.N - 1 if e.exponent > 1 else s.N
     for g in range(s.groups):
         total = 0.0
@@ -126,24 +171,24 @@ def _begin_loop(s, e, lane, x):
                 total += abs(x[j]) ** 2
         for j in range(s.N):
             if s.group_of[j] == g:
-                e.patch[lane, j] = x[j].conjugate() / total if j < last else 0.0
+                e.patch[s.N * lane + j] = x[j].conjugate() / total if j < last else 0.0
 
 
 @numba.njit(nogil=True)
 def _keep_sample(s, e, lane, x):
-    k = e.whole[lane, SAMPLE]
+    k = e.whole[WHOLES * lane + SAMPLE]
     for g in range(s.groups):
         scale = 0j
         for j in range(s.N):
             if s.group_of[j] == g:
-                scale += e.patch[lane, j] * x[j]
+                scale += e.patch[s.N * lane + j] * x[j]
         for j in range(s.N):
             if s.group_of[j] == g:
-                e.samples[lane, k, j] = x[j] / scale
+                e.samples[_at(s, e, lane, k) + j] = x[j] / scale
     if e.exponent > 1:
-        e.samples[lane, k, s.N - 1] = 0.0
-    e.whole[lane, SAMPLE] = k + 1
-    e.real[lane, ANGLE] += 2.0 * math.pi / (e.per_loop * e.exponent)
+        e.samples[_at(s, e, lane, k) + s.N - 1] = 0.0
+    e.whole[WHOLES * lane + SAMPLE] = k + 1
+    e.real[REALS * lane + ANGLE] += 2.0 * math.pi / (e.per_loop * e.exponent)
     _aim(e, lane)
 
 
@@ -153,15 +198,19 @@ def _closed(s, e, lane, last):
     distance = 0.0
     spread = 0.0
     for j in range(s.N):
-        distance = max(distance, abs(e.samples[lane, last, j] - e.samples[lane, 0, j]))
+        distance = max(
+            distance, abs(e.samples[_at(s, e, lane, last) + j] - e.samples[_at(s, e, lane, 0) + j])
+        )
         for k in range(1, last):
-            spread = max(spread, abs(e.samples[lane, k, j] - e.samples[lane, 0, j]))
-    return distance <= max(20.0 * e.real[lane, NOISE], 1e-6 * spread)
+            spread = max(
+                spread, abs(e.samples[_at(s, e, lane, k) + j] - e.samples[_at(s, e, lane, 0) + j])
+            )
+    return distance <= max(20.0 * e.real[REALS * lane + NOISE], 1e-6 * spread)
 
 
 @numba.njit(nogil=True)
 def _analyze(s, e, lane, count):
-    """Mean of the samples, and the sizes of their modes of negative and positive order.
+    """Sizes of the samples' modes of negative and positive order; their mean into ``e.mean``.
 
     Round a loop that encloses no branch point but the centre, a branch is a power series in
     ``sigma ** (1 / w)``: no mode of negative order. Agreement of the means at two radii proves
@@ -169,37 +218,39 @@ def _analyze(s, e, lane, count):
     """
     negative = 0.0
     total = 0.0
-    mean = np.zeros(s.N, dtype=np.complex128)
+    mean = e.mean
+    for j in range(s.N):
+        mean[j] = 0j
     for k in range(count):
         for j in range(s.N):
-            mean[j] += e.samples[lane, k, j]
+            mean[j] += e.samples[_at(s, e, lane, k) + j]
     for j in range(s.N):
         mean[j] /= count
     for k in range(count):
         for j in range(s.N):
-            z = e.samples[lane, k, j] - mean[j]
+            z = e.samples[_at(s, e, lane, k) + j] - mean[j]
             total += z.real * z.real + z.imag * z.imag
     total /= count
-    turn = np.empty(count, dtype=np.complex128)
+    turn = e.turn
     for k in range(count):
         turn[k] = complex(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
     for m in range(1, (count + 1) // 2):
         for j in range(s.N):
             c = 0j
             for k in range(count):
-                c += (e.samples[lane, k, j] - mean[j]) * turn[(m * k) % count]
+                c += (e.samples[_at(s, e, lane, k) + j] - mean[j]) * turn[(m * k) % count]
             c /= count
             negative += c.real * c.real + c.imag * c.imag
-    return mean, math.sqrt(negative), math.sqrt(max(total - negative, 0.0))
+    return math.sqrt(negative), math.sqrt(max(total - negative, 0.0))
 
 
 @numba.njit(nogil=True)
 def _shrink(e, lane):
-    e.whole[lane, LEVEL] += 1
-    if e.whole[lane, LEVEL] >= e.levels:
+    e.whole[WHOLES * lane + LEVEL] += 1
+    if e.whole[WHOLES * lane + LEVEL] >= e.levels:
         return False
-    e.whole[lane, PHASE] = SHRINK
-    e.real[lane, RADIUS] *= 0.1 ** (1.0 / e.exponent)
+    e.whole[WHOLES * lane + PHASE] = SHRINK
+    e.real[REALS * lane + RADIUS] *= 0.1 ** (1.0 / e.exponent)
     _aim(e, lane)
     return True
 
@@ -207,7 +258,7 @@ def _shrink(e, lane):
 @numba.njit(nogil=True)
 def give_up(e, lane):
     """Outcome of a path that cannot go on: its best estimate, if one was judged converged."""
-    if e.real[lane, BEST_ERROR] < 1e-6:
+    if e.real[REALS * lane + BEST_ERROR] < 1e-6:
         return CAUCHY
     return FAILED
 
@@ -226,78 +277,84 @@ def arrived(s, e, lane, x, noise, hint, radius, t):
         0 to go on to the target ``NEXT_RE, NEXT_IM``; -1 to go back to the point ``saved`` first;
         else 10 plus the outcome.
     """
-    phase = e.whole[lane, PHASE]
-    e.real[lane, NOISE] = max(noise, 1e-15)
+    phase = e.whole[WHOLES * lane + PHASE]
+    e.real[REALS * lane + NOISE] = max(noise, 1e-15)
     if phase == MAIN and not e.active:
-        e.best[lane, :] = x
-        e.real[lane, BEST_ERROR] = noise
-        e.whole[lane, WINDING] = 1
-        e.real[lane, HINT] = hint
+        _keep(s, e.best, lane, x)
+        e.real[REALS * lane + BEST_ERROR] = noise
+        e.whole[WHOLES * lane + WINDING] = 1
+        e.real[REALS * lane + HINT] = hint
         return 10 + STRAIGHT
     if phase == SHORTCUT:
-        if hint > 1e-3 * e.real[lane, FIRST_HINT] and noise < 1e-8:
-            e.best[lane, :] = x
-            e.real[lane, BEST_ERROR] = noise
-            e.real[lane, HINT] = hint
-            e.whole[lane, WINDING] = 1
+        if hint > 1e-3 * e.real[REALS * lane + FIRST_HINT] and noise < 1e-8:
+            _keep(s, e.best, lane, x)
+            e.real[REALS * lane + BEST_ERROR] = noise
+            e.real[REALS * lane + HINT] = hint
+            e.whole[WHOLES * lane + WINDING] = 1
             return 10 + STRAIGHT
         retreat(s, e, lane, True)
         return -1
     if phase in (MAIN, SHRINK):
         if phase == MAIN:
-            e.real[lane, FIRST_HINT] = hint
-        e.saved[lane, :] = x
-        e.real[lane, SAVED_RE] = t.real
-        e.real[lane, SAVED_IM] = t.imag
-        e.real[lane, SAVED_ANGLE] = e.real[lane, ANGLE]
-        if e.shortcut and e.whole[lane, NO_SHORTCUT] == 0 and radius > 1.25 * abs(t):
-            e.whole[lane, PHASE] = SHORTCUT
-            e.whole[lane, SHORT_STEPS] = 0
-            e.real[lane, NEXT_RE] = 0.0
-            e.real[lane, NEXT_IM] = 0.0
+            e.real[REALS * lane + FIRST_HINT] = hint
+        _keep(s, e.saved, lane, x)
+        e.real[REALS * lane + SAVED_RE] = t.real
+        e.real[REALS * lane + SAVED_IM] = t.imag
+        e.real[REALS * lane + SAVED_ANGLE] = e.real[REALS * lane + ANGLE]
+        if e.shortcut and e.whole[WHOLES * lane + NO_SHORTCUT] == 0 and radius > 1.25 * abs(t):
+            e.whole[WHOLES * lane + PHASE] = SHORTCUT
+            e.whole[WHOLES * lane + SHORT_STEPS] = 0
+            e.real[REALS * lane + NEXT_RE] = 0.0
+            e.real[REALS * lane + NEXT_IM] = 0.0
             return 0
         # Loops are for singular ends: there the radius of convergence is |t|, twice running. Else
         # the nearest singularity may lie beside t = 0, and further in the path runs straight.
         near = radius < 1.1 * abs(t)
-        wait = e.whole[lane, LEVEL] < 4 and not (near and e.whole[lane, NEAR] == 1)
-        e.whole[lane, NEAR] = 1 if near else 0
-        if e.shortcut and e.whole[lane, NO_SHORTCUT] == 0 and wait and _shrink(e, lane):
+        wait = e.whole[WHOLES * lane + LEVEL] < 4 and not (
+            near and e.whole[WHOLES * lane + NEAR] == 1
+        )
+        e.whole[WHOLES * lane + NEAR] = 1 if near else 0
+        if e.shortcut and e.whole[WHOLES * lane + NO_SHORTCUT] == 0 and wait and _shrink(e, lane):
             return 0
         _begin_loop(s, e, lane, x)
     _keep_sample(s, e, lane, x)
-    last = e.whole[lane, SAMPLE] - 1
+    last = e.whole[WHOLES * lane + SAMPLE] - 1
     if last == 0 or last % e.per_loop != 0:
         return 0
     if not _closed(s, e, lane, last):
         # Far out, long cycles are more likely cycles of branch points further in.
-        if last < e.per_loop * min(e.max_winding, 2 << e.whole[lane, LEVEL]):
+        if last < e.per_loop * min(e.max_winding, 2 << e.whole[WHOLES * lane + LEVEL]):
             return 0
-        e.real[lane, LAST_RATIO] = 1e300
+        e.real[REALS * lane + LAST_RATIO] = 1e300
         # The path now is on another branch of its cycle: back to its own.
-        e.real[lane, ANGLE] = e.real[lane, SAVED_ANGLE]
+        e.real[REALS * lane + ANGLE] = e.real[REALS * lane + SAVED_ANGLE]
         if _shrink(e, lane):
             return -1
         return 10 + give_up(e, lane)
     winding = last // e.per_loop
-    mean, negative, positive = _analyze(s, e, lane, last)
-    error = max(negative, e.real[lane, NOISE] / math.sqrt(last))
-    quiet = negative <= 3.0 * e.real[lane, NOISE]
+    negative, positive = _analyze(s, e, lane, last)
+    error = max(negative, e.real[REALS * lane + NOISE] / math.sqrt(last))
+    quiet = negative <= 3.0 * e.real[REALS * lane + NOISE]
     ratio = negative / positive if positive > 0.0 else 0.0
-    same = winding == e.whole[lane, LAST_WINDING]
-    trusted = ratio < 1e-6 or quiet or (ratio < 1e-4 and same and e.real[lane, LAST_RATIO] < 1e-4)
+    same = winding == e.whole[WHOLES * lane + LAST_WINDING]
+    trusted = (
+        ratio < 1e-6
+        or quiet
+        or (ratio < 1e-4 and same and e.real[REALS * lane + LAST_RATIO] < 1e-4)
+    )
     if trusted:
-        known = e.real[lane, BEST_ERROR]
+        known = e.real[REALS * lane + BEST_ERROR]
         if error < known:
-            e.best[lane, :] = mean
-            e.real[lane, BEST_ERROR] = error
-            e.whole[lane, WINDING] = winding
+            _keep(s, e.best, lane, e.mean)
+            e.real[REALS * lane + BEST_ERROR] = error
+            e.whole[WHOLES * lane + WINDING] = winding
         # What a tenth of the radius does not improve tenfold is noise.
-        if e.real[lane, BEST_ERROR] < 1e-11 or error > 0.1 * known:
+        if e.real[REALS * lane + BEST_ERROR] < 1e-11 or error > 0.1 * known:
             return 10 + CAUCHY
-    e.real[lane, LAST_RATIO] = ratio
-    e.whole[lane, LAST_WINDING] = winding
+    e.real[REALS * lane + LAST_RATIO] = ratio
+    e.whole[WHOLES * lane + LAST_WINDING] = winding
     # The successor of the last sample was aimed at already.
-    e.real[lane, ANGLE] -= 2.0 * math.pi / (e.per_loop * e.exponent)
+    e.real[REALS * lane + ANGLE] -= 2.0 * math.pi / (e.per_loop * e.exponent)
     if _shrink(e, lane):
         return 0
     return 10 + give_up(e, lane)
@@ -310,7 +367,9 @@ def retreat(s, e, lane, reached):
     If t = 0 was ``reached``, the path is smooth there and its end singular: a loop will tell.
     Otherwise a branch point is near, and a loop is better made further in.
     """
-    e.whole[lane, NO_SHORTCUT] = 1
+    e.whole[WHOLES * lane + NO_SHORTCUT] = 1
     if reached or not _shrink(e, lane):
-        _begin_loop(s, e, lane, e.saved[lane])
-        _keep_sample(s, e, lane, e.saved[lane])
+        for j in range(s.N):
+            e.mean[j] = e.saved[s.N * lane + j]
+        _begin_loop(s, e, lane, e.mean)
+        _keep_sample(s, e, lane, e.mean)

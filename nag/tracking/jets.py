@@ -66,7 +66,7 @@ class Work(NamedTuple):
     accepted t, real and imaginary parts in turn. ``tr, ti``: t. ``norms``: squared norms of the two
     Newton corrections, then those of the Taylor coefficients of order 1 and up. ``mode``: 0 in the
     lanes that predict. ``zr, zi``: their steps in t. ``accepted``: 1 in the lanes whose step is
-    accepted.
+    accepted. ``scalars, counters``: see `nag.tracking.kernel`. ``x``: one point.
     """
 
     vr: Any
@@ -92,6 +92,9 @@ class Work(NamedTuple):
     zr: Any
     zi: Any
     accepted: Any
+    scalars: Any
+    counters: Any
+    x: Any
 
 
 def _real_blocks(start: np.ndarray, coefficient: np.ndarray) -> np.ndarray:
@@ -154,7 +157,8 @@ def work(homotopy: Homotopy, order: int) -> Work:
     parts = len(homotopy.factors)
     sizes = [slots] * 2 + [order * value_slots] * 2 + [value_slots] * 2 + [N * N] * 2 + [N] * 4
     sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, 1, order + 2, 1, 1, 1, 1]
-    return Work(*(aligned(size) for size in sizes))
+    vectors = [aligned(size) for size in sizes]
+    return Work(*vectors, aligned(10), np.zeros(40, np.int64), np.zeros(N, np.complex128))
 
 
 @numba.njit(nogil=True)
@@ -222,6 +226,9 @@ def bare(s, w):
         pointer(w.zr),
         pointer(w.zi),
         pointer(w.accepted),
+        pointer(w.scalars),
+        pointer(w.counters),
+        pointer(w.x),
     )
     return system, work
 

@@ -17,6 +17,7 @@ from nag.tracking.endgame import (
     NEXT_RE,
     NOT_FINITE,
     PHASE,
+    REALS,
     SAVED_IM,
     SAVED_RE,
     SHORT_STEPS,
@@ -24,8 +25,10 @@ from nag.tracking.endgame import (
     START,
     STEP_SIZE,
     STEPS,
+    WHOLES,
     WINDING,
     arrived,
+    bare_endgame,
     begin,
     endgame_state,
     give_up,
@@ -44,7 +47,7 @@ from nag.tracking.jets import (
     values,
 )
 from nag.tracking.kernel_cache import Kernel
-from nag.tracking.lanes import fma, fnma, load, select_less, splat, store
+from nag.tracking.lanes import fma, fnma, load, pointer, select_less, splat, store
 from nag.tracking.linear_algebra import factorize, pivot_ratio, substitute
 
 PREDICT, CORRECT, AGAIN = 0.0, 1.0, 2.0
@@ -166,126 +169,139 @@ def _accept(s, w, order):
 
 # Rows of the lanes' scalars.
 T_RE, T_IM, GOAL_RE, GOAL_IM, H, H_USED, FIRST, THETA, ACCURACY, RADIUS = range(10)
+SCALARS = 10
 # Rows of the lanes' counters.
 PATH, ROUNDS, TAKEN, REJECTED, STATE = range(5)
+COUNTERS = 5
 
 
 @numba.njit(nogil=True)
-def _put(s, w, lane, x):
+def _put(s, w, lane, points, k):
     for j in range(s.N):
-        w.vr[8 * j + lane] = x[j].real
-        w.vi[8 * j + lane] = x[j].imag
+        x = points[s.N * k + j]
+        w.vr[8 * j + lane] = x.real
+        w.vi[8 * j + lane] = x.imag
 
 
 @numba.njit(nogil=True)
-def _fill(s, w, e, f, c, lane, path, start):
+def _fill(s, w, e, f, c, lane, path, starts):
     """Put a path into a lane."""
-    _put(s, w, lane, start)
-    f[:, lane] = 0.0
-    c[:, lane] = 0
-    f[T_RE, lane] = 1.0
-    c[PATH, lane] = path
-    c[STATE, lane] = 1
+    _put(s, w, lane, starts, path)
+    for k in range(SCALARS):
+        f[8 * k + lane] = 0.0
+    for k in range(COUNTERS):
+        c[8 * k + lane] = 0
+    f[8 * T_RE + lane] = 1.0
+    c[8 * PATH + lane] = path
+    c[8 * STATE + lane] = 1
     begin(e, lane)
-    f[GOAL_RE, lane] = e.real[lane, NEXT_RE]
-    f[GOAL_IM, lane] = e.real[lane, NEXT_IM]
+    f[8 * GOAL_RE + lane] = e.real[REALS * lane + NEXT_RE]
+    f[8 * GOAL_IM + lane] = e.real[REALS * lane + NEXT_IM]
 
 
 @numba.njit(nogil=True)
 def _restart(s, w, e, f, c, lane):
     """Go back to the point that the endgame saved."""
-    _put(s, w, lane, e.saved[lane])
-    f[T_RE, lane] = e.real[lane, SAVED_RE]
-    f[T_IM, lane] = e.real[lane, SAVED_IM]
-    f[GOAL_RE, lane] = e.real[lane, NEXT_RE]
-    f[GOAL_IM, lane] = e.real[lane, NEXT_IM]
-    c[STATE, lane] = 1
-    c[ROUNDS, lane] = 0
-    c[REJECTED, lane] = 0
+    _put(s, w, lane, e.saved, lane)
+    f[8 * T_RE + lane] = e.real[REALS * lane + SAVED_RE]
+    f[8 * T_IM + lane] = e.real[REALS * lane + SAVED_IM]
+    f[8 * GOAL_RE + lane] = e.real[REALS * lane + NEXT_RE]
+    f[8 * GOAL_IM + lane] = e.real[REALS * lane + NEXT_IM]
+    c[8 * STATE + lane] = 1
+    c[8 * ROUNDS + lane] = 0
+    c[8 * REJECTED + lane] = 0
 
 
 @numba.njit(nogil=True, cache=True)
 def track_batch(
     arrays,
     scratch,
-    e,
+    ends,
     parameters,
     order,
     max_steps,
-    starts,
+    start_points,
     first,
     stride,
-    points,
-    outcome,
-    winding,
-    error,
-    steps,
-    reason,
+    end_points,
+    outcomes,
+    windings,
+    errors,
+    all_steps,
+    reasons,
 ):
-    """Track the paths ``first, first + stride, ..`` of ``starts``; results into the arrays."""
+    """Track paths ``first, first + stride, ..``; results into the arrays."""
     tolerance_main, newton_main, newton_end, floor, radius_factor, safety, theta_max = parameters
     s, w = bare(arrays, scratch)
     n = s.N
-    count = len(starts)
-    f = np.zeros((10, 8))
+    count = len(start_points)
+    e = bare_endgame(ends)
+    starts = pointer(start_points)
+    points = pointer(end_points)
+    outcome = pointer(outcomes)
+    winding = pointer(windings)
+    error = pointer(errors)
+    steps = pointer(all_steps)
+    reason = pointer(reasons)
+    f = w.scalars
+    c = w.counters
+    x = w.x
     power = 1.0 / (order + 1)
-    c = np.zeros((5, 8), dtype=np.int64)
     norms = w.norms
     mode = w.mode
     zr = w.zr
     zi = w.zi
     accepted = w.accepted
-    x = np.zeros(n, dtype=np.complex128)
     following = first
     busy = 0
     for lane in range(8):
-        c[STATE, lane] = -1
-        _put(s, w, lane, starts[first])
+        c[8 * STATE + lane] = -1
+        _put(s, w, lane, starts, first)
         if following < count:
-            _fill(s, w, e, f, c, lane, following, starts[following])
+            _fill(s, w, e, f, c, lane, following, starts)
             following += stride
             busy += 1
     while busy:
         for lane in range(8):
-            state = c[STATE, lane]
+            state = c[8 * STATE + lane]
             mode[lane] = PREDICT if state == 0 else CORRECT
             if state == 0:
-                dr = f[GOAL_RE, lane] - f[T_RE, lane]
-                di = f[GOAL_IM, lane] - f[T_IM, lane]
+                dr = f[8 * GOAL_RE + lane] - f[8 * T_RE + lane]
+                di = f[8 * GOAL_IM + lane] - f[8 * T_IM + lane]
                 length = (dr * dr + di * di) ** 0.5
-                h = f[H, lane]
+                h = f[8 * H + lane]
                 if h >= length:
                     h = length
                     zr[lane] = dr
                     zi[lane] = di
-                    w.tr[lane] = f[GOAL_RE, lane]
-                    w.ti[lane] = f[GOAL_IM, lane]
+                    w.tr[lane] = f[8 * GOAL_RE + lane]
+                    w.ti[lane] = f[8 * GOAL_IM + lane]
                 else:
                     # A step that would leave a crumb is halved instead.
                     if h > 0.7 * length:
                         h = 0.5 * length
                     zr[lane] = dr / length * h
                     zi[lane] = di / length * h
-                    w.tr[lane] = f[T_RE, lane] + zr[lane]
-                    w.ti[lane] = f[T_IM, lane] + zi[lane]
-                f[H_USED, lane] = h
+                    w.tr[lane] = f[8 * T_RE + lane] + zr[lane]
+                    w.ti[lane] = f[8 * T_IM + lane] + zi[lane]
+                f[8 * H_USED + lane] = h
             elif state == 1:
-                w.tr[lane] = f[T_RE, lane]
-                w.ti[lane] = f[T_IM, lane]
+                w.tr[lane] = f[8 * T_RE + lane]
+                w.ti[lane] = f[8 * T_IM + lane]
         _predict(s, w, order)
         _newton_and_jets(s, w, order)
         for lane in range(8):
             accepted[lane] = 0.0
-            state = c[STATE, lane]
+            state = c[8 * STATE + lane]
             if state < 0:
                 continue
-            c[TAKEN, lane] += 1
+            c[8 * TAKEN + lane] += 1
             n0 = norms[lane] ** 0.5
             n1 = norms[8 + lane] ** 0.5
-            ending = e.whole[lane, PHASE] != MAIN
-            looping = e.whole[lane, PHASE] == LOOP
+            ending = e.whole[WHOLES * lane + PHASE] != MAIN
+            looping = e.whole[WHOLES * lane + PHASE] == LOOP
             tolerance = min(tolerance_main, 1e-4) if looping else tolerance_main
-            arriving = w.tr[lane] == f[GOAL_RE, lane] and w.ti[lane] == f[GOAL_IM, lane]
+            arriving = w.tr[lane] == f[8 * GOAL_RE + lane] and w.ti[lane] == f[8 * GOAL_IM + lane]
             newton = newton_end if arriving or state == 1 else newton_main
             finite = n0 < 1e100 and n1 < 1e100
             ok = finite
@@ -293,82 +309,82 @@ def track_batch(
                 theta = n1 / n0 if n0 > 0.0 else 0.0
                 left = min(theta, 1.0) * n1
                 if state == 0:
-                    f[FIRST, lane] = n0
+                    f[8 * FIRST + lane] = n0
                     # Corrections that do not contract any more are rounding errors.
                     rounding = n1 <= (1e-7 if ending else 1e-9)
-                    f[THETA, lane] = 0.0 if rounding else theta
-                    c[ROUNDS, lane] = 0
-                    rounding = rounding or (n1 <= floor and c[REJECTED, lane] >= 2)
+                    f[8 * THETA + lane] = 0.0 if rounding else theta
+                    c[8 * ROUNDS + lane] = 0
+                    rounding = rounding or (n1 <= floor and c[8 * REJECTED + lane] >= 2)
                     ok = n0 <= tolerance and (theta <= theta_max or rounding)
                 else:
-                    c[ROUNDS, lane] += 1
+                    c[8 * ROUNDS + lane] += 1
                     ok = n0 <= 0.1 and (theta <= 0.5 or n1 <= floor)
                 if ok:
-                    idle = c[ROUNDS, lane] >= 1 and theta > 0.3
-                    if left <= newton or ((c[ROUNDS, lane] >= 3 or idle) and n1 <= floor):
+                    idle = c[8 * ROUNDS + lane] >= 1 and theta > 0.3
+                    if left <= newton or ((c[8 * ROUNDS + lane] >= 3 or idle) and n1 <= floor):
                         accepted[lane] = 1.0
-                    elif c[ROUNDS, lane] >= 5:
+                    elif c[8 * ROUNDS + lane] >= 5:
                         ok = False
             if accepted[lane] > 0.5:
-                f[ACCURACY, lane] = left if left > 1e-15 else 1e-15
-                if c[ROUNDS, lane] >= 1 and left > newton:
-                    f[ACCURACY, lane] = n1
+                f[8 * ACCURACY + lane] = left if left > 1e-15 else 1e-15
+                if c[8 * ROUNDS + lane] >= 1 and left > newton:
+                    f[8 * ACCURACY + lane] = n1
                 last = norms[8 * (order + 1) + lane] ** 0.5
                 radius = 1e6
                 if last > 0.0:
                     second = norms[8 * order + lane] ** 0.5
                     third = norms[8 * (order - 1) + lane] ** 0.5
                     radius = min(radius, max(second / last, (third / last) ** 0.5))
-                f[RADIUS, lane] = radius
+                f[8 * RADIUS + lane] = radius
                 aim = safety * tolerance
                 if state == 1:
                     h = (aim * radius / last) ** power if last > 0.0 else 1e6
                 else:
-                    n0 = max(f[FIRST, lane], 1e-300)
-                    aim = min(aim, 0.3 * theta_max / max(f[THETA, lane], 1e-300) * n0)
-                    h = f[H_USED, lane] * min((aim / n0) ** power, 4.0)
+                    n0 = max(f[8 * FIRST + lane], 1e-300)
+                    aim = min(aim, 0.3 * theta_max / max(f[8 * THETA + lane], 1e-300) * n0)
+                    h = f[8 * H_USED + lane] * min((aim / n0) ** power, 4.0)
                 h = min(radius_factor * radius, h)
-                f[H, lane] = h
-                f[T_RE, lane] = w.tr[lane]
-                f[T_IM, lane] = w.ti[lane]
-                c[STATE, lane] = 0
-                c[REJECTED, lane] = 0
+                f[8 * H + lane] = h
+                f[8 * T_RE + lane] = w.tr[lane]
+                f[8 * T_IM + lane] = w.ti[lane]
+                c[8 * STATE + lane] = 0
+                c[8 * REJECTED + lane] = 0
             elif ok:
                 # Converging, but not there yet: another Newton step at the same t.
-                c[STATE, lane] = 2 if state != 1 else 1
+                c[8 * STATE + lane] = 2 if state != 1 else 1
             elif state == 1:
-                c[STATE, lane] = -2
-                reason[c[PATH, lane]] = START if not ending else ENDGAME
+                c[8 * STATE + lane] = -2
+                reason[c[8 * PATH + lane]] = START if not ending else ENDGAME
             else:
-                c[REJECTED, lane] += 1
+                c[8 * REJECTED + lane] += 1
                 shrink = 0.5
-                if finite and state == 0 and f[FIRST, lane] > tolerance:
-                    shrink = (safety * tolerance / f[FIRST, lane]) ** power
+                if finite and state == 0 and f[8 * FIRST + lane] > tolerance:
+                    shrink = (safety * tolerance / f[8 * FIRST + lane]) ** power
                     shrink = min(max(shrink, 0.1), 0.6)
-                f[H, lane] = f[H_USED, lane] * shrink
-                c[STATE, lane] = 0
-                size = (f[T_RE, lane] ** 2 + f[T_IM, lane] ** 2) ** 0.5
-                if not f[H, lane] > 1e-10 * size:
-                    c[STATE, lane] = -2
-                    reason[c[PATH, lane]] = STEP_SIZE if finite else NOT_FINITE
-            if c[TAKEN, lane] >= max_steps and c[STATE, lane] >= 0:
+                f[8 * H + lane] = f[8 * H_USED + lane] * shrink
+                c[8 * STATE + lane] = 0
+                size = (f[8 * T_RE + lane] ** 2 + f[8 * T_IM + lane] ** 2) ** 0.5
+                if not f[8 * H + lane] > 1e-10 * size:
+                    c[8 * STATE + lane] = -2
+                    reason[c[8 * PATH + lane]] = STEP_SIZE if finite else NOT_FINITE
+            if c[8 * TAKEN + lane] >= max_steps and c[8 * STATE + lane] >= 0:
                 accepted[lane] = 0.0
-                c[STATE, lane] = -2
-                reason[c[PATH, lane]] = STEPS
-            if e.whole[lane, PHASE] == SHORTCUT:
-                e.whole[lane, SHORT_STEPS] += 1
-                if (e.whole[lane, SHORT_STEPS] > 30 and accepted[lane] < 0.5) or c[
-                    STATE, lane
+                c[8 * STATE + lane] = -2
+                reason[c[8 * PATH + lane]] = STEPS
+            if e.whole[WHOLES * lane + PHASE] == SHORTCUT:
+                e.whole[WHOLES * lane + SHORT_STEPS] += 1
+                if (e.whole[WHOLES * lane + SHORT_STEPS] > 30 and accepted[lane] < 0.5) or c[
+                    8 * STATE + lane
                 ] == -2:
                     accepted[lane] = 0.0
-                    c[STATE, lane] = -3
+                    c[8 * STATE + lane] = -3
         _accept(s, w, order)
         for lane in range(8):
-            state = c[STATE, lane]
+            state = c[8 * STATE + lane]
             if state == -1:
                 continue
             done = 0
-            path = c[PATH, lane]
+            path = c[8 * PATH + lane]
             if state == -3:
                 retreat(s, e, lane, False)
                 _restart(s, w, e, f, c, lane)
@@ -377,40 +393,45 @@ def track_batch(
                 done = 10 + give_up(e, lane)
             elif (
                 accepted[lane] > 0.5
-                and f[T_RE, lane] == f[GOAL_RE, lane]
-                and f[T_IM, lane] == f[GOAL_IM, lane]
+                and f[8 * T_RE + lane] == f[8 * GOAL_RE + lane]
+                and f[8 * T_IM + lane] == f[8 * GOAL_IM + lane]
             ):
                 for j in range(n):
                     x[j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
-                time = complex(f[T_RE, lane], f[T_IM, lane])
+                time = complex(f[8 * T_RE + lane], f[8 * T_IM + lane])
                 hint = pivot_ratio(n, w.jr, w.ji, lane)
-                done = arrived(s, e, lane, x, f[ACCURACY, lane], hint, f[RADIUS, lane], time)
+                done = arrived(
+                    s, e, lane, x, f[8 * ACCURACY + lane], hint, f[8 * RADIUS + lane], time
+                )
                 if done == -1:
                     _restart(s, w, e, f, c, lane)
                     continue
-                f[GOAL_RE, lane] = e.real[lane, NEXT_RE]
-                f[GOAL_IM, lane] = e.real[lane, NEXT_IM]
-                if done == 0 and c[TAKEN, lane] >= max_steps:
+                f[8 * GOAL_RE + lane] = e.real[REALS * lane + NEXT_RE]
+                f[8 * GOAL_IM + lane] = e.real[REALS * lane + NEXT_IM]
+                if done == 0 and c[8 * TAKEN + lane] >= max_steps:
                     reason[path] = STEPS
                     done = 10 + give_up(e, lane)
             if done >= 10:
                 outcome[path] = done - 10
-                steps[path] = c[TAKEN, lane]
+                steps[path] = c[8 * TAKEN + lane]
                 if done - 10 == FAILED:
                     if reason[path] == 0:
                         reason[path] = ENDGAME
                     for j in range(n):
-                        points[path, j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
+                        points[n * path + j] = complex(
+                            w.base[8 * j + lane], w.base[8 * (n + j) + lane]
+                        )
                     error[path] = np.inf
                 else:
                     reason[path] = 0
-                    points[path, :] = e.best[lane]
-                    winding[path] = e.whole[lane, WINDING]
-                    error[path] = e.real[lane, BEST_ERROR]
+                    for j in range(n):
+                        points[n * path + j] = e.best[n * lane + j]
+                    winding[path] = e.whole[WHOLES * lane + WINDING]
+                    error[path] = e.real[REALS * lane + BEST_ERROR]
                 busy -= 1
-                c[STATE, lane] = -1
+                c[8 * STATE + lane] = -1
                 if following < count:
-                    _fill(s, w, e, f, c, lane, following, starts[following])
+                    _fill(s, w, e, f, c, lane, following, starts)
                     following += stride
                     busy += 1
 

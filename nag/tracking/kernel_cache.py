@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,17 @@ def _stamp() -> tuple[int, int]:
     """Stamp of all sources that kernels are made of: numba's cache knows of one file only."""
     files = sorted(Path(__file__).parent.glob("*.py"))
     return max(f.stat().st_mtime_ns for f in files), sum(f.stat().st_size for f in files)
+
+
+@contextmanager
+def _light_optimisation() -> Iterator[None]:
+    """Registers are filled by hand: more optimisation takes longer and gains nothing measurable."""
+    level, vectorize = numba.config.OPT, numba.config.LOOP_VECTORIZE
+    numba.config.OPT, numba.config.LOOP_VECTORIZE = type(level)(1), 0
+    try:
+        yield
+    finally:
+        numba.config.OPT, numba.config.LOOP_VECTORIZE = level, vectorize
 
 
 class Kernel:
@@ -48,11 +60,11 @@ class Kernel:
 
     def __call__(self, *arguments: Any) -> Any:
         """Run it, compiled or loaded from disk first if need be."""
-        if not self.dispatcher.signatures:
-            self.dispatcher.compile(self.signature)
+        self.prepare()
         return self.dispatcher(*arguments)
 
     def prepare(self) -> None:
         """Compile it, or load it from disk, if need be."""
         if not self.dispatcher.signatures:
-            self.dispatcher.compile(self.signature)
+            with _light_optimisation():
+                self.dispatcher.compile(self.signature)
