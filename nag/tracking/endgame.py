@@ -24,11 +24,15 @@ NO_REASON, STEP_SIZE, STEPS, START, ENDGAME, NOT_FINITE = 0, 1, 2, 3, 4, 5
 
 
 class Endgame(NamedTuple):
-    """State of the endgame for the eight paths of a batch (first axis) and its settings.
+    """State of the endgame for the eight paths of a batch, and its settings.
+
+    The arrays (or pointers, see `bare_endgame`) are flat, the lane is the slowest index: scalar
+    ``X`` of a lane is ``real[REALS * lane + X]`` or ``whole[WHOLES * lane + X]``, coordinate ``j``
+    of its points is ``best[N * lane + j]``.
 
     ``samples``: normalised points round the current loop. ``patch``: linear forms that normalise
-    them. ``best``: best estimate of the end point so far; ``saved``: the point at the endgame's
-    first radius. ``mean, turn``: scratch. ``real`` and ``whole``: scalars by lane, see the index
+    them. ``best``: best estimate of the end point so far; ``saved``: the point where the current
+    loop or shortcut began. ``mean, turn``: scratch. ``real`` and ``whole``: scalars, see the index
     constants.
     """
 
@@ -103,7 +107,7 @@ def endgame_state(
 
 @numba.njit(nogil=True)
 def bare_endgame(e):
-    """The same state with pointers for arrays, which are then flat."""
+    """The same state with pointers for arrays."""
     return Endgame(
         pointer(e.samples),
         pointer(e.patch),
