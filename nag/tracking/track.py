@@ -13,6 +13,8 @@ from nag.tracking.paths import Paths, PathStatus, Reason
 from nag.tracking.settings import Settings, named, tighter
 
 STRAIGHT, CAUCHY = 1, 2
+# Largest systems, and most paths at a time, that are tracked again in double-double arithmetic.
+MOST_COORDINATES, MOST_EXTENDED = 24, 100
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -50,7 +52,9 @@ def track(
         raise ValueError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
     starts = homotopy.normalized(starts)
     paths = _attempt(homotopy, starts, chosen, threads, endgame, end_exponent)
-    for _ in range(chosen.retries):
+    for attempt in range(chosen.retries):
+        if attempt == 1:
+            paths = _in_double_double(homotopy, starts, paths, chosen, threads, end_exponent)
         again = set(paths.where(PathStatus.FAILED).tolist())
         if distinct:
             again |= set(collisions(homotopy, paths).tolist())
@@ -155,6 +159,38 @@ def _run(
         with ThreadPoolExecutor(batches) as pool:
             list(pool.map(batch, range(batches)))
     return raw
+
+
+def _in_double_double(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    paths: Paths,
+    settings: Settings,
+    threads: int,
+    end_exponent: int,
+) -> Paths:
+    """Track again in double-double arithmetic what failed near its end in doubles."""
+    failed = paths.where(PathStatus.FAILED)
+    failed = failed[paths.reason[failed] != Reason.START]
+    # A step costs some N^3 double-double products, a hundred times a step in doubles.
+    if not len(failed) or homotopy.N > MOST_COORDINATES or len(failed) > MOST_EXTENDED:
+        return paths
+    from nag.tracking.extended import track_extended
+
+    raw = track_extended(
+        homotopy,
+        starts[failed],
+        threads=threads,
+        end_exponent=end_exponent,
+        radius=settings.endgame_radius,
+        samples=settings.samples,
+        max_winding=settings.max_winding,
+        levels=settings.levels,
+    )
+    new = _classified(homotopy, _Raw(*raw), endgame=True)
+    ended = new.status != PathStatus.FAILED
+    precision = np.where(ended, 32, new.precision).astype(np.int16)
+    return _merged(paths, replace(new, precision=precision), failed)
 
 
 def _in_high_precision(
