@@ -1,4 +1,4 @@
-"""Paths along which a coordinate decays to zero far below the square root of the smallest double."""
+"""Paths along which a coordinate decays far below the square root of the smallest double."""
 
 from __future__ import annotations
 

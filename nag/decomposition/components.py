@@ -9,8 +9,10 @@ import numpy as np
 
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition.cutting import Equations
 from nag.decomposition.fibres import Tracker
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.frame import Frame
@@ -18,6 +20,28 @@ from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
 from nag.decomposition.witness import Decomposition, Status, WitnessSet
+from nag.tracking.start.scaling import scaled_terms, variable_scales
+
+# Coefficients of comparable size are left as they are: scales below this factor bring nothing.
+LEAST_SCALE = 8
+
+
+def scaled_system(system: PolynomialSystem) -> tuple[PolynomialSystem, np.ndarray]:
+    """The system in coordinates that make its coefficients comparable, and their scales.
+
+    Scales are powers of two, so that nothing is rounded; they are one where little is gained.
+    """
+    powers = variable_scales(system.polynomials, system.n)
+    if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
+        return system, np.ones(system.n)
+    nonzero = [scaled_terms(f, powers) for f in system.nonzero]
+    polynomials = [scaled_terms(f, powers) for f in system.polynomials]
+    scaled = replace(
+        system,
+        polynomials=tuple(Polynomial(system.n, terms) for terms in polynomials),
+        nonzero=tuple(Polynomial(system.n, terms) for terms in nonzero),
+    )
+    return scaled, 2.0**powers
 
 
 def decompose(
@@ -54,6 +78,9 @@ def decompose(
     tracker = Tracker(settings, threads)
     elimination = eliminate_linear(system, graphs=False)
     reduced, frame = elimination.system, Frame.of(elimination)
+    if not symmetries:
+        reduced, scales = scaled_system(reduced)
+        frame = frame.scaled(scales)
     actions = [
         Action.of(g, frame.T, frame.t, frame.positions) for g in symmetries if not g.is_identity
     ]
@@ -64,7 +91,8 @@ def decompose(
     counts, notes = superset.counts, list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-    all_reduced, all_original = (Evaluator.of(s.polynomials, s.n) for s in (reduced, system))
+    all_reduced = Equations(reduced.polynomials, reduced.n)
+    all_original = Evaluator.of(system.polynomials, system.n)
     components: list[WitnessSet] = []
     for d in sorted(superset.fibres, reverse=True):
         fibres, rows = superset.fibres[d], flag[:d]

@@ -305,7 +305,7 @@ def by_sampling(
                 Class(np.arange(len(own)), reason),
                 fibres,
                 flag[:d],
-                equations.evaluator,
+                equations,
                 everything,
                 frame,
                 system.groups,

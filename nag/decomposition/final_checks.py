@@ -8,7 +8,8 @@ from itertools import combinations_with_replacement, permutations
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.decomposition.cutting import ON, numerical_corank, sharpen
+from nag.decomposition.confirm import confirmed
+from nag.decomposition.cutting import ON, Equations, numerical_corank, sharpen
 from nag.decomposition.fibres import Fibre, Tracker, move
 from nag.decomposition.frame import Frame
 from nag.decomposition.irreducible import Class
@@ -67,7 +68,7 @@ def checked_witness_set(
     found: Class,
     fibres: Sequence[Fibre],
     rows: np.ndarray,
-    reduced: Evaluator,
+    reduced: Equations,
     original: Evaluator,
     frame: Frame,
     groups: Sequence[Sequence[int]],
@@ -90,6 +91,7 @@ def checked_witness_set(
         if mask.any():
             chosen.append(fibre.only(mask))
     points, steps = [], [0.0]
+    first = chosen[0].points[0]
     for fibre in chosen:
         for z in fibre.points:
             sharpened = sharpen(fibre.cut.evaluator, rows, z)
@@ -100,15 +102,17 @@ def checked_witness_set(
     order = np.lexsort((x.imag[:, 0], x.real[:, 0])) if x.shape[1] else np.arange(len(x))
     y, x = y[order], x[order]
     residual = float(original.residuals(x).max(initial=0.0))
-    coranks = _coranks(reduced, y)
+    coranks = _coranks(reduced.evaluator, y)
     reasons = [found.reason] if found.reason else []
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
+    if not confirmed(chosen[0].cut, reduced.polynomials, rows, first):
+        reasons.append("a point does not satisfy all equations in 60 digits: zeros too close")
     if len(set(coranks)) > 1:
         reasons.append("the corank of the Jacobian differs between its points")
     multiple = int(coranks[0] == d)
     if scheme and not multiple:
-        multiple = multiplicity(reduced, rows, y[0])
+        multiple = multiplicity(reduced.evaluator, rows, y[0])
     if scheme and multiple == 0:
         reasons.append("its multiplicity was not found")
     multidegree = None

@@ -12,11 +12,17 @@ from nag.decomposition.witness import Slice
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """How reduced coordinates sit in the original ones: ``x = T y + t``, and which y are slices."""
+    """How reduced coordinates sit in the original ones: ``x = T y + t``.
+
+    Attributes:
+        positions: the original coordinate that each y is, but for its scale.
+        scales: ``x = scale * y`` for these; powers of two.
+    """
 
     T: np.ndarray
     t: np.ndarray
     positions: tuple[int, ...]
+    scales: np.ndarray
 
     @classmethod
     def of(cls, elimination: Elimination) -> Frame:
@@ -31,7 +37,11 @@ class Frame:
                     t[i] = float(coefficient)
         names = elimination.original_variables
         positions = tuple(names.index(v) for v in elimination.system.variables)
-        return cls(T, t, positions)
+        return cls(T, t, positions, np.ones(m))
+
+    def scaled(self, scales: np.ndarray) -> Frame:
+        """The frame of new coordinates, ``scales`` times smaller."""
+        return Frame(self.T * scales, self.t, self.positions, self.scales * scales)
 
     def points(self, y: np.ndarray) -> np.ndarray:
         return y @ self.T.T + self.t
@@ -39,8 +49,12 @@ class Frame:
     def slice(self, rows: np.ndarray) -> Slice:
         """A slice of the reduced space as one of the original space: its coordinates are kept."""
         A = np.zeros((len(rows), len(self.t)), dtype=complex)
-        A[:, self.positions] = rows[:, 1:]
-        return Slice(A, -rows[:, 0])
+        A[:, self.positions] = rows[:, 1:] / self.scales
+        b = -rows[:, 0]
+        if (self.scales != 1).any():
+            q, r = np.linalg.qr(A.conj().T)
+            A, b = q.conj().T, np.linalg.solve(r.conj().T, b)
+        return Slice(A, b)
 
     def pulled_back(self, A: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Rows on reduced homogeneous coordinates for ``A x = b``."""

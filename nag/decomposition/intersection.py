@@ -306,7 +306,7 @@ def _intersection(
                 points,
                 own,
                 rows,
-                equations.evaluator,
+                equations,
                 everything,
                 frame,
                 union.groups,

@@ -129,11 +129,13 @@ def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.nda
 
 @dataclass(frozen=True, eq=False)
 class _Candidates:
-    """Ends of one dimension: fibres of regular ones, and single singular points."""
+    """Ends of one dimension: fibres of regular ones, and clusters of singular ones.
+
+    A cluster is its points, the best known one first, with their errors.
+    """
 
     fibres: list[Fibre]
-    singular: np.ndarray
-    accuracy: np.ndarray
+    singular: list[list[tuple[np.ndarray, float]]]
 
 
 def _collect(
@@ -159,8 +161,7 @@ def _collect(
         errors.append(ends.accuracy[rest])
     points, accuracy = np.vstack(singular), np.concatenate(errors)
     groups = clusters(points, accuracy)
-    first = np.array([g[0] for g in groups], dtype=int)
-    return _Candidates(fibres, points[first], accuracy[first])
+    return _Candidates(fibres, [[(points[i], float(accuracy[i])) for i in g] for g in groups])
 
 
 def witness_superset(
@@ -211,8 +212,12 @@ def witness_superset(
         for d in sorted(pieces, reverse=True):
             candidates = _collect(pieces[d], n, d, avoid)
             kept.setdefault(d, []).extend(candidates.fibres)
-            for x, accuracy in zip(candidates.singular, candidates.accuracy, strict=True):
+            for cluster in candidates.singular:
+                x, accuracy = cluster[0]
                 if admit(x, accuracy, kept[d], so_far, flag[:d], rng, deflate=False):
+                    # Ends that seemed to be one may be simple zeros close together.
+                    for other, error in cluster[1:]:
+                        admit(other, error, kept[d], so_far, flag[:d], rng, deflate=False)
                     continue
                 answer = Membership.FOREIGN
                 for higher in sorted((e for e in kept if e > d), reverse=True):

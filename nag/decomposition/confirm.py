@@ -1,0 +1,69 @@
+"""Confirmation of a witness point in high precision, where doubles could be deceived."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import mpmath
+import numpy as np
+
+from nag.algebra.number import Number, to_mpf
+from nag.algebra.polynomial import Polynomial
+from nag.decomposition.cutting import Cut
+from nag.decomposition.slices import padded
+
+DIGITS = 60
+# Two zeros nearer to each other than this, relative to their size, are taken for one.
+VANISHES = 1e-40
+NEWTON_STEPS = 60
+
+
+def _number(c: Number) -> Any:
+    return to_mpf(c, DIGITS)
+
+
+def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
+    """The size of ``f(z)`` beside its terms, coordinates below one counted as one."""
+    sizes = [max(abs(x), mpmath.mpf(1)) for x in z]
+    bound = f(sizes, lambda c: abs(_number(c)))
+    return abs(f(z, _number)) / bound if bound else mpmath.mpf(0)
+
+
+def confirmed(cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np.ndarray) -> bool:
+    """Whether the zero of ``cut`` on the slice near ``z`` is one of all ``equations``.
+
+    The square system's zero is computed to `DIGITS` digits by Newton's method with the Jacobian
+    at ``z``; there the other equations must vanish too. In doubles, two zeros at a distance of
+    1e-8 look like a double one, and a coefficient of 1e-16 looks like none.
+    """
+    n = cut.n
+    if not cut.levels and len(cut.polynomials) == len(equations):
+        return True
+    a = padded(rows, 1 + len(z))
+    matrix = np.vstack([cut.evaluator.jacobian(z), a[:, 1:]])
+    scales = [max(abs(float(c)) for c in f.terms.values()) for f in cut.polynomials]
+    try:
+        inverse = np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        return False
+    with mpmath.workdps(DIGITS):
+        point = [mpmath.mpc(complex(x)) for x in z]
+        slices = [[mpmath.mpc(complex(c)) for c in row] for row in a]
+        last = mpmath.inf
+        for _ in range(NEWTON_STEPS):
+            values = [f(point, _number) / s for f, s in zip(cut.polynomials, scales, strict=True)]
+            values += [
+                row[0] + sum(c * x for c, x in zip(row[1:], point, strict=True)) for row in slices
+            ]
+            size = max(map(abs, values), default=mpmath.mpf(0))
+            if size < mpmath.mpf(10) ** (5 - DIGITS):
+                break
+            step = inverse @ np.array([complex(v / size) for v in values])
+            point = [x - size * mpmath.mpc(complex(d)) for x, d in zip(point, step, strict=True)]
+            if size > last / 2:
+                return False
+            last = size
+        else:
+            return False
+        return all(_relative(f, point[:n]) < VANISHES for f in equations)
