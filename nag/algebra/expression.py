@@ -251,7 +251,7 @@ class _Parser:
         except ExpressionError as error:
             self._fail(name, str(error))
         except ValueError as error:
-            self._fail(name, f"{error} ({quote(str(value))}); write one that is not negative")
+            self._fail(name, f"{error} ({quote(str(value))}); write another one")
 
     def _named(self, token: Token) -> Value:
         name = token.text

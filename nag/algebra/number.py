@@ -29,6 +29,8 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "/": lambda a, b: a / b,
     "neg": lambda a: -a,
 }
+# Of a larger angle nothing is left when turns are taken off to the working precision.
+LARGEST_ANGLE = 1e15
 _CANCELLING = ("+", "sin", "cos")
 
 
@@ -62,8 +64,6 @@ class Irrational:
                 if self.operation not in _CANCELLING:
                     return value
                 scale = max(abs(v) for v in values)
-                if self.operation != "+":
-                    scale = max(scale, mpmath.mpf(1))
                 if abs(value) > scale * mpmath.mpf(10) ** (5 - guard):
                     return value
         return mpmath.mpf(0)
@@ -302,12 +302,18 @@ def pi_multiple(value: Number) -> Fraction | None:
     return None
 
 
+def _bounded_angle(value: Number) -> Number:
+    if abs(to_mpf(value, 20)) > LARGEST_ANGLE:
+        raise ValueError(f"an angle beyond {LARGEST_ANGLE:.0e} is no angle; reduce it by turns")
+    return value
+
+
 def sine(value: Number | int) -> Number:
     """The sine, in square roots at the multiples of pi/6 and pi/4."""
     value = _number(value)
     turns = pi_multiple(value)
     if turns is None:
-        return Irrational("sin", (value,))
+        return Irrational("sin", (_bounded_angle(value),))
     turns %= 2
     if turns >= 1:
         return -sine(_times_pi(turns - 1))
@@ -329,7 +335,7 @@ def cosine(value: Number | int) -> Number:
     value = _number(value)
     turns = pi_multiple(value)
     if turns is None:
-        return Irrational("cos", (value,))
+        return Irrational("cos", (_bounded_angle(value),))
     return sine(_times_pi(turns + Fraction(1, 2)))
 
 

@@ -121,24 +121,26 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
     they do near a regular zero and nowhere else.
     """
     a = padded(rows, 1 + len(z))
-    step, slow = np.inf, 0
+    step, slow, floor = np.inf, 0, 1e-10
     for _ in range(NEWTON_STEPS):
         values = evaluator.values(z[None])[0]
         jacobian = evaluator.jacobian(z)
         matrix = np.vstack([jacobian, a[:, 1:]])
         right = np.concatenate([values, a[:, 0] + a[:, 1:] @ z])
         weights = 1 / np.maximum(np.linalg.norm(matrix, axis=1), _floors(evaluator, z, len(a)))
-        delta, *_ = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=1e-14)
+        delta, _, _, s = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=1e-14)
         z = z - delta
+        if len(s) and s[-1] > 0:
+            floor = min(max(1e-10, 1e2 * np.finfo(float).eps * s[0] / s[-1]), 1e-8)
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
         # Rounding alone keeps the steps at a badly conditioned point from shrinking further.
-        if step < 1e-14 or (step < 1e-10 and step > 0.25 * last):
+        if step < 1e-14 or (step < floor and step > 0.25 * last):
             break
         slow += step > 0.25 * last
         if not np.isfinite(step) or slow > 2:
             return Sharpened(z, np.inf, False)
     residual = float(evaluator.residuals(z[None]).max(initial=0.0))
-    return Sharpened(z, step, step < 1e-10 and residual < 1e-11)
+    return Sharpened(z, step, bool(step < floor) and residual < 1e-11)
 
 
 def _floors(evaluator: Evaluator, z: np.ndarray, slices: int) -> np.ndarray:

@@ -21,6 +21,9 @@ from nag.mechanism.planar import PlanarModel, planar_model
 
 Formulation = Literal["auto", "E", "H"]
 
+# An equation in half-angles has two to the number of joints terms.
+MOST_HALF_ANGLE_JOINTS = 12
+
 
 class ModelError(ValueError):
     """A mechanism that the asked formulation does not cover."""
@@ -151,6 +154,11 @@ def _choose(
     joints, loops = len(structure.joints), len(structure.loops)
     what = f"{space}, {_count(loops, 'loop')} of {_count(joints, 'revolute joint')}"
     if formulation == "H":
+        if joints > MOST_HALF_ANGLE_JOINTS:
+            raise ModelError(
+                f"formulation H: a loop of {joints} joints has 2^{joints - 2} terms an equation, "
+                f"at most {MOST_HALF_ANGLE_JOINTS} joints are multiplied out; use formulation E"
+            )
         return "H", f"{what}; half-angles, as asked"
     if formulation == "E":
         pairs = "one pair (c, s) for each body" if space == "planar" else "Euler parameters"
@@ -159,13 +167,16 @@ def _choose(
         return "E", f"{what}; all axes are parallel, so one pair (c, s) for each body"
     if space == "spherical":
         return "E", f"{what}; all axes meet, so Euler parameters without loop equations"
-    if loops == 1 and joints >= 3:
+    if loops == 1 and 3 <= joints <= MOST_HALF_ANGLE_JOINTS:
         unknowns = 4 * len(structure.moving) - 4
         return "H", (
             f"{what}; half-angles with two joints eliminated leave "
             f"{_count(joints - 2, 'unknown')}, Euler parameters {unknowns}"
         )
-    return "E", f"{what}; Euler parameters: half-angles need a single loop of at least 3 joints"
+    return "E", (
+        f"{what}; Euler parameters: half-angles are for a single loop of 3 to "
+        f"{MOST_HALF_ANGLE_JOINTS} joints"
+    )
 
 
 def _build(
