@@ -17,6 +17,10 @@ DIGITS = 60
 # Two zeros nearer to each other than this, relative to their size, are taken for one.
 VANISHES = 1e-40
 NEWTON_STEPS = 60
+# Above this singular value a zero of as many equations as unknowns needs no confirmation; a point
+# that moves by more than this was not known to the digits that it claims.
+REGULAR = 1e-5
+NEAR = 1e-9
 
 
 def _number(c: Number) -> Any:
@@ -38,10 +42,11 @@ def confirmed(cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np
     1e-8 look like a double one, and a coefficient of 1e-16 looks like none.
     """
     n = cut.n
-    if not cut.levels and len(cut.polynomials) == len(equations):
-        return True
     a = padded(rows, 1 + len(z))
     matrix = np.vstack([cut.evaluator.jacobian(z), a[:, 1:]])
+    smallest = np.linalg.svd(matrix, compute_uv=False).min(initial=np.inf)
+    if not cut.levels and len(cut.polynomials) == len(equations) and smallest > REGULAR:
+        return True
     scales = [max(abs(float(c)) for c in f.terms.values()) for f in cut.polynomials]
     try:
         inverse = np.linalg.inv(matrix)
@@ -65,5 +70,8 @@ def confirmed(cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np
                 return False
             last = size
         else:
+            return False
+        moved = max((abs(x - complex(y)) for x, y in zip(point, z, strict=True)), default=0)
+        if moved > NEAR * (1 + float(np.linalg.norm(z))):
             return False
         return all(_relative(f, point[:n]) < VANISHES for f in equations)

@@ -113,6 +113,8 @@ def checked_witness_set(
     multiple = int(coranks[0] == d)
     if scheme and not multiple:
         multiple = multiplicity(reduced.evaluator, rows, y[0])
+    if scheme and coranks[0] != d and not chosen[0].cut.levels:
+        reasons.append("its points are regular and singular at once: zeros too close")
     if scheme and multiple == 0:
         reasons.append("its multiplicity was not found")
     multidegree = None
