@@ -62,7 +62,7 @@ def confirmed(cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np
                 row[0] + sum(c * x for c, x in zip(row[1:], point, strict=True)) for row in slices
             ]
             size = max(map(abs, values), default=mpmath.mpf(0))
-            if size < mpmath.mpf(10) ** (5 - DIGITS):
+            if size < mpmath.mpf(10) ** (12 - DIGITS):
                 break
             step = inverse @ np.array([complex(v / size) for v in values])
             point = [x - size * mpmath.mpc(complex(d)) for x, d in zip(point, step, strict=True)]
