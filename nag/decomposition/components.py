@@ -22,6 +22,9 @@ from nag.decomposition.superset import Progress, intersection_order, witness_sup
 from nag.decomposition.witness import Decomposition, Status, WitnessSet
 from nag.tracking.start.scaling import scaled_terms, variable_scales
 
+# An answer that is left open is tried again with other random numbers, if that is not too long.
+ATTEMPTS = 3
+MOST_PATHS = 20_000
 # Coefficients of comparable size are left as they are: scales below this factor bring nothing.
 LEAST_SCALE = 8
 
@@ -55,8 +58,9 @@ def decompose(
 ) -> Decomposition:
     """Decompose the zero set of ``system`` into irreducible components over the complex numbers.
 
-    Linear equations are solved exactly first. The same seed gives the same answer, byte for byte,
-    whatever the number of threads.
+    Linear equations are solved exactly first. Where doubts are left, slices and constants are drawn
+    anew, and the least doubtful answer is given. The same seed gives the same answer, byte for
+    byte, whatever the number of threads.
 
     Args:
         system: the equations; components on which a polynomial of ``system.nonzero`` vanishes
@@ -74,8 +78,31 @@ def decompose(
     """
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
-    rng = np.random.default_rng(seed)
-    tracker = Tracker(settings, threads)
+    answers: list[Decomposition] = []
+    tracked = 0
+    for attempt in range(ATTEMPTS):
+        rng = np.random.default_rng([seed, attempt] if attempt else seed)
+        answer = _decompose_once(system, rng, Tracker(settings, threads), progress, symmetries)
+        tracked += answer.paths.tracked
+        answers.append(answer)
+        if answer.complete or tracked > MOST_PATHS:
+            break
+    best = min(answers, key=lambda a: (not a.complete, _undecided(a), len(a.notes)))
+    paths = replace(best.paths, tracked=tracked)
+    return replace(best, paths=paths, seed=seed, settings=settings)
+
+
+def _undecided(answer: Decomposition) -> int:
+    return sum(c.status is Status.UNDECIDED for c in answer.components)
+
+
+def _decompose_once(
+    system: PolynomialSystem,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    progress: Progress | None,
+    symmetries: Sequence[SignedPermutation],
+) -> Decomposition:
     elimination = eliminate_linear(system, graphs=False)
     reduced, frame = elimination.system, Frame.of(elimination)
     if not symmetries:
@@ -126,8 +153,8 @@ def decompose(
         system=system,
         components=tuple(components),
         paths=counts,
-        seed=seed,
-        settings=settings,
+        seed=0,
+        settings=tracker.settings,
         order=tuple(order),
         complete=not (undecided or notes),
         notes=tuple(notes),
