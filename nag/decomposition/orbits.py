@@ -335,24 +335,3 @@ def located(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
     if not (hit | (closest > FAR * scale)).all():
         return None
     return np.where(hit, nearest, -1)
-
-
-def _careful(tracker: Tracker, attempt: int) -> Tracker:
-    return Tracker("careful" if attempt else tracker.settings, tracker.threads)
-
-
-def _mask(indices: np.ndarray, total: int) -> np.ndarray:
-    mask = np.zeros(total, dtype=bool)
-    mask[indices] = True
-    return mask
-
-
-def _chosen(fibres: Sequence[Fibre], mask: np.ndarray) -> list[Fibre]:
-    """The fibres with only the points where ``mask`` holds, in the same order."""
-    result, start = [], 0
-    for fibre in fibres:
-        local = mask[start : start + len(fibre)]
-        start += len(fibre)
-        if local.any():
-            result.append(fibre.only(local))
-    return result

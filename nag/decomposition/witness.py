@@ -158,7 +158,8 @@ class Decomposition:
         paths: what the tracker did.
         seed: seed of the random numbers.
         settings: name of the tracking settings.
-        order: indices of the equations in the order in which they were intersected.
+        order: indices of the equations in the order in which they were intersected, among those
+            that are left when linear equations have been solved.
         complete: whether every component is confirmed and no path was left undecided.
         notes: what a reader must know of an incomplete answer.
     """

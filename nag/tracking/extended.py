@@ -16,7 +16,6 @@ import numpy as np
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.endgame import (
     BEST_ERROR,
-    CAUCHY,
     ENDGAME,
     FAILED,
     NEXT_IM,
@@ -588,7 +587,7 @@ def track_extended(
 
     Returns:
         points (P, N), outcome, winding, error, steps and reason of each path, as the kernel in
-        doubles gives them; ``outcome`` is `CAUCHY` or `FAILED`.
+        doubles gives them; ``outcome`` is `endgame.CAUCHY` or `FAILED`.
     """
     P = len(starts)
     results = (
@@ -616,6 +615,3 @@ def track_extended(
         with ThreadPoolExecutor(batches) as pool:
             list(pool.map(batch, range(batches)))
     return results
-
-
-__all__ = ["CAUCHY", "Extended", "extended_system", "track_extended"]
