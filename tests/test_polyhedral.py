@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from math import prod
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,9 +14,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nag.cases import read_case
+from nag.tracking.start.fibre_monodromy import GenericSystem
 from nag.tracking.start.mixed_cells import MixedCells, mixed_cells
-from nag.tracking.start.polyhedral import mixed_volume, polyhedral
-from nag.tracking.start.target import StartError, Target
+from nag.tracking.start.polyhedral import monodromy, polyhedral
+from nag.tracking.start.target import Start, StartError, Target, unit
+from nag.tracking.start.toric import binomial_solutions, by_degeneration, cell_weights
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 
@@ -39,7 +43,9 @@ def target(name: str) -> Target:
 )
 def test_mixed_volumes_that_are_known(name: str, volume: int) -> None:
     for seed in range(3):
-        assert mixed_volume(target(name), np.random.default_rng(seed)) == volume
+        assert (
+            mixed_cells(target(name).supports, np.random.default_rng(seed)).mixed_volume == volume
+        )
 
 
 def lowest(cells: MixedCells, edge: np.ndarray) -> bool:
@@ -97,20 +103,73 @@ def test_the_volume_of_multiples_of_a_simplex_is_bezouts_number(degrees: list[in
     assert cells.mixed_volume == prod(degrees)
 
 
-def test_the_start_system_has_as_many_regular_solutions_as_the_volume() -> None:
-    each = target("cyclic-5")
-    start = polyhedral(each, 70, np.random.default_rng(0), "default", 1)
+def start_system(name: str, kind: str, seed: int) -> Start:
+    each, rng = target(name), np.random.default_rng(seed)
+    cells = mixed_cells(each.supports, rng)
+    if kind == "polyhedral":
+        return polyhedral(each, cells, rng, 1)
+    return monodromy(each, cells.mixed_volume, rng, 1)
+
+
+@pytest.mark.parametrize("kind", ["polyhedral", "monodromy"])
+@pytest.mark.parametrize(("name", "volume"), [("cyclic-5", 70), ("cyclic-6", 156), ("eco-8", 64)])
+def test_the_start_system_has_as_many_regular_solutions_as_the_volume(
+    name: str, volume: int, kind: str
+) -> None:
+    start = start_system(name, kind, 0)
     points = start.homotopy.normalized(start.points)
-    assert len(points) == 70
+    assert len(points) == volume
     assert np.abs(start.homotopy.values(points, 1.0)).max() < 1e-12
-    overlap = np.abs(points @ points.conj().T) ** 2 - np.eye(70)
+    overlap = np.abs(points @ points.conj().T) ** 2 - np.eye(volume)
     assert overlap.max() < 1 - 1e-10
+
+
+@pytest.mark.parametrize("name", ["cyclic-5", "noon-5", "caprasse", "eco-8"])
+def test_binomials_have_as_many_solutions_as_the_volume_of_their_cell(name: str) -> None:
+    rng = np.random.default_rng(3)
+    cells = mixed_cells(target(name).supports, rng)
+    coefficients = [unit(rng, len(s)) for s in cells.supports]
+    angles, owners = binomial_solutions(cells, coefficients)
+    assert np.array_equal(np.bincount(owners), cells.volumes)
+    x = np.exp(1j * angles)
+    for i, (support, c) in enumerate(zip(cells.supports, coefficients, strict=True)):
+        a, b = cells.edges[owners, i].T
+        sides = [c[k] * np.prod(x ** support[k], axis=1) for k in (a, b)]
+        assert np.abs(sides[0] + sides[1]).max() < 1e-10
+    for k in range(len(cells.edges)):
+        own = x[owners == k]
+        apart = np.abs(own[:, None] - own[None]).max(axis=2) + np.eye(len(own))
+        assert apart.min() > 1e-3
+
+
+def test_only_the_edges_of_a_cell_keep_their_terms_in_the_degeneration() -> None:
+    cells = mixed_cells(target("cyclic-6").supports, np.random.default_rng(1))
+    weights = cell_weights(cells)
+    first = np.cumsum([0] + [len(s) for s in cells.supports])[:-1]
+    on = np.zeros(weights.shape, dtype=bool)
+    for k, edges in enumerate(cells.edges):
+        on[k, (first[:, None] + edges).ravel()] = True
+    assert np.array_equal(weights == 0, on)
+    assert np.allclose(np.where(on, np.inf, weights).min(axis=1), 1)
+
+
+def test_paths_lost_in_the_degeneration_are_found_by_monodromy(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def half(*arguments: Any) -> tuple[GenericSystem, int]:
+        system, spent = by_degeneration(*arguments)
+        return replace(system, points=system.points[::2]), spent
+
+    monkeypatch.setattr("nag.tracking.start.polyhedral.by_degeneration", half)
+    start = start_system("cyclic-5", "polyhedral", 0)
+    assert len(start.points) == 70
+    assert "35 of them by monodromy" in start.detail
 
 
 def test_a_wrong_volume_is_noticed() -> None:
     each = target("griewank-osborne")
     with pytest.raises(StartError, match="3 of the 4 solutions"):
-        polyhedral(each, 4, np.random.default_rng(0), "default", 1)
+        monodromy(each, 4, np.random.default_rng(0), 1)
 
 
 def test_systems_without_generic_solutions_have_volume_zero() -> None:

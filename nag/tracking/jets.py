@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -16,6 +17,8 @@ class System(NamedTuple):
     """A homotopy as flat arrays (see `nag.tracking.compiled.Tape` for blocks and slots).
 
     The numbers say how long the arrays are. Factor ``2 p`` is a, ``2 p + 1`` is b of part ``p``.
+    If ``toric`` is 1, each part is one term, t is real, and the factor of part ``p`` is
+    ``exp(-weights[path * parts + p] t)`` instead.
     """
 
     N: int
@@ -54,6 +57,8 @@ class System(NamedTuple):
     linear_moving: Any
     group_of: Any
     infinity: Any
+    toric: int
+    weights: Any
 
 
 class Work(NamedTuple):
@@ -62,11 +67,12 @@ class Work(NamedTuple):
     ``vr, vi``: slots; the first N are the point. ``cr, ci``: their Taylor coefficients of order 1
     and up, one order after the other. ``dr, di``: changes of such coefficients.
     ``jr, ji``: Jacobian, then its factors. ``br, bi``: right-hand side. ``pr, pi``: patch.
-    ``fr, fi``: the parts' factors at t. ``base``: point and Taylor coefficients at the last
-    accepted t, real and imaginary parts in turn. ``tr, ti``: t. ``norms``: squared norms of the two
-    Newton corrections, then those of the Taylor coefficients of order 1 and up. ``mode``: 0 in the
-    lanes that predict. ``zr, zi``: their steps in t. ``accepted``: 1 in the lanes whose step is
-    accepted. ``scalars, counters``: see `nag.tracking.kernel`. ``x``: one point.
+    ``fr, fi``: the parts' factors at t; in a toric system those, and minus the weights. ``base``:
+    point and Taylor coefficients at the last accepted t, real and imaginary parts in turn.
+    ``tr, ti``: t. ``norms``: squared norms of the two Newton corrections, then those of the Taylor
+    coefficients of order 1 and up. ``mode``: 0 in the lanes that predict. ``zr, zi``: their steps
+    in t. ``accepted``: 1 in the lanes whose step is accepted. ``scalars, counters``: see
+    `nag.tracking.kernel`. ``x``: one point.
     """
 
     vr: Any
@@ -107,11 +113,11 @@ def _parts(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.ascontiguousarray(array.real), np.ascontiguousarray(array.imag)
 
 
-def system(homotopy: Homotopy) -> System:
-    """The arrays of ``homotopy``."""
+def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> System:
+    """The arrays of ``homotopy``; with ``weights``, shape (paths, parts), those of a toric one."""
     tape = homotopy.rows.tape
     factors = np.array(homotopy.factors, dtype=np.complex128).reshape(-1, 2)
-    moving = (factors[:, 1] != 0) | (factors[:, 0] != 1)
+    moving = (factors[:, 1] != 0) | (factors[:, 0] != 1) | (weights is not None)
     value, jacobian = tape.value_coefficient, tape.jacobian_coefficient
     return System(
         homotopy.N,
@@ -145,6 +151,8 @@ def system(homotopy: Homotopy) -> System:
         homotopy.A1.any(axis=1).astype(np.int64),
         homotopy.group_of,
         np.array(homotopy.infinity, dtype=np.int64),
+        int(weights is not None),
+        np.zeros(1) if weights is None else np.ascontiguousarray(weights, dtype=float).ravel(),
     )
 
 
@@ -201,6 +209,8 @@ def bare(s, w):
         pointer(s.linear_moving),
         pointer(s.group_of),
         pointer(s.infinity),
+        s.toric,
+        pointer(s.weights),
     )
     work = Work(
         pointer(w.vr),
@@ -273,11 +283,19 @@ def products(s, w, first, last):
 
 @numba.njit(nogil=True)
 def factors_at(s, w):
-    """Factors ``a + t b`` of all parts at the lanes' t."""
+    """Factors of all parts at the lanes' t."""
     tr = load(w.tr, 0)
     ti = load(w.ti, 0)
     store(w.vr, s.N, splat(1.0))
     store(w.vi, s.N, splat(0.0))
+    if s.toric != 0:
+        for lane in range(8):
+            first = w.counters[lane] * s.parts
+            for p in range(s.parts):
+                weight = s.weights[first + p]
+                w.fr[8 * p + lane] = math.exp(-weight * w.tr[lane])
+                w.fi[8 * p + lane] = -weight
+        return
     for p in range(s.parts):
         br = splat(s.factor_re[2 * p + 1])
         bi = splat(s.factor_im[2 * p + 1])
@@ -290,6 +308,8 @@ def _scaled(s, w, part, re, im):
     if s.moving[part] == 0:
         return re, im
     fr = load(w.fr, part)
+    if s.toric != 0:
+        return re * fr, im * fr
     fi = load(w.fi, part)
     return fnma(im, fi, re * fr), fma(im, fr, re * fi)
 
@@ -471,6 +491,29 @@ def _lower_block(s, w, k, first, last, real):
 
 
 @numba.njit(nogil=True)
+def _toric_right_side(s, w, k):
+    size = s.N + 1 + s.value_products
+    for b in range(s.value_blocks):
+        part = s.value_part[b]
+        q = s.value_start[b]
+        slot = s.value_slot[q]
+        minus = load(w.fi, part)
+        re, im = load(w.vr, slot), load(w.vi, slot)
+        # Horner's rule for the sum of minus^j / j! times the coefficient of order k - j.
+        for m in range(1, k + 1):
+            rate = minus * splat(1.0 / (k - m + 1))
+            re = re * rate
+            im = im * rate
+            if k > 1:
+                re = re + load(w.cr, (m - 1) * size + slot)
+                im = im + load(w.ci, (m - 1) * size + slot)
+        f = load(w.fr, part)
+        c = f * splat(s.value_re[q])
+        d = f * splat(s.value_im[q])
+        _add(w.br, w.bi, s.value_place[b], fnma(re, c, im * d), splat(0.0) - fma(re, d, im * c))
+
+
+@numba.njit(nogil=True)
 def right_side(s, w, k):
     """Minus the Taylor coefficient of order ``k`` of the rows, that of the point taken as 0."""
     zero = splat(0.0)
@@ -478,7 +521,9 @@ def right_side(s, w, k):
     for j in range(s.N):
         store(w.br, j, zero)
         store(w.bi, j, zero)
-    for b in range(s.value_blocks):
+    if s.toric != 0:
+        _toric_right_side(s, w, k)
+    for b in range(0 if s.toric != 0 else s.value_blocks):
         part = s.value_part[b]
         first = s.value_start[b]
         last = s.value_start[b + 1]

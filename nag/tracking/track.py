@@ -15,6 +15,8 @@ from nag.tracking.settings import Settings, named, tighter
 STRAIGHT, CAUCHY = 1, 2
 # Largest systems, and most paths at a time, that are tracked again in double-double arithmetic.
 MOST_COORDINATES, MOST_EXTENDED = 24, 100
+# Smallest homogenising coordinate of a finite zero of a generic system.
+AT_INFINITY = 1e-10
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -67,6 +69,36 @@ def track(
     return _in_high_precision(homotopy, starts, paths, named(settings), endgame, end_exponent)
 
 
+def track_regular(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    settings: Settings,
+    threads: int = 1,
+    weights: np.ndarray | None = None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Track once, without an endgame, to a system all of whose finite zeros are regular.
+
+    Args:
+        homotopy: what to track; with ``weights`` its factors must be those of a fixed system.
+        starts: points at t = 1, shape ``(P, N)``.
+        settings: settings; nothing is tracked again, and distinct paths may have jumped to one end.
+        threads: number of threads; the result does not depend on it.
+        weights: where each part is one term: part ``p`` is multiplied by
+            ``exp(-weights[path, p] t)``, shape ``(P, parts)``.
+
+    Returns:
+        The normalised finite zeros, shape ``(Q, N)``, and the paths that led there, shape ``(Q,)``.
+    """
+    raw = _run(homotopy, homotopy.normalized(starts), settings, threads, False, 1, weights)
+    ended = np.flatnonzero(raw.outcome > 0)
+    # A row may be small at a point near infinity, so that singular values would say nothing.
+    sharp = refine(homotopy, None, raw.points[ended])
+    good = (sharp.moved <= 1e3 * raw.error[ended] + 1e-11) & (sharp.error < 1e-8)
+    points = homotopy.normalized(sharp.points)
+    good &= np.abs(points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf) > AT_INFINITY
+    return points[good], ended[good]
+
+
 @dataclass(frozen=True, eq=False)
 class _Raw:
     points: np.ndarray
@@ -96,6 +128,7 @@ def _run(
     threads: int,
     endgame: bool,
     end_exponent: int,
+    weights: np.ndarray | None = None,
 ) -> _Raw:
     from nag.tracking import jets, kernel
     from nag.tracking.endgame import endgame_state
@@ -112,7 +145,7 @@ def _run(
     if P == 0:
         return raw
     run = kernel.ready()
-    arrays = jets.system(homotopy)
+    arrays = jets.system(homotopy, weights)
     batches = max(1, min(threads, P // PATHS_PER_THREAD))
     parameters = (
         settings.tolerance,

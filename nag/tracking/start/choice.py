@@ -42,11 +42,15 @@ def choose(
     if kind == "total":
         return total_degree(target, rng), f"total degree, as asked: {_paths(total)}"
     if kind in ("polyhedral", "monodromy"):
-        from nag.tracking.start.polyhedral import mixed_volume, polyhedral
+        from nag.tracking.start.mixed_cells import mixed_cells
+        from nag.tracking.start.polyhedral import monodromy, polyhedral
 
-        volume = mixed_volume(target, rng)
-        start = polyhedral(target, volume, rng, settings, threads, kind)
-        return start, f"{kind}, as asked: {_paths(volume)}; {start.detail}"
+        cells = mixed_cells(target.supports, rng)
+        if kind == "polyhedral":
+            start = polyhedral(target, cells, rng, threads)
+        else:
+            start = monodromy(target, cells.mixed_volume, rng, threads)
+        return start, f"{kind}, as asked: {_paths(cells.mixed_volume)}; {start.detail}"
     groups, number = _usable_groups(target, given)
     if kind == "multihomogeneous":
         start = multihomogeneous(target, groups, rng)
@@ -56,13 +60,15 @@ def choose(
         counts.append(f"multihomogeneous {number} in {_groups(groups)}")
     least = min(total, number)
     if least > FEW:
-        from nag.tracking.start.polyhedral import mixed_volume, polyhedral
+        from nag.tracking.start.mixed_cells import mixed_cells
+        from nag.tracking.start.polyhedral import polyhedral
 
         try:
-            volume = mixed_volume(target, rng)
+            cells = mixed_cells(target.supports, rng)
+            volume = cells.mixed_volume
             counts.append(f"mixed volume {volume}")
             if 0 < WORK * volume <= least:
-                start = polyhedral(target, volume, rng, settings, threads)
+                start = polyhedral(target, cells, rng, threads)
                 return start, f"polyhedral, the fewest paths: {', '.join(counts)}"
             if 0 < volume < least:
                 counts.append("whose start system would take more work than it saves")

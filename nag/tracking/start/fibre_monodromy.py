@@ -1,4 +1,4 @@
-"""All solutions of a system with generic coefficients, by monodromy from one of them.
+"""All solutions of a system with generic coefficients, by monodromy from some of them.
 
 For supports that hold the origin the solutions of all systems form one irreducible set, so that
 loops of coefficients lead from any solution of one system to any other (Duff, Hill, Jensen, Lee,
@@ -9,14 +9,15 @@ Whatever is found is a solution, even where a path was lost; only how many there
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from nag.tracking.homotopy import Homotopy, straight_line
-from nag.tracking.paths import PathStatus
-from nag.tracking.settings import Settings
+from nag.tracking.settings import named
 from nag.tracking.start.target import Terms, group_degrees, homogenized, unit
-from nag.tracking.track import track
+from nag.tracking.track import track_regular
 
 # Loops without a new solution after which the search ends, and loops in all.
 MOST_IDLE = 12
@@ -25,116 +26,118 @@ MOST_LOOPS = 200
 SAME = 1e-7
 
 
-def _coefficients(
-    supports: Sequence[np.ndarray], x: np.ndarray, rng: np.random.Generator
-) -> list[np.ndarray]:
-    """Random coefficients of systems with the zero ``x``, no coordinate of which is zero."""
-    result = []
+@dataclass(frozen=True, eq=False)
+class GenericSystem:
+    """A system with generic coefficients, and solutions of it.
+
+    Attributes:
+        supports: one for each equation, each with the origin, shape ``(terms, n)``.
+        coefficients: those of each support's points.
+        points: distinct solutions in projective coordinates of unit norm, shape ``(P, 1 + n)``.
+    """
+
+    supports: tuple[np.ndarray, ...]
+    coefficients: tuple[np.ndarray, ...]
+    points: np.ndarray
+
+    @cached_property
+    def rows(self) -> tuple[Terms, ...]:
+        """The system's terms."""
+        return tuple(
+            {tuple(e): complex(v) for e, v in zip(s.tolist(), c, strict=True)}
+            for s, c in zip(self.supports, self.coefficients, strict=True)
+        )
+
+
+def seeded(supports: Sequence[np.ndarray], rng: np.random.Generator) -> GenericSystem:
+    """Random coefficients of a system with a random zero, no coordinate of which is zero."""
+    x = unit(rng, len(supports))
+    coefficients = []
     for support in supports:
         monomials = np.prod(x[None, :] ** support, axis=1)
         c = unit(rng, len(support))
-        result.append(c - (c @ monomials) / np.vdot(monomials, monomials) * monomials.conj())
-    return result
+        c = c - (c @ monomials) / np.vdot(monomials, monomials) * monomials.conj()
+        coefficients.append(c)
+    point = np.append(1.0, x)[None] / np.sqrt(1 + len(x))
+    return GenericSystem(tuple(supports), tuple(coefficients), point)
 
 
-def _rows(supports: Sequence[np.ndarray], coefficients: Sequence[np.ndarray]) -> tuple[Terms, ...]:
-    return tuple(
-        {tuple(e): complex(v) for e, v in zip(s.tolist(), c, strict=True)}
-        for s, c in zip(supports, coefficients, strict=True)
-    )
+def equal_pairs(points: np.ndarray) -> np.ndarray:
+    """Pairs ``i < j`` of projective points of unit norm that are one, shape ``(pairs, 2)``."""
+    # Equal points are neighbours in a fixed projection, which sorts them.
+    key = np.abs(points @ np.exp(1j * np.arange(points.shape[1]) ** 2)) ** 2
+    order = np.argsort(key, kind="stable")
+    pairs = []
+    for a in np.flatnonzero(np.diff(key[order]) <= 10 * SAME):
+        i = order[a]
+        for j in order[a + 1 :]:
+            if key[j] - key[i] > 10 * SAME:
+                break
+            if 1 - abs(np.vdot(points[i], points[j])) ** 2 < SAME**2 + 1e-14:
+                pairs.append((min(i, j), max(i, j)))
+    return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
 
-class _Fibre:
-    """Distinct projective points, found again by a projection that sorts them."""
+class Fibre:
+    """Distinct projective points of unit norm."""
 
-    def __init__(self, N: int, most: int) -> None:
-        self.points = np.zeros((0, N), dtype=np.complex128)
+    def __init__(self, points: np.ndarray, most: int) -> None:
+        self.points = points[:0]
         self.most = most
-        self._weights = np.exp(1j * np.arange(N) ** 2)
-
-    def _key(self, points: np.ndarray) -> np.ndarray:
-        return np.abs(points @ self._weights) ** 2
+        self.add(points)
 
     def add(self, points: np.ndarray) -> int:
         """Add those that are new; returns how many."""
-        everything = np.concatenate([self.points, points])
-        key = self._key(everything)
-        order = np.argsort(key, kind="stable")
         old = len(self.points)
-        known = np.zeros(len(everything), dtype=bool)
-        for a, i in enumerate(order):
-            for j in order[a + 1 :]:
-                if key[j] - key[i] > 10 * SAME:
-                    break
-                later, earlier = max(i, j), min(i, j)
-                if later >= old and not known[earlier]:
-                    overlap = abs(np.vdot(everything[earlier], everything[later]))
-                    if 1 - overlap**2 < SAME**2 + 1e-14:
-                        known[later] = True
-        new = np.flatnonzero(~known[old:])[: self.most - old]
-        self.points = np.concatenate([self.points, points[new]])
+        everything = np.concatenate([self.points, points])
+        repeated = equal_pairs(everything)[:, 1]
+        new = np.setdiff1d(np.arange(old, len(everything)), repeated)[: self.most - old]
+        self.points = np.concatenate([self.points, everything[new]])
         return len(new)
 
     def missing_from(self, points: np.ndarray) -> np.ndarray:
         """Those of the fibre that are not among ``points``."""
-        other = _Fibre(self.points.shape[1], 1 << 60)
-        other.points = points
-        count = len(points)
-        other.add(self.points)
-        return other.points[count:]
+        everything = np.concatenate([points, self.points])
+        repeated = equal_pairs(everything)[:, 1]
+        return everything[np.setdiff1d(np.arange(len(points), len(everything)), repeated)]
 
 
-def generic_solutions(
-    supports: Sequence[np.ndarray],
-    expected: int,
-    rng: np.random.Generator,
-    settings: Settings | str,
-    threads: int,
-) -> tuple[tuple[Terms, ...], np.ndarray, int]:
-    """A system with these supports and random coefficients, and its solutions.
+def by_monodromy(
+    system: GenericSystem, expected: int, rng: np.random.Generator, threads: int
+) -> tuple[GenericSystem, int]:
+    """The system with further solutions, and the number of paths that this took.
 
     Args:
-        supports: one for each equation, each with the origin, shape ``(terms, n)``.
+        system: at least one of its solutions is known.
         expected: how many solutions there are; the search ends there, or when loops find no more.
-
-    Returns:
-        The system's rows, the projective solutions, shape ``(P, 1 + n)``, and the number of paths.
+        rng: where the other coefficients of the loops come from.
+        threads: number of threads.
     """
-    n = len(supports)
+    n = len(system.supports)
     groups = (tuple(range(n)),)
-    x = unit(rng, n)
-    here = _rows(supports, _coefficients(supports, x, rng))
-    there = _rows(supports, [unit(rng, len(s)) for s in supports])
-    degrees = group_degrees(here, groups)
-    first, second = (homogenized(rows, n, groups, degrees) for rows in (here, there))
-    fibre, other = _Fibre(n + 1, expected), _Fibre(n + 1, expected)
-    fibre.add(_unit_norm(np.append(1.0, x)[None]))
+    other = replace(system, coefficients=tuple(unit(rng, len(s)) for s in system.supports))
+    degrees = group_degrees(system.rows, groups)
+    first, second = (homogenized(each.rows, n, groups, degrees) for each in (system, other))
+    here, there = Fibre(system.points, expected), Fibre(system.points[:0], expected)
     spent, idle = 0, 0
     for _ in range(MOST_LOOPS):
-        if len(fibre.points) >= expected or idle >= MOST_IDLE:
+        if len(here.points) >= expected or idle >= MOST_IDLE:
             break
         gamma = complex(unit(rng, 1)[0])
         forward = straight_line(first, second, gamma)
         backward = straight_line(second, first, 1 / gamma)
-        ends = _moved(forward, fibre.points, settings, threads)
-        spent += len(fibre.points)
-        gained = other.add(ends)
+        ends = _moved(forward, here.points, threads)
+        spent += len(here.points)
+        gained = there.add(ends)
         # The way is one to one: what it did not reach leads back to solutions that are new.
-        left = other.missing_from(ends)
-        gained += fibre.add(_moved(backward, left, settings, threads))
+        left = there.missing_from(ends)
+        gained += here.add(_moved(backward, left, threads))
         spent += len(left)
         idle = 0 if gained else idle + 1
-    return here, fibre.points, spent
+    return replace(system, points=here.points), spent
 
 
-def _unit_norm(points: np.ndarray) -> np.ndarray:
-    return points / np.linalg.norm(points, axis=1, keepdims=True)
-
-
-def _moved(
-    homotopy: Homotopy, points: np.ndarray, settings: Settings | str, threads: int
-) -> np.ndarray:
+def _moved(homotopy: Homotopy, points: np.ndarray, threads: int) -> np.ndarray:
     if not len(points):
         return points
-    paths = track(homotopy, points, settings, threads, endgame=False)
-    return _unit_norm(paths.points[paths.where(PathStatus.REGULAR)])
+    return track_regular(homotopy, points, named("fast"), threads)[0]

@@ -13,54 +13,75 @@ from __future__ import annotations
 import numpy as np
 
 from nag.tracking.homotopy import straight_line
-from nag.tracking.settings import Settings
-from nag.tracking.start.fibre_monodromy import generic_solutions
+from nag.tracking.start.fibre_monodromy import GenericSystem, by_monodromy, seeded
+from nag.tracking.start.mixed_cells import MixedCells
 from nag.tracking.start.target import Start, StartError, Target, group_degrees, homogenized, unit
+from nag.tracking.start.toric import by_degeneration
 from nag.tracking.start.total_degree import MOST_PATHS
 
 
-def mixed_volume(target: Target, rng: np.random.Generator) -> int:
-    """The mixed volume of the supports, each with the origin.
+def polyhedral(target: Target, cells: MixedCells, rng: np.random.Generator, threads: int) -> Start:
+    """The homotopy from random coefficients, whose solutions come from the mixed cells.
+
+    What toric paths do not reach is looked for by monodromy.
 
     Raises:
-        StartError: if there are too many mixed cells.
+        StartError: if there are too many paths, or not all solutions were found.
     """
-    from nag.tracking.start.mixed_cells import mixed_cells
+    volume = _bounded("polyhedral", cells.mixed_volume)
+    system, spent = by_degeneration(cells, rng, threads)
+    reached = len(system.points)
+    detail = f"its solutions by {spent} toric paths"
+    if 0 < reached < volume:
+        system, spent = by_monodromy(system, volume, rng, threads)
+        detail += f", {volume - reached} of them by monodromy with {spent} regular paths"
+    return _start("polyhedral", target, system, volume, detail, rng)
 
-    return mixed_cells(target.supports, rng).mixed_volume
 
-
-def polyhedral(
-    target: Target,
-    volume: int,
-    rng: np.random.Generator,
-    settings: Settings | str,
-    threads: int,
-    name: str = "polyhedral",
-) -> Start:
-    """The homotopy from random coefficients to those of the target.
+def monodromy(target: Target, volume: int, rng: np.random.Generator, threads: int) -> Start:
+    """The homotopy from random coefficients, whose solutions come from one of them by loops.
 
     Args:
+        target: the system to be solved.
         volume: the mixed volume, the number of solutions that the start system has.
+        rng: where the coefficients come from.
+        threads: number of threads.
 
     Raises:
-        StartError: if there are too many paths, or not all of those solutions were found.
+        StartError: if there are too many paths, or not all those solutions were found.
     """
-    if volume > MOST_PATHS:
-        raise StartError(f"polyhedral: {volume} paths; at most {MOST_PATHS} are tracked")
-    groups = (tuple(range(target.n)),)
+    _bounded("monodromy", volume)
+    system, spent = seeded(target.supports, rng), 0
     if volume == 0:
-        rows = tuple({tuple(e): 1.0 for e in s.tolist()} for s in target.supports)
-        points, spent = np.zeros((0, 1 + target.n), dtype=np.complex128), 0
+        system = GenericSystem(system.supports, system.coefficients, system.points[:0])
     else:
-        rows, points, spent = generic_solutions(target.supports, volume, rng, settings, threads)
-    if len(points) != volume:
+        system, spent = by_monodromy(system, volume, rng, threads)
+    detail = f"its solutions by monodromy, {spent} regular paths"
+    return _start("monodromy", target, system, volume, detail, rng)
+
+
+def _bounded(name: str, volume: int) -> int:
+    if volume > MOST_PATHS:
+        raise StartError(f"{name}: {volume} paths; at most {MOST_PATHS} are tracked")
+    return volume
+
+
+def _start(
+    name: str,
+    target: Target,
+    system: GenericSystem,
+    volume: int,
+    detail: str,
+    rng: np.random.Generator,
+) -> Start:
+    if len(system.points) != volume:
         raise StartError(
-            f"polyhedral: {len(points)} of the {volume} solutions of the start system were found"
+            f"{name}: {len(system.points)} of the {volume} solutions of the start system were found"
         )
-    degrees = group_degrees(rows, groups)
-    begin = homogenized(rows, target.n, groups, degrees)
+    groups = (tuple(range(target.n)),)
+    degrees = group_degrees(system.rows, groups)
+    begin = homogenized(system.rows, target.n, groups, degrees)
     goal = homogenized(target.rows, target.n, groups, degrees)
     gamma = complex(unit(rng, 1)[0])
-    detail = f"its solutions by monodromy, {spent} regular paths"
-    return Start(name, straight_line(begin, goal, gamma), points, groups, detail=detail)
+    homotopy = straight_line(begin, goal, gamma)
+    return Start(name, homotopy, system.points, groups, detail=detail)
