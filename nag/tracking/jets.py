@@ -423,14 +423,14 @@ def incomplete_slots(s, w, k):
     for q in range(s.value_products):
         a = s.first[q]
         b = s.second[q]
-        ar, ai = load(w.vr, a), load(w.vi, a)
-        br, bi = load(w.cr, top + b), load(w.ci, top + b)
-        re = fnma(ai, bi, ar * br)
-        im = fma(ai, br, ar * bi)
-        ar, ai = load(w.cr, top + a), load(w.ci, top + a)
-        br, bi = load(w.vr, b), load(w.vi, b)
-        re = fnma(ai, bi, fma(ar, br, re))
-        im = fma(ai, br, fma(ar, bi, im))
+        re = zero
+        im = zero
+        # The second factor is a coordinate, whose coefficient of this order is taken as 0.
+        if a > s.N:
+            ar, ai = load(w.cr, top + a), load(w.ci, top + a)
+            br, bi = load(w.vr, b), load(w.vi, b)
+            re = fnma(ai, bi, ar * br)
+            im = fma(ai, br, ar * bi)
         for i in range(k - 1):
             m = i * size + a
             n = (k - 2 - i) * size + b

@@ -65,13 +65,15 @@ def factorize(n, ar, ai, pivots):
 @numba.njit(nogil=True)
 def substitute(n, ar, ai, pivots, br, bi):
     """Overwrite the right-hand side by the solution, with the factors of `factorize`."""
-    for k in range(n):
-        for lane in range(8):
-            p = int(pivots[8 * k + lane])
-            if p != k:
-                a, b = 8 * k + lane, 8 * p + lane
-                br[a], br[b] = br[b], br[a]
-                bi[a], bi[b] = bi[b], bi[a]
+    half = splat(0.5)
+    for k in range(n - 1):
+        if any_less(splat(float(k)) + half, load(pivots, k)):
+            for lane in range(8):
+                p = int(pivots[8 * k + lane])
+                if p != k:
+                    a, b = 8 * k + lane, 8 * p + lane
+                    br[a], br[b] = br[b], br[a]
+                    bi[a], bi[b] = bi[b], bi[a]
     for i in range(1, n):
         re = load(br, i)
         im = load(bi, i)
