@@ -8,7 +8,8 @@ that do not depend on t; a homotopy multiplies part ``p`` by ``alpha_p + t beta_
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import frexp
@@ -184,7 +185,7 @@ def blend(first: CompiledRows, second: CompiledRows) -> CompiledRows:
 
 
 class _Products:
-    """Slots of monomials, created as products of earlier ones."""
+    """Slots of monomials, each the product of an earlier one and a coordinate."""
 
     def __init__(self, N: int) -> None:
         self.N = N
@@ -193,22 +194,43 @@ class _Products:
             self.slots[tuple(int(i == j) for i in range(N))] = j
         self.factors: list[tuple[int, int]] = []
 
-    def slot(self, exponents: Exponents) -> int:
-        found = self.slots.get(exponents)
-        if found is not None:
-            return found
-        last = max(j for j, k in enumerate(exponents) if k)
-        parent = (*exponents[:last], exponents[last] - 1, *exponents[last + 1 :])
-        factors = (self.slot(parent), last)
-        self.factors.append(factors)
-        self.slots[exponents] = self.N + len(self.factors)
-        return self.slots[exponents]
+    def add(self, monomials: Iterable[Exponents]) -> None:
+        """Give slots to monomials and, besides, to as few parents of theirs as possible."""
+        levels: dict[int, dict[Exponents, tuple[Exponents, int]]] = {}
+        for e in monomials:
+            if e not in self.slots:
+                levels.setdefault(sum(e), {})[e] = (e, 0)
+        for degree in range(max(levels, default=0), 1, -1):
+            level = levels.setdefault(degree, {})
+            below = levels.setdefault(degree - 1, {})
+            choices = {e: list(_parents(e)) for e in level}
+            uses = Counter(parent for parents in choices.values() for parent, _ in parents)
+            for e, parents in choices.items():
+                parent, last = max(
+                    parents,
+                    key=lambda p: (p[0] in self.slots or p[0] in below, uses[p[0]], p[1]),
+                )
+                level[e] = (parent, last)
+                if parent not in self.slots:
+                    below.setdefault(parent, (parent, 0))
+        for degree in sorted(levels):
+            for e, (parent, last) in levels[degree].items():
+                self.factors.append((self.slots[parent], last))
+                self.slots[e] = self.N + len(self.factors)
+
+
+def _parents(exponents: Exponents) -> Iterator[tuple[Exponents, int]]:
+    for j, k in enumerate(exponents):
+        if k:
+            yield (*exponents[:j], k - 1, *exponents[j + 1 :]), j
 
 
 def _tape(rows: CompiledRows) -> Tape:
     N = rows.N
     products = _Products(N)
-    values: list[tuple[int, int, list[tuple[int, complex]]]] = []
+    products.add(e for row in rows.parts for _, terms in row for e in sorted(terms, reverse=True))
+    value_products = len(products.factors)
+    values: list[tuple[int, int, list[tuple[Exponents, complex]]]] = []
     jacobian: list[tuple[int, int, list[tuple[Exponents, complex]]]] = []
     for r, row in enumerate(rows.parts):
         for part, terms in row:
@@ -216,36 +238,33 @@ def _tape(rows: CompiledRows) -> Tape:
             derivatives: dict[int, list[tuple[Exponents, complex]]] = {}
             for e in sorted(terms, reverse=True):
                 c = complex(terms[e]) / rows.scales[r]
-                block.append((products.slot(e), c))
+                block.append((e, c))
                 for j, k in enumerate(e):
                     if k:
                         lowered = (*e[:j], k - 1, *e[j + 1 :])
                         derivatives.setdefault(j, []).append((lowered, c * k))
             values.append((r, part, block))
             jacobian += [(r * N + j, part, derivatives[j]) for j in sorted(derivatives)]
-    value_products = len(products.factors)
     jacobian.sort(key=lambda entry: (entry[0], entry[1]))
-    jacobian_blocks = [
-        (p, q, [(products.slot(e), c) for e, c in block]) for p, q, block in jacobian
-    ]
+    products.add(e for _, _, block in jacobian for e, _ in block)
     factors = np.array(products.factors, dtype=np.int64).reshape(-1, 2)
     return Tape(
         np.ascontiguousarray(factors[:, 0]),
         np.ascontiguousarray(factors[:, 1]),
         value_products,
-        *_blocks(values),
-        *_blocks(jacobian_blocks),
+        *_blocks(values, products.slots),
+        *_blocks(jacobian, products.slots),
     )
 
 
 def _blocks(
-    blocks: list[tuple[int, int, list[tuple[int, complex]]]],
+    blocks: list[tuple[int, int, list[tuple[Exponents, complex]]]], slots: Mapping[Exponents, int]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     terms = [term for _, _, block in blocks for term in block]
     return (
         np.array([place for place, _, _ in blocks], dtype=np.int64),
         np.array([part for _, part, _ in blocks], dtype=np.int64),
         np.cumsum([0] + [len(block) for _, _, block in blocks], dtype=np.int64),
-        np.array([slot for slot, _ in terms], dtype=np.int64),
+        np.array([slots[e] for e, _ in terms], dtype=np.int64),
         np.array([c for _, c in terms], dtype=np.complex128),
     )

@@ -30,6 +30,10 @@ Groups = tuple[tuple[int, ...], ...]
 MOST_TERMS = 5000
 # States of the count below; the search for groups skips what is dearer.
 MOST_STATES = 20_000
+# Integers below this are doubles.
+EXACT = 2.0**53
+# A local search from a partition with so many times the paths of the best is not begun.
+HOPELESS = 4
 # Partitions that the search tries: some always, and one more for so many paths to be saved.
 LEAST_TRIED, PATHS_FOR_A_TRY = 20, 20
 MOST_TRIED = 2000
@@ -37,8 +41,11 @@ MOST_TRIED = 2000
 
 def bezout_number(degrees: np.ndarray, sizes: Sequence[int]) -> int:
     """Coefficient of ``prod(z_g ^ sizes[g])`` in ``prod_i(sum_g degrees[i, g] z_g)``."""
-    counts = {tuple(sizes): 1}
-    for row in degrees.tolist():
+    rows, most = degrees.tolist(), list(sizes)
+    if all(sum(row) > 0 for row in rows) and prod(map(sum, rows)) < EXACT:
+        return _bezout_number_of_floats(rows, most)
+    counts = {tuple(most): 1}
+    for row in rows:
         following: dict[tuple[int, ...], int] = {}
         for left, ways in counts.items():
             for g, d in enumerate(row):
@@ -49,9 +56,26 @@ def bezout_number(degrees: np.ndarray, sizes: Sequence[int]) -> int:
     return sum(counts.values())
 
 
+def _bezout_number_of_floats(rows: list[list[int]], sizes: list[int]) -> int:
+    """The same where all numbers on the way are integers that doubles hold exactly."""
+    strides = np.cumprod([1, *(size + 1 for size in sizes)])
+    exponents = np.arange(strides[-1])[:, None] // strides[:-1] % (np.array(sizes) + 1)
+    counts = np.zeros(strides[-1])
+    counts[0] = 1.0
+    room = [exponents[: -int(s), g] < sizes[g] for g, s in enumerate(strides[:-1])]
+    for row in rows:
+        following = np.zeros(strides[-1])
+        for g, d in enumerate(row):
+            if d:
+                shift = int(strides[g])
+                following[shift:] += d * (counts[:-shift] * room[g])
+        counts = following
+    return int(counts[-1])
+
+
 def count(target: Target, groups: Groups) -> int:
     """Bezout's number of ``target`` for a partition of its variables."""
-    return bezout_number(group_degrees(target.rows, groups), [len(g) for g in groups])
+    return bezout_number(group_degrees(target.stack, groups), [len(g) for g in groups])
 
 
 def _moves(groups: Groups) -> Iterator[Groups]:
@@ -99,6 +123,8 @@ def best_groups(target: Target, given: Groups = ()) -> tuple[Groups, int]:
     for groups in dict.fromkeys(first):
         here = value(groups)
         if here is None:
+            continue
+        if best is not None and here > HOPELESS * best[0]:
             continue
         current = (here, len(groups), groups)
         while len(seen) < most:

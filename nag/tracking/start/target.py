@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -57,6 +58,11 @@ class Target:
         return tuple(max(map(sum, row), default=0) for row in self.rows)
 
     @cached_property
+    def stack(self) -> StackedExponents:
+        """The exponents of all rows."""
+        return StackedExponents.of(self.rows)
+
+    @cached_property
     def supports(self) -> tuple[np.ndarray, ...]:
         """Exponents of each row together with the origin, each shape ``(terms, n)``.
 
@@ -68,6 +74,26 @@ class Target:
             np.array(sorted({*row, origin}), dtype=np.int64).reshape(-1, self.n)
             for row in self.rows
         )
+
+
+class StackedExponents(NamedTuple):
+    """The exponents of all rows, one row's after another's.
+
+    ``exponents`` has shape ``(terms, n)``; those of row ``r`` begin at ``first[r]``. A row without
+    terms counts as a constant.
+    """
+
+    exponents: np.ndarray
+    first: np.ndarray
+
+    @classmethod
+    def of(cls, rows: Sequence[Terms]) -> StackedExponents:
+        """The exponents of ``rows``."""
+        n = next((len(e) for row in rows for e in row), 0)
+        all_of = [list(row) or [(0,) * n] for row in rows]
+        first = np.cumsum([0] + [len(exponents) for exponents in all_of], dtype=np.int64)[:-1]
+        stacked = np.array([e for exponents in all_of for e in exponents], dtype=np.int64)
+        return cls(stacked.reshape(int(first[-1]) + len(all_of[-1]) if all_of else 0, n), first)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,12 +146,17 @@ def homogenized(
     return CompiledRows(n + shift, tuple(parts), coordinates, tuple(range(shift)), degrees)
 
 
-def group_degrees(rows: Sequence[Terms], groups: Sequence[Sequence[int]]) -> np.ndarray:
+def group_degrees(
+    rows: Sequence[Terms] | StackedExponents, groups: Sequence[Sequence[int]]
+) -> np.ndarray:
     """Degree of each row in each group, shape ``(rows, groups)``."""
-    return np.array(
-        [[max((sum(e[i] for i in g) for e in row), default=0) for g in groups] for row in rows],
-        dtype=np.int64,
-    ).reshape(len(rows), len(groups))
+    stack = rows if isinstance(rows, StackedExponents) else StackedExponents.of(rows)
+    if not len(stack.first):
+        return np.zeros((0, len(groups)), dtype=np.int64)
+    member = np.zeros((stack.exponents.shape[1], len(groups)), dtype=np.int64)
+    for g, group in enumerate(groups):
+        member[list(group), g] = 1
+    return np.maximum.reduceat(stack.exponents @ member, stack.first, axis=0)
 
 
 def unit(rng: np.random.Generator, *shape: int) -> np.ndarray:
