@@ -14,8 +14,9 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cases import read_case
 from nag.mechanism.model import model
+from nag.tracking.clusters import clusters, conjugates_present
 from nag.tracking.solutions import SolveResult
-from nag.tracking.solve import clusters, solve, symmetric
+from nag.tracking.solve import solve
 from nag.tracking.start.target import StartError
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
@@ -181,9 +182,15 @@ def test_clusters_join_points_within_their_errors() -> None:
 
 
 def test_a_missing_conjugate_is_noticed() -> None:
-    result = solve(system("x", "x^4 + x + 1"))
-    assert symmetric(result.solutions)
-    assert not symmetric(result.solutions[1:])
+    roots = np.array([[1 + 1j], [3], [1 - 1j], [2j], [-2j]])
+    errors, simple = np.full(5, 1e-14), np.ones(5, dtype=int)
+    real = roots[:, 0].imag == 0
+    assert conjugates_present(roots, errors, simple, real)
+    for missing in range(5):
+        left = np.arange(5) != missing
+        present = conjugates_present(roots[left], errors[left], simple[left], real[left])
+        assert present == real[missing]
+    assert not conjugates_present(roots, errors, np.array([2, 1, 1, 1, 1]), real)
 
 
 def test_rational_solutions_are_found_to_rounding() -> None:

@@ -102,8 +102,11 @@ def _powers(points: np.ndarray, exponents: np.ndarray) -> np.ndarray:
     """Monomials at points of shape ``(P, n)``, shape ``(P, M)``."""
     values = np.ones((len(points), len(exponents)), dtype=points.dtype)
     for i in range(points.shape[1]):
-        top = int(exponents[:, i].max(initial=0))
-        if top:
-            powers = points[:, i, None] ** np.arange(top + 1)
-            values *= powers[:, exponents[:, i]]
+        column = points[:, i, None]
+        power = column
+        for k in range(1, int(exponents[:, i].max(initial=0)) + 1):
+            power = power * column if k > 1 else column
+            where = np.flatnonzero(exponents[:, i] == k)
+            if len(where):
+                values[:, where] *= power
     return values

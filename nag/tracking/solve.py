@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.tracking.clusters import clusters, conjugates_present
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings, named
@@ -28,8 +29,6 @@ Progress = Callable[[str, int, int], None]
 ATTEMPTS = 3
 # |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
 ON = 1e-9
-# End points that are closer than this (relative) are one; distinct solutions hardly ever are.
-SAME = 1e-8
 # Points evaluated at once.
 BLOCK = 2048
 
@@ -225,12 +224,11 @@ def _result(
             f"fewer equations than variables: no solution is isolated, and none was found where "
             f"{problem.added} random linear equations are added"
         )
-    factors = problem.target.factors
     return SolveResult(
         system=problem.system,
-        solutions=tuple(replace(s, point=s.point * factors) for s in ends.solutions),
-        on_components=ends.on_components * factors,
-        undecided=ends.undecided * factors,
+        solutions=ends.solutions,
+        on_components=ends.on_components,
+        undecided=ends.undecided,
         excluded=ends.excluded,
         paths=counts,
         start=begin.name,
@@ -244,7 +242,7 @@ def _result(
 
 @dataclass(frozen=True, eq=False)
 class _Ends:
-    """The end points of all paths, sorted; coordinates are those of the scaled variables."""
+    """The end points of all paths, sorted; coordinates are those of the original variables."""
 
     solutions: tuple[Solution, ...]
     on_components: np.ndarray
@@ -254,68 +252,70 @@ class _Ends:
 
     @classmethod
     def of(cls, problem: _Problem, begin: Start, paths: Paths, rng: np.random.Generator) -> _Ends:
-        evaluator = Evaluator.of(problem.equations, problem.system.n)
+        n = problem.system.n
+        evaluator = Evaluator.of(problem.equations, n)
         finite = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
         points = begin.affine(paths.points[finite])
         accuracy = paths.accuracy[finite]
-        residuals = _residuals(evaluator, points)
-        on = residuals < np.maximum(ON, accuracy)
-        finite, points, accuracy, residuals = finite[on], points[on], accuracy[on], residuals[on]
+        residual = _residuals(evaluator, points)
+        on = residual < np.maximum(ON, accuracy)
+        finite, points, accuracy, residual = finite[on], points[on], accuracy[on], residual[on]
         regular = paths.status[finite] == PathStatus.REGULAR
+        multiplicity = np.ones(len(points), dtype=np.int64)
+        condition = paths.condition[finite]
         notes: list[str] = []
-        solutions: list[Solution] = []
+        isolated: list[int] = []
         on_components: list[np.ndarray] = []
         undecided: list[np.ndarray] = []
         for group in clusters(points, accuracy):
-            best = group[int(np.argmin(accuracy[group]))]
-            x, error, residual = points[best], float(accuracy[best]), float(residuals[best])
+            best = int(group[np.argmin(accuracy[group])]) if len(group) > 1 else int(group[0])
             if problem.added:
-                on_components.append(x)
+                on_components.append(points[best])
                 continue
+            isolated.append(best)
             if regular[best]:
                 if len(group) > 1:
                     notes.append(f"{len(group)} paths end at one regular solution")
-                multiplicity, condition = 1, float(paths.condition[finite[best]])
-            else:
-                end = analyse(problem.equations, x, error, rng)
-                if end.place is Place.ON_COMPONENT:
-                    on_components.extend(points[group])
-                    continue
-                if end.place is Place.UNDECIDED:
-                    undecided.extend(points[group])
-                    continue
-                x, error, multiplicity, condition = (
-                    end.point,
-                    end.accuracy,
-                    end.multiplicity,
-                    end.condition,
+                continue
+            end = analyse(problem.equations, points[best], float(accuracy[best]), rng)
+            if end.place is not Place.ISOLATED:
+                isolated.pop()
+                elsewhere = on_components if end.place is Place.ON_COMPONENT else undecided
+                elsewhere.extend(points[group])
+                continue
+            points[best], accuracy[best] = end.point, end.accuracy
+            multiplicity[best], condition[best] = end.multiplicity, end.condition
+            residual[best] = evaluator.residuals(end.point[None]).max()
+            if begin.complete and not problem.squared and end.multiplicity != len(group):
+                notes.append(
+                    f"{len(group)} paths end at a solution of multiplicity {end.multiplicity}"
                 )
-                residual = float(evaluator.residuals(x[None]).max())
-                if begin.complete and not problem.squared and multiplicity != len(group):
-                    notes.append(
-                        f"{len(group)} paths end at a solution of multiplicity {multiplicity}"
-                    )
-            solutions.append(
-                Solution(
-                    x,
-                    multiplicity,
-                    bool(np.abs(x.imag).max() <= max(1e2 * error, 1e-10) * (1 + np.abs(x).max())),
-                    residual,
-                    error,
-                    condition,
-                    int(paths.precision[finite[best]]),
-                )
-            )
-        kept = [s for s in solutions if not _vanishes(problem.nonzero, s)]
+        points, accuracy, residual = points[isolated], accuracy[isolated], residual[isolated]
+        multiplicity, condition = multiplicity[isolated], condition[isolated]
+        sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
+        imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
+        real = imaginary <= np.maximum(1e2 * accuracy, 1e-10) * sizes
         if undecided:
             notes.append(f"{len(undecided)} end points may or may not be isolated")
-        if not symmetric(solutions):
+        if not conjugates_present(points, accuracy, multiplicity, real):
             notes.append("the conjugate of a solution is missing")
+        kept = ~_vanishes(problem.nonzero, points, accuracy)
+        factors = problem.target.factors
+        described = zip(
+            points * factors,
+            multiplicity.tolist(),
+            real.tolist(),
+            residual.tolist(),
+            accuracy.tolist(),
+            condition.tolist(),
+            paths.precision[finite[isolated]].tolist(),
+            strict=True,
+        )
         return cls(
-            tuple(kept),
-            np.array(on_components).reshape(-1, problem.system.n),
-            np.array(undecided).reshape(-1, problem.system.n),
-            len(solutions) - len(kept),
+            tuple(Solution(*x) for x, keep in zip(described, kept, strict=True) if keep),
+            np.array(on_components).reshape(-1, n) * factors,
+            np.array(undecided).reshape(-1, n) * factors,
+            int((~kept).sum()),
             tuple(notes),
         )
 
@@ -327,73 +327,9 @@ def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:
     return np.concatenate([np.zeros(0), *found])
 
 
-def _vanishes(nonzero: Evaluator, solution: Solution) -> bool:
+def _vanishes(nonzero: Evaluator, points: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
+    """At which points one of the polynomials vanishes that must not, shape ``(P,)``."""
     if not len(nonzero.coefficients):
-        return False
-    residuals = nonzero.residuals(solution.point[None])
-    return bool(residuals.min() < max(1e-8, 1e2 * solution.accuracy))
-
-
-def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
-    """Indices of points that coincide within their errors, a cluster each, in the points' order."""
-    count = len(points)
-    sizes = 1 + np.linalg.norm(points, axis=1)
-    tolerance = np.maximum(SAME, 1e2 * accuracy) * sizes
-    # A fixed projection sorts the points; equal ones are neighbours in it.
-    weights = np.exp(1j * np.arange(1, points.shape[1] + 1) ** 2)
-    key = (points @ weights).real if count else np.zeros(0)
-    spread = float(np.sqrt(points.shape[1]))
-    order = np.argsort(key, kind="stable")
-    label = np.arange(count)
-
-    def root(i: int) -> int:
-        while label[i] != i:
-            label[i] = label[label[i]]
-            i = label[i]
-        return i
-
-    widest = float(tolerance.max(initial=0.0))
-    for a, i in enumerate(order):
-        for j in order[a + 1 :]:
-            if key[j] - key[i] > spread * min(widest, 2 * max(tolerance[i], SAME) + widest):
-                break
-            if np.linalg.norm(points[i] - points[j]) <= max(tolerance[i], tolerance[j]):
-                first, second = sorted((root(i), root(j)))
-                label[second] = first
-    groups: dict[int, list[int]] = {}
-    for i in range(count):
-        groups.setdefault(root(i), []).append(i)
-    return [np.array(g) for g in groups.values()]
-
-
-def symmetric(solutions: Sequence[Solution]) -> bool:
-    """Whether the conjugate of each solution is one too, with the same multiplicity."""
-    others = [s for s in solutions if not s.real]
-    if not others:
-        return True
-    points = np.array([s.point for s in others])
-    keys = {}
-    for s in others:
-        keys.setdefault(s.multiplicity, []).append(s)
-    for alike in keys.values():
-        points = np.array([s.point for s in alike])
-        errors = np.array([s.accuracy for s in alike])
-        sizes = 1 + np.linalg.norm(points, axis=1)
-        weights = np.exp(1j * np.arange(1, points.shape[1] + 1) ** 2)
-        # Real parts are shared by conjugate points; sort by them.
-        key = points.real @ weights.real
-        order = np.argsort(key, kind="stable")
-        taken = np.zeros(len(points), dtype=bool)
-        for a, i in enumerate(order):
-            if taken[i]:
-                continue
-            for j in order[a + 1 :]:
-                limit = max(SAME, 1e2 * (errors[i] + errors[j])) * sizes[i]
-                if key[j] - key[i] > limit * np.sqrt(points.shape[1]):
-                    break
-                if not taken[j] and np.linalg.norm(points[i] - points[j].conj()) <= limit:
-                    taken[i] = taken[j] = True
-                    break
-            if not taken[i]:
-                return False
-    return True
+        return np.zeros(len(points), dtype=bool)
+    least = nonzero.residuals(points).min(axis=1)
+    return least < np.maximum(1e-8, 1e2 * accuracy)

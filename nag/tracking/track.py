@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nag.tracking.clusters import neighbours
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
@@ -325,28 +326,23 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     for indices in homotopy.groups:
         v = generator.normal(size=(2, len(indices)))
         key += np.abs(points[:, list(indices)] @ (v[0] + 1j * v[1])) ** 2
-    order = np.argsort(key, kind="stable")
     found: set[int] = set()
     tolerance = np.maximum(1e-10, 1e3 * paths.accuracy[regular])
-    for a in range(len(order)):
-        i = order[a]
-        for b in range(a + 1, len(order)):
-            j = order[b]
-            if key[j] - key[i] > 1e-6:
-                break
-            if _distance(homotopy, points[i], points[j]) <= max(tolerance[i], tolerance[j]):
-                found |= {int(regular[i]), int(regular[j])}
+    for i, j in neighbours(key, np.full(len(key), 1e-6)):
+        close = _distances(homotopy, points[i], points[j]) <= np.maximum(tolerance[i], tolerance[j])
+        found.update(regular[i[close]].tolist(), regular[j[close]].tolist())
     return np.array(sorted(found), dtype=np.int64)
 
 
-def _distance(homotopy: Homotopy, x: np.ndarray, y: np.ndarray) -> float:
-    largest = 0.0
+def _distances(homotopy: Homotopy, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Distances of projective points of unit norm, shape ``(P,)``; the largest of the groups."""
+    largest = np.zeros(len(x))
     for indices in homotopy.groups:
-        g = list(indices)
-        a, b = x[g], y[g]
-        product = np.vdot(b, a)
-        size = abs(product)
-        largest = max(largest, float(np.linalg.norm(a - b * (product / size if size else 1))))
+        a, b = x[:, list(indices)], y[:, list(indices)]
+        product = (b.conj() * a).sum(axis=1, keepdims=True)
+        size = np.abs(product)
+        turned = b * np.where(size > 0, product / np.where(size > 0, size, 1), 1)
+        largest = np.maximum(largest, np.linalg.norm(a - turned, axis=1))
     return largest
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import floor, log2
 
 import numpy as np
 
@@ -24,8 +25,7 @@ DEPENDENT, NEARLY_ORTHOGONAL = 1e-12, 0.1
 def magnitude(c: Number | complex) -> float:
     """The binary logarithm of ``|c|``; also beyond the range of doubles."""
     if isinstance(c, Fraction):
-        shift = c.numerator.bit_length() - c.denominator.bit_length()
-        return shift + float(np.log2(abs(float(c / Fraction(2) ** shift))))
+        return log2(abs(c.numerator)) - log2(c.denominator)
     return float(np.log2(abs(complex(c))))
 
 
@@ -54,9 +54,9 @@ def variable_scales(polynomials: Sequence[Polynomial], n: int) -> np.ndarray:
 def scaled_terms(f: Polynomial, scales: np.ndarray) -> dict[Exponents, Number]:
     """Terms of ``f`` in the scaled variables, divided by a power of two near the largest."""
     shifts = {e: int(np.dot(e, scales)) for e in f.terms}
-    top = max((magnitude(c) + shifts[e] for e, c in f.terms.items()), default=0.0)
-    top = int(np.floor(top))
-    return {e: c * Fraction(2) ** (shifts[e] - top) for e, c in f.terms.items()}
+    top = floor(max((magnitude(c) + shifts[e] for e, c in f.terms.items()), default=0.0))
+    powers = {shift: Fraction(2) ** (shift - top) for shift in set(shifts.values())}
+    return {e: c if shifts[e] == top else c * powers[shifts[e]] for e, c in f.terms.items()}
 
 
 def independent_rows(
