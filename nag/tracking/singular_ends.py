@@ -15,9 +15,9 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.local_ring import local_dimension
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
-from nag.tracking.local_ring import corank_at, local_dimension
 
 MOST_DEFLATIONS = 4
 MOST_UNKNOWNS = 60
@@ -45,6 +45,21 @@ class SingularEnd:
     multiplicity: int
     accuracy: float
     condition: float
+
+
+def corank_at(singular: np.ndarray, columns: int, accuracy: float) -> int:
+    """Corank of a scaled Jacobian, read at the widest gap of its singular values."""
+    values = np.zeros(columns)
+    values[: min(columns, len(singular))] = singular[:columns]
+    floor = max(accuracy, 1e-15)
+    # The first entry stands for the size that coefficients of order one give a Jacobian.
+    ladder = np.maximum(np.concatenate([[max(values.max(initial=0.0), 0.1)], values]), floor)
+    best, corank = 1e2, 0
+    for rank in range(columns):
+        ratio = ladder[rank] / ladder[rank + 1]
+        if ladder[rank + 1] < 1e-3 and ratio > best:
+            best, corank = ratio, columns - rank
+    return corank
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +192,8 @@ def analyse(
     found = sharpened(polynomials, x, accuracy, rng)
     if found is None:
         return SingularEnd(x, Place.UNDECIDED, 0, accuracy, np.inf)
-    dimension = local_dimension(evaluator, found.z, max(1e3 * found.step, 1e-12))
+    known = max(1e3 * found.step, 1e-12)
+    dimension = local_dimension(evaluator, found.z, lambda s, k: corank_at(s, k, known))
     if dimension is None:
         return SingularEnd(found.z, Place.UNDECIDED, 0, found.step, found.condition)
     return SingularEnd(found.z, Place.ISOLATED, dimension, max(found.step, 1e-16), found.condition)

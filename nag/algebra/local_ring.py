@@ -1,21 +1,27 @@
 """Dimension of the local ring at a zero, from Macaulay's matrices in the null directions alone.
 
-The regular part of the equations is solved by power series first. Reference: Dayton & Zeng,
-Computing the multiplicity structure in solving polynomial systems, 2005.
+The regular part of the equations is solved by power series first.
+
+References:
+    Dayton & Zeng, Computing the multiplicity structure in solving polynomial systems, 2005;
+    Bates, Hauenstein, Peterson & Sommese, A numerical local dimension test, 2009.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import combinations_with_replacement
+from math import comb
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 
-HIGHEST_ORDER = 16
-MOST_MONOMIALS = 1200
+# Orders of the Macaulay matrices that are tried; the last is the highest.
+ORDERS = (3, 6, 12, 24)
+MOST_MONOMIALS = 2000
 # Relative size of singular values that count as zero at a point known to rounding.
 ZERO = 1e-8
 
@@ -29,7 +35,11 @@ class _Series:
 
     @cached_property
     def monomials(self) -> np.ndarray:
-        rows = [e for e in product(range(self.order + 1), repeat=self.m) if sum(e) <= self.order]
+        rows = [
+            tuple(chosen.count(i) for i in range(self.m))
+            for degree in range(self.order + 1)
+            for chosen in combinations_with_replacement(range(self.m), degree)
+        ]
         rows.sort(key=lambda e: (sum(e), e))
         return np.array(rows, dtype=np.int64).reshape(len(rows), self.m)
 
@@ -64,21 +74,6 @@ class _Series:
         return result
 
 
-def corank_at(singular: np.ndarray, columns: int, accuracy: float) -> int:
-    """Corank of a scaled Jacobian, read at the widest gap of its singular values."""
-    values = np.zeros(columns)
-    values[: min(columns, len(singular))] = singular[:columns]
-    floor = max(accuracy, 1e-15)
-    # The first entry stands for the size that coefficients of order one give a Jacobian.
-    ladder = np.maximum(np.concatenate([[max(values.max(initial=0.0), 0.1)], values]), floor)
-    best, corank = 1e2, 0
-    for rank in range(columns):
-        ratio = ladder[rank] / ladder[rank + 1]
-        if ladder[rank + 1] < 1e-3 and ratio > best:
-            best, corank = ratio, columns - rank
-    return corank
-
-
 def _values(evaluator: Evaluator, ring: _Series, images: np.ndarray) -> np.ndarray:
     powers: dict[tuple[int, int], np.ndarray] = {}
 
@@ -99,15 +94,20 @@ def _values(evaluator: Evaluator, ring: _Series, images: np.ndarray) -> np.ndarr
 
 
 def _reduced(
-    evaluator: Evaluator, x: np.ndarray, order: int, accuracy: float
+    evaluator: Evaluator,
+    x: np.ndarray,
+    along: np.ndarray,
+    order: int,
+    corank: Callable[[np.ndarray, int], int],
 ) -> tuple[_Series, np.ndarray] | None:
-    n = len(x)
-    u, s, vh = np.linalg.svd(evaluator.jacobian(x))
-    m = corank_at(s, n, accuracy)
-    if m == 0:
+    """The equations in the null directions alone; None if there are none, or far too many."""
+    n, k = along.shape
+    u, s, vh = np.linalg.svd(evaluator.jacobian(x) @ along)
+    m = corank(s, k)
+    if m == 0 or comb(m + order, order) > MOST_MONOMIALS:
         return None
-    ring, rank = _Series(m, order), n - m
-    regular, null = vh[:rank].conj().T, vh[rank:].conj().T
+    ring, rank = _Series(m, order), k - m
+    regular, null = along @ vh[:rank].conj().T, along @ vh[rank:].conj().T
     base = np.zeros((n, len(ring.monomials)), dtype=complex)
     for i, e in enumerate(ring.monomials.tolist()):
         if sum(e) == 1:
@@ -141,25 +141,39 @@ def _nullity(ring: _Series, generators: np.ndarray, order: int) -> int:
     return columns - int(np.sum(s > ZERO * s[0]))
 
 
-def local_dimension(evaluator: Evaluator, x: np.ndarray, accuracy: float = 1e-12) -> int | None:
+def local_dimension(
+    evaluator: Evaluator,
+    x: np.ndarray,
+    corank: Callable[[np.ndarray, int], int],
+    along: np.ndarray | None = None,
+) -> int | None:
     """Dimension of the local ring of ``evaluator`` at its zero ``x``, known to rounding.
 
-    None where the dimensions have not settled by order `HIGHEST_ORDER`, or the matrices become
-    too large: the zero is not isolated, or of high multiplicity.
+    Args:
+        evaluator: the polynomials, in ``n`` variables.
+        x: the zero, shape ``(n,)``.
+        corank: says from singular values, shape ``(s,)``, and a number of columns what the corank
+            of a Jacobian is.
+        along: directions of a linear space through ``x`` to which the equations are restricted,
+            shape ``(n, k)``; default: the whole space.
+
+    Returns:
+        The dimension, or None where it has not settled by the highest of `ORDERS`, or the matrices
+        become too large: the zero is not isolated, or of high multiplicity.
     """
-    order = 3
-    while order <= HIGHEST_ORDER:
-        reduced = _reduced(evaluator, x, order, accuracy)
+    along = np.eye(len(x)) if along is None else along
+    singular = np.linalg.svd(evaluator.jacobian(x) @ along, compute_uv=False)
+    if corank(singular, along.shape[1]) == 0:
+        return 1
+    for order in ORDERS:
+        reduced = _reduced(evaluator, x, along, order, corank)
         if reduced is None:
-            return 1
-        ring, generators = reduced
-        if len(ring.monomials) > MOST_MONOMIALS:
             return None
+        ring, generators = reduced
         last = 1
         for k in range(1, order + 1):
             now = _nullity(ring, generators, k)
             if now == last:
                 return now
             last = now
-        order += 3 if order < 6 else order
     return None
