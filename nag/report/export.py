@@ -8,33 +8,33 @@ and nothing that differs between runs with the same seed (no times, no folders, 
 from __future__ import annotations
 
 import json
-import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import resources
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from nag.algebra.expression import parse_polynomial
-from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.report.json_text import lay_out, pairs, real_or_null, system_document
 from nag.report.json_values import (
     ExportError,
     as_count,
+    as_document,
     as_double,
     as_flag,
     as_list,
     as_matrix,
+    as_system,
     as_table,
     as_text,
     as_texts,
     as_vector,
     entry,
+    read_file,
     wrong,
 )
 from nag.report.target import write_target
@@ -43,7 +43,6 @@ FORMAT = "nag-decomposition"
 VERSION = 1
 
 # A file is taken into memory whole, several times its size as Python objects.
-LARGEST_FILE = 256 * 1024**2
 
 
 @dataclass(frozen=True)
@@ -77,18 +76,6 @@ def schema() -> dict[str, Any]:
     """The JSON Schema of the format."""
     name = f"{FORMAT}-{VERSION}.json"
     return json.loads((resources.files("nag.report") / "schema" / name).read_text("utf-8"))
-
-
-def real_or_null(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
-
-
-def pairs(array: np.ndarray) -> list[Any]:
-    """A complex array as nested lists with ``[re, im]`` in place of each entry."""
-    doubles = np.ascontiguousarray(array).view(float).reshape(*array.shape, 2)
-    if np.isfinite(doubles).all():
-        return doubles.tolist()
-    return np.where(np.isfinite(doubles), doubles.astype(object), None).tolist()
 
 
 def component_document(component: WitnessSet, variables: Sequence[str]) -> dict[str, Any]:
@@ -132,36 +119,9 @@ def document(decomposition: Decomposition, origin: Origin | None = None) -> dict
             "at_infinity": decomposition.paths.at_infinity,
         },
         "order": [int(i) for i in decomposition.order],
-        "system": {
-            "variables": list(system.variables),
-            "polynomials": system.text(),
-            "nonzero": [f.text(system.variables) for f in system.nonzero],
-            "groups": [[system.variables[i] for i in group] for group in system.groups],
-            "exact": system.exact,
-        },
+        "system": system_document(system),
         "components": [component_document(c, system.variables) for c in decomposition.components],
     }
-
-
-def _depth(value: Any) -> float:
-    """Nesting depth of lists; infinite if there is an object inside."""
-    if isinstance(value, dict):
-        return math.inf
-    return 1 + max(map(_depth, value), default=0) if isinstance(value, list) else 0
-
-
-def lay_out(value: Any, indent: str = "") -> str:
-    """JSON text with one line for each key, and one line for each point."""
-    deeper = indent + "  "
-    if isinstance(value, dict) and value:
-        parts = [f"{json.dumps(k)}: {lay_out(v, deeper)}" for k, v in value.items()]
-        left, right = "{}"
-    elif isinstance(value, list) and (_depth(value) > 2 or any(isinstance(v, str) for v in value)):
-        parts = [lay_out(v, deeper) for v in value]
-        left, right = "[]"
-    else:
-        return json.dumps(value, allow_nan=False)
-    return f"{left}\n{deeper}" + f",\n{deeper}".join(parts) + f"\n{indent}{right}"
 
 
 def export_text(decomposition: Decomposition, origin: Origin | None = None) -> str:
@@ -246,47 +206,13 @@ def _images(
     return tuple(found)
 
 
-def _polynomials(value: Any, variables: Sequence[str], place: str) -> list[Polynomial]:
-    found = []
-    for i, text in enumerate(as_texts(value, place)):
-        try:
-            found.append(parse_polynomial(text, variables))
-        except ValueError as error:
-            raise ExportError(f"{place}[{i}]: {error}") from None
-    return found
-
-
-def _system(value: Any, place: str) -> PolynomialSystem:
-    table = as_table(value, place)
-    variables = as_texts(entry(table, "variables", place), f"{place}.variables")
-    index = {name: i for i, name in enumerate(variables)}
-    groups = []
-    for i, names in enumerate(as_list(entry(table, "groups", place), f"{place}.groups")):
-        here = f"{place}.groups[{i}]"
-        if unknown := [name for name in as_texts(names, here) if name not in index]:
-            raise ExportError(f"{here}: {unknown[0]!r} is not one of the variables")
-        groups.append([index[name] for name in names])
-    parts = {
-        key: _polynomials(entry(table, key, place), variables, f"{place}.{key}")
-        for key in ("polynomials", "nonzero")
-    }
-    try:
-        return PolynomialSystem(variables, parts["polynomials"], parts["nonzero"], groups)
-    except ValueError as error:
-        raise ExportError(f"{place}: {error}") from None
-
-
 def _export(value: Any) -> Export:
-    table = as_table(value, "the file")
-    if table.get("format") != FORMAT:
-        raise wrong("format", f'"{FORMAT}"')
-    if table.get("version") != VERSION:
-        raise wrong("version", f"{VERSION}, the version that this program reads")
+    table = as_document(value, FORMAT, VERSION)
 
     def get(key: str, convert: Any) -> Any:
         return convert(entry(table, key, "the file"), key)
 
-    system = get("system", _system)
+    system = get("system", as_system)
     paths = get("paths", as_table)
     order = [as_count(v, f"order[{i}]") for i, v in enumerate(get("order", as_list))]
     components = [
@@ -314,31 +240,13 @@ def _export(value: Any) -> Export:
     return Export(decomposition, Origin(**known, **{k: as_text(v, k) for k, v in model.items()}))
 
 
-def _refuse_constant(name: str) -> float:
-    raise ValueError(f"{name} is not a JSON number")
-
-
 def read_export(path: str | os.PathLike[str]) -> Export:
     """Read a file that `write_decomposition` wrote: the decomposition and where it came from.
 
     Raises:
         ExportError: if the file cannot be read or is not an export.
     """
-    file = Path(path)
-    try:
-        if not file.is_file():
-            raise ExportError("is not a file" if file.exists() else "there is no such file")
-        if file.stat().st_size > LARGEST_FILE:
-            raise ExportError(f"is larger than {LARGEST_FILE // 1024**2} MB")
-        return _export(json.loads(file.read_bytes(), parse_constant=_refuse_constant))
-    except ExportError as error:
-        raise ExportError(f"{file}: {error}") from None
-    except OSError as error:
-        raise ExportError(f"{file}: cannot be read: {error.strerror or error}") from None
-    except RecursionError:
-        raise ExportError(f"{file}: is not an export: lists are nested too deep") from None
-    except ValueError as error:
-        raise ExportError(f"{file}: is not JSON: {error}") from None
+    return read_file(path, _export)
 
 
 def read_decomposition(path: str | os.PathLike[str]) -> Decomposition:

@@ -6,11 +6,21 @@ raises `ExportError` with the place and what it must be.
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Mapping
-from typing import Any
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
+
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+
+LARGEST_FILE = 256 * 1024**2
+T = TypeVar("T")
 
 
 class ExportError(ValueError):
@@ -87,3 +97,70 @@ def as_matrix(value: Any, columns: int, place: str) -> np.ndarray:
         if len(row) != columns:
             raise wrong(f"{place}[{i}]", f"of length {columns}, one entry for each variable")
     return np.array(rows, dtype=complex).reshape(len(rows), columns)
+
+
+def _polynomials(value: Any, variables: Sequence[str], place: str) -> list[Polynomial]:
+    found = []
+    for i, text in enumerate(as_texts(value, place)):
+        try:
+            found.append(parse_polynomial(text, variables))
+        except ValueError as error:
+            raise ExportError(f"{place}[{i}]: {error}") from None
+    return found
+
+
+def as_system(value: Any, place: str) -> PolynomialSystem:
+    table = as_table(value, place)
+    variables = as_texts(entry(table, "variables", place), f"{place}.variables")
+    index = {name: i for i, name in enumerate(variables)}
+    groups = []
+    for i, names in enumerate(as_list(entry(table, "groups", place), f"{place}.groups")):
+        here = f"{place}.groups[{i}]"
+        if unknown := [name for name in as_texts(names, here) if name not in index]:
+            raise ExportError(f"{here}: {unknown[0]!r} is not one of the variables")
+        groups.append([index[name] for name in names])
+    parts = {
+        key: _polynomials(entry(table, key, place), variables, f"{place}.{key}")
+        for key in ("polynomials", "nonzero")
+    }
+    try:
+        return PolynomialSystem(variables, parts["polynomials"], parts["nonzero"], groups)
+    except ValueError as error:
+        raise ExportError(f"{place}: {error}") from None
+
+
+def as_document(value: Any, name: str, version: int) -> dict[str, Any]:
+    """The whole document, of the format and version given."""
+    table = as_table(value, "the file")
+    if table.get("format") != name:
+        raise wrong("format", f'"{name}"')
+    if table.get("version") != version:
+        raise wrong("version", f"{version}, the version that this program reads")
+    return table
+
+
+def _refuse_constant(name: str) -> float:
+    raise ValueError(f"{name} is not a JSON number")
+
+
+def read_file(path: str | os.PathLike[str], convert: Callable[[Any], T]) -> T:
+    """What ``convert`` makes of the JSON document in a file.
+
+    Raises:
+        ExportError: if the file cannot be read, or is not such a document.
+    """
+    file = Path(path)
+    try:
+        if not file.is_file():
+            raise ExportError("is not a file" if file.exists() else "there is no such file")
+        if file.stat().st_size > LARGEST_FILE:
+            raise ExportError(f"is larger than {LARGEST_FILE // 1024**2} MB")
+        return convert(json.loads(file.read_bytes(), parse_constant=_refuse_constant))
+    except ExportError as error:
+        raise ExportError(f"{file}: {error}") from None
+    except OSError as error:
+        raise ExportError(f"{file}: cannot be read: {error.strerror or error}") from None
+    except RecursionError:
+        raise ExportError(f"{file}: is not an export: lists are nested too deep") from None
+    except ValueError as error:
+        raise ExportError(f"{file}: is not JSON: {error}") from None

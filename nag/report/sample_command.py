@@ -79,7 +79,7 @@ def run(options: argparse.Namespace, source: Source | None) -> tuple[list[str], 
     # A point of a component needs no other component to be known.
     complete = str(component.status) == "irreducible" and not doubt
     if options.json is not None:
-        from nag.report.export import pairs
+        from nag.report.json_text import pairs
 
         document = head(found, FORMAT, options) | {
             "complete": complete,

@@ -206,7 +206,7 @@ def write_document(document: dict[str, Any], target: str) -> None:
     Raises:
         WitnessInputError: if the file cannot be written.
     """
-    from nag.report.export import lay_out
+    from nag.report.json_text import lay_out
     from nag.report.target import TargetError, write_target
 
     try:
