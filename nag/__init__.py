@@ -6,7 +6,7 @@ from typing import Any
 __version__ = "0.1.0"
 
 # Public names by the module that defines them. They are imported on first use, so that
-# `import nag` and `nag --help` load neither numpy nor numba.
+# `import nag` and `nag --help` load neither numpy nor llvmlite.
 _HOME = {
     "Case": "nag.cases",
     "CaseError": "nag.cases",

@@ -1,7 +1,7 @@
 """The command ``nag``.
 
 Exit status: 0 for a complete answer, 1 for an incomplete one, 2 for bad input (one line on
-standard error), 130 after Ctrl-C. Modules that load numpy or numba are imported by the commands
+standard error), 130 after Ctrl-C. Modules that load numpy or llvmlite are imported by the commands
 that need them, so that ``nag --help`` answers at once.
 """
 

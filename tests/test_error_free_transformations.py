@@ -1,40 +1,43 @@
 """The double-double arithmetic of the kernels against exact fractions."""
 
 from fractions import Fraction
+from typing import NamedTuple
 
-import numba
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nag.algebra.number import square_root
-from nag.tracking.lanes import aligned, load, pointer, store
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.lanes import aligned, load, store
+from nag.machine_code.records import Reals
 from nag.tracking.precision import add, multiply, split, two_product, two_sum
 
 
-@numba.njit
-def _run(a, b, result):
+class Pairs(NamedTuple):
+    a: Reals
+    b: Reals
+    result: Reals
+
+
+def all_operations(p: Pairs) -> None:
     """Results of all four operations on eight pairs of double-doubles."""
-    pa, pb, pr = pointer(a), pointer(b), pointer(result)
-    ah, al, bh, bl = load(pa, 0), load(pa, 1), load(pb, 0), load(pb, 1)
+    ah, al, bh, bl = load(p.a, 0), load(p.a, 1), load(p.b, 0), load(p.b, 1)
     h, low = two_sum(ah, bh)
-    store(pr, 0, h)
-    store(pr, 1, low)
+    store(p.result, 0, h)
+    store(p.result, 1, low)
     h, low = two_product(ah, bh)
-    store(pr, 2, h)
-    store(pr, 3, low)
+    store(p.result, 2, h)
+    store(p.result, 3, low)
     h, low = add(ah, al, bh, bl)
-    store(pr, 4, h)
-    store(pr, 5, low)
+    store(p.result, 4, h)
+    store(p.result, 5, low)
     h, low = multiply(ah, al, bh, bl)
-    store(pr, 6, h)
-    store(pr, 7, low)
+    store(p.result, 6, h)
+    store(p.result, 7, low)
 
 
-@pytest.fixture(scope="module")
-def arrays():
-    return aligned(2), aligned(2), aligned(8)
+_run = Kernel(all_operations, None)
 
 
 moderate = st.floats(min_value=-1e100, max_value=1e100).filter(lambda v: v == 0 or abs(v) > 1e-100)
@@ -48,7 +51,7 @@ def test_transformations_lose_nothing_and_operations_keep_32_digits(pairs):
     for lane, (x, dx, y, dy) in enumerate(pairs):
         a[lane], b[lane] = x, y
         a[8 + lane], b[8 + lane] = dx * np.spacing(abs(x)), dy * np.spacing(abs(y))
-    _run(a, b, result)
+    _run(Pairs(a, b, result))
     exact = [Fraction(v) for v in result]
     for lane in range(8):
         x, y = Fraction(a[lane]), Fraction(b[lane])

@@ -1,20 +1,34 @@
 """Linear algebra in lanes against NumPy."""
 
-import numba
+from typing import NamedTuple
+
 import numpy as np
 
-from nag.tracking.lanes import aligned, pointer
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.lanes import aligned
+from nag.machine_code.records import Reals
 from nag.tracking.linear_algebra import factorize, substitute, substitute_adjoint
 
 
-@numba.njit
-def _solve(n, ar, ai, pivots, br, bi, adjoint):
-    a, b, p, x, y = pointer(ar), pointer(ai), pointer(pivots), pointer(br), pointer(bi)
-    factorize(n, a, b, p)
-    if adjoint:
-        substitute_adjoint(n, a, b, p, x, y)
+class Equations(NamedTuple):
+    n: int
+    ar: Reals
+    ai: Reals
+    pivots: Reals
+    br: Reals
+    bi: Reals
+    adjoint: bool
+
+
+def solve(e: Equations) -> None:
+    factorize(e.n, e.ar, e.ai, e.pivots)
+    if e.adjoint:
+        substitute_adjoint(e.n, e.ar, e.ai, e.pivots, e.br, e.bi)
     else:
-        substitute(n, a, b, p, x, y)
+        substitute(e.n, e.ar, e.ai, e.pivots, e.br, e.bi)
+
+
+_solve = Kernel(solve, None)
 
 
 def _in_lanes(array):
@@ -29,7 +43,7 @@ def _solutions(matrices, right, adjoint):
     n = right.shape[1]
     ar, ai = _in_lanes(matrices)
     br, bi = _in_lanes(right)
-    _solve(n, ar, ai, aligned(n), br, bi, adjoint)
+    _solve(Equations(n, ar, ai, aligned(n), br, bi, adjoint))
     return (br + 1j * bi).reshape(n, 8).T
 
 

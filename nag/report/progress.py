@@ -59,29 +59,24 @@ def progress_line(stream: TextIO, quiet: bool = False) -> Iterator[Progress | No
 
 @contextlib.contextmanager
 def compilation_notice(stream: TextIO, quiet: bool = False) -> Iterator[None]:
-    """Say so on ``stream``, once, when numba compiles anything inside the block.
+    """Say so on ``stream``, once, when a kernel is compiled inside the block.
 
-    Kernels that come out of numba's cache raise no such event, so the line appears only when
-    there is a wait.
+    Kernels that are loaded from the cache are not compiled, so the line appears only when there is
+    a wait.
     """
     if quiet:
         yield
         return
-    from numba.core import event
+    from nag.machine_code.kernel import compilations
 
-    class Notice(event.Listener):
-        def __init__(self) -> None:
-            self.given = False
+    given: list[str] = []
 
-        def on_start(self, event: event.Event) -> None:
-            if not self.given:
-                self.given = True
-                start = _ERASE if stream.isatty() else ""
-                stream.write(f"{start}compiling the tracker, once; this takes a while ...\n")
-                stream.flush()
+    def notice(name: str) -> None:
+        if not given:
+            start = _ERASE if stream.isatty() else ""
+            stream.write(f"{start}compiling the tracker, once; this takes a while ...\n")
+            stream.flush()
+        given.append(name)
 
-        def on_end(self, event: event.Event) -> None:
-            pass
-
-    with event.install_listener("numba:compile", Notice()):
+    with compilations(notice):
         yield

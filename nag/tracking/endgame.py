@@ -9,12 +9,11 @@ judgement of convergence by the Fourier modes of negative order is explained at 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numba
 import numpy as np
 
-from nag.tracking.lanes import pointer
+from nag.machine_code.records import Complexes, Reals, Wholes
 
 MAIN, SHORTCUT, LOOP, SHRINK = 0, 1, 2, 3
 # Outcomes of a path.
@@ -26,7 +25,7 @@ NO_REASON, STEP_SIZE, STEPS, START, ENDGAME, NOT_FINITE = 0, 1, 2, 3, 4, 5
 class Endgame(NamedTuple):
     """State of the endgame for the eight paths of a batch, and its settings.
 
-    The arrays (or pointers, see `bare_endgame`) are flat, the lane is the slowest index: scalar
+    The arrays are flat, the lane is the slowest index: scalar
     ``X`` of a lane is ``real[REALS * lane + X]`` or ``whole[WHOLES * lane + X]``, coordinate ``j``
     of its points is ``best[N * lane + j]``.
 
@@ -36,14 +35,14 @@ class Endgame(NamedTuple):
     constants.
     """
 
-    samples: Any
-    patch: Any
-    best: Any
-    saved: Any
-    mean: Any
-    turn: Any
-    real: Any
-    whole: Any
+    samples: Complexes
+    patch: Complexes
+    best: Complexes
+    saved: Complexes
+    mean: Complexes
+    turn: Complexes
+    real: Reals
+    whole: Wholes
     exponent: int
     active: bool
     shortcut: bool
@@ -105,40 +104,15 @@ def endgame_state(
     )
 
 
-@numba.njit(nogil=True)
-def bare_endgame(e):
-    """The same state with pointers for arrays."""
-    return Endgame(
-        pointer(e.samples),
-        pointer(e.patch),
-        pointer(e.best),
-        pointer(e.saved),
-        pointer(e.mean),
-        pointer(e.turn),
-        pointer(e.real),
-        pointer(e.whole),
-        e.exponent,
-        e.active,
-        e.shortcut,
-        e.radius,
-        e.per_loop,
-        e.max_winding,
-        e.levels,
-    )
-
-
-@numba.njit(nogil=True)
 def _at(s, e, lane, k):
     return (lane * (e.per_loop * e.max_winding + 1) + k) * s.N
 
 
-@numba.njit(nogil=True)
 def _keep(s, target, lane, x):
     for j in range(s.N):
         target[s.N * lane + j] = x[j]
 
 
-@numba.njit(nogil=True)
 def _aim(e, lane):
     radius = e.real[REALS * lane + RADIUS]
     angle = e.real[REALS * lane + ANGLE]
@@ -148,7 +122,6 @@ def _aim(e, lane):
     e.real[REALS * lane + NEXT_IM] = t.imag
 
 
-@numba.njit(nogil=True)
 def begin(e, lane):
     """Phase and first target of a path that starts at t = 1."""
     for k in range(WHOLES):
@@ -163,7 +136,6 @@ def begin(e, lane):
         _aim(e, lane)
 
 
-@numba.njit(nogil=True)
 def _begin_loop(s, e, lane, x):
     e.whole[WHOLES * lane + PHASE] = LOOP
     e.whole[WHOLES * lane + SAMPLE] = 0
@@ -178,7 +150,6 @@ def _begin_loop(s, e, lane, x):
                 e.patch[s.N * lane + j] = x[j].conjugate() / total if j < last else 0.0
 
 
-@numba.njit(nogil=True)
 def _keep_sample(s, e, lane, x):
     k = e.whole[WHOLES * lane + SAMPLE]
     for g in range(s.groups):
@@ -196,7 +167,6 @@ def _keep_sample(s, e, lane, x):
     _aim(e, lane)
 
 
-@numba.njit(nogil=True)
 def _closed(s, e, lane, last):
     """Whether sample ``last`` is the first one again."""
     distance = 0.0
@@ -212,7 +182,6 @@ def _closed(s, e, lane, last):
     return distance <= max(20.0 * e.real[REALS * lane + NOISE], 1e-6 * spread)
 
 
-@numba.njit(nogil=True)
 def _analyze(s, e, lane, count):
     """Sizes of the samples' modes of negative and positive order; their mean into ``e.mean``.
 
@@ -248,7 +217,6 @@ def _analyze(s, e, lane, count):
     return math.sqrt(negative), math.sqrt(max(total - negative, 0.0))
 
 
-@numba.njit(nogil=True)
 def _shrink(e, lane):
     e.whole[WHOLES * lane + LEVEL] += 1
     if e.whole[WHOLES * lane + LEVEL] >= e.levels:
@@ -259,7 +227,6 @@ def _shrink(e, lane):
     return True
 
 
-@numba.njit(nogil=True)
 def give_up(e, lane):
     """Outcome of a path that cannot go on: its best estimate, if one was judged converged."""
     if e.real[REALS * lane + BEST_ERROR] < 1e-6:
@@ -267,7 +234,6 @@ def give_up(e, lane):
     return FAILED
 
 
-@numba.njit(nogil=True)
 def arrived(s, e, lane, x, noise, hint, radius, t):
     """A lane arrived at its target.
 
@@ -364,7 +330,6 @@ def arrived(s, e, lane, x, noise, hint, radius, t):
     return 10 + give_up(e, lane)
 
 
-@numba.njit(nogil=True)
 def retreat(s, e, lane, reached):
     """Give the shortcut up and go back to where it began.
 

@@ -7,12 +7,14 @@ predictor is a cubic Hermite polynomial through the last two points, in doubles.
 
 from __future__ import annotations
 
+import math
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.endgame import (
     BEST_ERROR,
@@ -25,13 +27,13 @@ from nag.tracking.endgame import (
     STEP_SIZE,
     STEPS,
     WINDING,
+    Endgame,
     arrived,
     begin,
     endgame_state,
     give_up,
 )
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.kernel_cache import Kernel
 from nag.tracking.precision import split
 
 # Largest first Newton correction after a prediction, and the size at which corrections stop.
@@ -43,27 +45,72 @@ _SPLITTER = 134217729.0
 
 
 class Extended(NamedTuple):
-    """A homotopy with double-double coefficients, shape ``(.., 4)``: re, re low, im, im low."""
+    """A homotopy with double-double coefficients, four doubles each: re, re low, im, im low.
+
+    See `nag.tracking.compiled.Tape`; the numbers say how long the arrays are.
+    """
 
     N: int
     rows: int
+    linear: int
     groups: int
-    group_of: Any
-    first: Any
-    second: Any
-    value_place: Any
-    value_part: Any
-    value_start: Any
-    value_slot: Any
-    value: Any
-    jacobian_place: Any
-    jacobian_part: Any
-    jacobian_start: Any
-    jacobian_slot: Any
-    jacobian: Any
-    factors: Any
-    A0: Any
-    A1: Any
+    products: int
+    value_blocks: int
+    jacobian_blocks: int
+    group_of: Wholes
+    first: Wholes
+    second: Wholes
+    value_place: Wholes
+    value_part: Wholes
+    value_start: Wholes
+    value_slot: Wholes
+    value: Reals
+    jacobian_place: Wholes
+    jacobian_part: Wholes
+    jacobian_start: Wholes
+    jacobian_slot: Wholes
+    jacobian: Reals
+    factors: Complexes
+    A0: Complexes
+    A1: Complexes
+
+
+class ExtendedWork(NamedTuple):
+    """Scratch of one path; double-doubles are four doubles each, see `Extended`.
+
+    ``x, y``: points. ``patch``: linear forms that normalise them. ``slots``: of the last point.
+    ``lines``: linear rows at t. ``m``: Jacobian, then its factors. ``b``: values, then solutions.
+    ``slope, old, old_slope, here``: tangents and points in doubles.
+    """
+
+    x: Reals
+    y: Reals
+    patch: Reals
+    slots: Reals
+    lines: Reals
+    m: Reals
+    b: Reals
+    pivots: Wholes
+    slope: Complexes
+    old: Complexes
+    old_slope: Complexes
+    here: Complexes
+
+
+class ExtendedBatch(NamedTuple):
+    """Paths to be tracked and where their results go, see `nag.tracking.kernel.Batch`."""
+
+    starts: Complexes
+    count: int
+    first: int
+    stride: int
+    max_steps: int
+    points: Complexes
+    outcome: Wholes
+    winding: Wholes
+    error: Reals
+    steps: Wholes
+    reason: Wholes
 
 
 def _quads(pairs: list[tuple[complex, complex]]) -> np.ndarray:
@@ -95,7 +142,11 @@ def extended_system(homotopy: Homotopy) -> Extended:
     return Extended(
         homotopy.N,
         len(homotopy.rows),
+        len(homotopy.A0),
         len(homotopy.groups),
+        len(tape.first),
+        len(tape.value_place),
+        len(tape.jacobian_place),
         homotopy.group_of,
         tape.first,
         tape.second,
@@ -115,7 +166,17 @@ def extended_system(homotopy: Homotopy) -> Extended:
     )
 
 
-@numba.njit(nogil=True)
+def _extended_work(homotopy: Homotopy) -> ExtendedWork:
+    N = homotopy.N
+    slots = N + 1 + len(homotopy.rows.tape.first)
+    sizes = [N, N, N, slots, len(homotopy.A0) * N, N * N, N]
+    return ExtendedWork(
+        *(np.zeros(4 * size) for size in sizes),
+        np.zeros(N, dtype=np.int64),
+        *(np.zeros(N, dtype=np.complex128) for _ in range(4)),
+    )
+
+
 def _sum(ah, al, bh, bl):
     s = ah + bh
     v = s - ah
@@ -124,7 +185,6 @@ def _sum(ah, al, bh, bl):
     return h, e - (h - s)
 
 
-@numba.njit(nogil=True)
 def _product(ah, al, bh, bl):
     p = ah * bh
     t = _SPLITTER * ah
@@ -138,101 +198,118 @@ def _product(ah, al, bh, bl):
     return h, e - (h - p)
 
 
-@numba.njit(nogil=True)
-def _times(a, b, out):
-    """``out = a b``, complex double-doubles in arrays of four."""
+def _times(a, b):
+    """Product of complex double-doubles."""
     ph, pl = _product(a[0], a[1], b[0], b[1])
     qh, ql = _product(a[2], a[3], b[2], b[3])
     rh, rl = _product(a[0], a[1], b[2], b[3])
     sh, sl = _product(a[2], a[3], b[0], b[1])
-    out[0], out[1] = _sum(ph, pl, -qh, -ql)
-    out[2], out[3] = _sum(rh, rl, sh, sl)
+    re, re_low = _sum(ph, pl, -qh, -ql)
+    im, im_low = _sum(rh, rl, sh, sl)
+    return re, re_low, im, im_low
 
 
-@numba.njit(nogil=True)
-def _accumulate(total, a, sign):
-    total[0], total[1] = _sum(total[0], total[1], sign * a[0], sign * a[1])
-    total[2], total[3] = _sum(total[2], total[3], sign * a[2], sign * a[3])
+def _plus(a, b):
+    re, re_low = _sum(a[0], a[1], b[0], b[1])
+    im, im_low = _sum(a[2], a[3], b[2], b[3])
+    return re, re_low, im, im_low
 
 
-@numba.njit(nogil=True)
-def _slots(s, x, slots):
+def _minus(a, b):
+    re, re_low = _sum(a[0], a[1], -b[0], -b[1])
+    im, im_low = _sum(a[2], a[3], -b[2], -b[3])
+    return re, re_low, im, im_low
+
+
+def _at(data, k):
+    """Complex double-double ``k`` of an array."""
+    return data[4 * k], data[4 * k + 1], data[4 * k + 2], data[4 * k + 3]
+
+
+def _put(data, k, a):
+    data[4 * k] = a[0]
+    data[4 * k + 1] = a[1]
+    data[4 * k + 2] = a[2]
+    data[4 * k + 3] = a[3]
+
+
+def _exact(z):
+    return z.real, 0.0, z.imag, 0.0
+
+
+def _add_product(data, k, a, b):
+    _put(data, k, _plus(_at(data, k), _times(a, b)))
+
+
+def _subtract_product(data, k, a, b):
+    _put(data, k, _minus(_at(data, k), _times(a, b)))
+
+
+def _clear(data, count):
+    for k in range(4 * count):
+        data[k] = 0.0
+
+
+def _fill_slots(s, w, x):
     n = s.N
-    slots[:n] = x
-    slots[n] = 0.0
-    slots[n, 0] = 1.0
-    for k in range(len(s.first)):
-        _times(slots[s.first[k]], slots[s.second[k]], slots[n + 1 + k])
+    for j in range(4 * n):
+        w.slots[j] = x[j]
+    _put(w.slots, n, (1.0, 0.0, 0.0, 0.0))
+    for k in range(s.products):
+        _put(w.slots, n + 1 + k, _times(_at(w.slots, s.first[k]), _at(w.slots, s.second[k])))
 
 
-@numba.njit(nogil=True)
-def _blocks(slots, place, part, start, slot, coefficient, factors, t, out):
-    work = np.zeros(4)
-    total = np.zeros(4)
-    factor = np.zeros(4)
-    for b in range(len(place)):
-        total[:] = 0.0
+def _blocks(w, count, place, part, start, slot, coefficient, factors, t, out):
+    for b in range(count):
+        total = 0.0, 0.0, 0.0, 0.0
         for q in range(start[b], start[b + 1]):
-            _times(coefficient[q], slots[slot[q]], work)
-            _accumulate(total, work, 1.0)
-        f = factors[part[b], 0] + t * factors[part[b], 1]
+            total = _plus(total, _times(_at(coefficient, q), _at(w.slots, slot[q])))
+        f = factors[2 * part[b]] + t * factors[2 * part[b] + 1]
         if f != 1.0:
-            factor[0] = f.real
-            factor[2] = f.imag
-            _times(factor, total, work)
-            total[:] = work
-        _accumulate(out[place[b]], total, 1.0)
+            total = _times(_exact(f), total)
+        _put(out, place[b], _plus(_at(out, place[b]), total))
 
 
-@numba.njit(nogil=True)
-def _rows_at(s, t, rows):
+def _rows_at(s, w, t):
     """Linear rows at t as double-doubles: t A1 is not rounded."""
-    one = np.zeros(4)
-    two = np.zeros(4)
-    out = np.zeros(4)
-    one[0] = t.real
-    one[2] = t.imag
-    for k in range(len(s.A0)):
-        for j in range(s.N):
-            two[0] = s.A1[k, j].real
-            two[2] = s.A1[k, j].imag
-            _times(one, two, out)
-            two[0] = s.A0[k, j].real
-            two[2] = s.A0[k, j].imag
-            _accumulate(out, two, 1.0)
-            rows[k, j] = out
+    for k in range(s.linear * s.N):
+        _put(w.lines, k, _plus(_times(_exact(t), _exact(s.A1[k])), _exact(s.A0[k])))
 
 
-@numba.njit(nogil=True)
-def _values(s, x, t, rows, patch, slots, out):
+def _values(s, w, x, t):
     """Values of all rows; patches are ``patch x - 1``."""
     n = s.N
-    work = np.zeros(4)
-    _slots(s, x, slots)
-    out[:] = 0.0
+    _fill_slots(s, w, x)
+    _clear(w.b, n)
     _blocks(
-        slots, s.value_place, s.value_part, s.value_start, s.value_slot, s.value, s.factors, t, out
+        w,
+        s.value_blocks,
+        s.value_place,
+        s.value_part,
+        s.value_start,
+        s.value_slot,
+        s.value,
+        s.factors,
+        t,
+        w.b,
     )
-    for k in range(len(s.A0)):
+    for k in range(s.linear):
         for j in range(n):
-            _times(rows[k, j], x[j], work)
-            _accumulate(out[s.rows + k], work, 1.0)
-    first = s.rows + len(s.A0)
+            _add_product(w.b, s.rows + k, _at(w.lines, n * k + j), _at(x, j))
+    first = s.rows + s.linear
     for g in range(s.groups):
-        out[first + g, 0] = -1.0
+        w.b[4 * (first + g)] = -1.0
     for j in range(n):
-        _times(patch[j], x[j], work)
-        _accumulate(out[first + s.group_of[j]], work, 1.0)
+        _add_product(w.b, first + s.group_of[j], _at(w.patch, j), _at(x, j))
 
 
-@numba.njit(nogil=True)
-def _jacobian(s, t, rows, patch, slots, out):
+def _jacobian(s, w, t):
     """Jacobian of all rows, from the slots of the last `_values`."""
     n = s.N
-    out[:] = 0.0
-    flat = out.reshape(n * n, 4)
+    _clear(w.m, n * n)
     _blocks(
-        slots,
+        w,
+        s.jacobian_blocks,
         s.jacobian_place,
         s.jacobian_part,
         s.jacobian_start,
@@ -240,42 +317,31 @@ def _jacobian(s, t, rows, patch, slots, out):
         s.jacobian,
         s.factors,
         t,
-        flat,
+        w.m,
     )
-    for k in range(len(s.A0)):
-        out[s.rows + k] = rows[k]
-    first = s.rows + len(s.A0)
+    for k in range(s.linear * n):
+        _put(w.m, s.rows * n + k, _at(w.lines, k))
+    first = s.rows + s.linear
     for j in range(n):
-        out[first + s.group_of[j], j] = patch[j]
+        _put(w.m, (first + s.group_of[j]) * n + j, _at(w.patch, j))
 
 
-@numba.njit(nogil=True)
-def _inverse(a, out):
-    """``out = 1 / a`` by one Newton step from the inverse in doubles."""
+def _inverse(a):
+    """``1 / a`` by one Newton step from the inverse in doubles."""
     z = 1.0 / complex(a[0], a[2])
-    out[:] = 0.0
-    out[0] = z.real
-    out[2] = z.imag
-    work = np.zeros(4)
-    again = np.zeros(4)
-    _times(a, out, work)
-    work[:] = -work
-    work[0], work[1] = _sum(2.0, 0.0, work[0], work[1])
-    _times(out, work, again)
-    out[:] = again
+    rough = _exact(z)
+    product = _times(a, rough)
+    re, re_low = _sum(2.0, 0.0, -product[0], -product[1])
+    return _times(rough, (re, re_low, -product[2], -product[3]))
 
 
-@numba.njit(nogil=True)
-def _factorize(m, pivots):
+def _factorize(n, m, pivots):
     """LU factors in place, rows exchanged; the diagonal holds inverse pivots."""
-    n = len(pivots)
-    work = np.zeros(4)
-    inverse = np.zeros(4)
     for k in range(n):
         best = -1.0
         row = k
         for i in range(k, n):
-            size = m[i, k, 0] ** 2 + m[i, k, 2] ** 2
+            size = m[4 * (n * i + k)] ** 2 + m[4 * (n * i + k) + 2] ** 2
             if size > best:
                 best = size
                 row = i
@@ -283,169 +349,154 @@ def _factorize(m, pivots):
             return False
         pivots[k] = row
         if row != k:
-            for j in range(n):
-                for c in range(4):
-                    m[k, j, c], m[row, j, c] = m[row, j, c], m[k, j, c]
-        _inverse(m[k, k], inverse)
-        m[k, k] = inverse
+            for c in range(4 * n):
+                m[4 * n * k + c], m[4 * n * row + c] = m[4 * n * row + c], m[4 * n * k + c]
+        inverse = _inverse(_at(m, n * k + k))
+        _put(m, n * k + k, inverse)
         for i in range(k + 1, n):
-            if m[i, k, 0] == 0.0 and m[i, k, 2] == 0.0:
+            if m[4 * (n * i + k)] == 0.0 and m[4 * (n * i + k) + 2] == 0.0:
                 continue
-            _times(m[i, k], inverse, work)
-            m[i, k] = work
+            factor = _times(_at(m, n * i + k), inverse)
+            _put(m, n * i + k, factor)
             for j in range(k + 1, n):
-                _times(m[i, k], m[k, j], work)
-                _accumulate(m[i, j], work, -1.0)
+                _subtract_product(m, n * i + j, factor, _at(m, n * k + j))
     return True
 
 
-@numba.njit(nogil=True)
-def _substitute(m, pivots, b):
-    n = len(pivots)
-    work = np.zeros(4)
+def _substitute(n, m, pivots, b):
     for k in range(n):
         row = pivots[k]
         if row != k:
             for c in range(4):
-                b[k, c], b[row, c] = b[row, c], b[k, c]
+                b[4 * k + c], b[4 * row + c] = b[4 * row + c], b[4 * k + c]
     for i in range(n):
         for j in range(i):
-            _times(m[i, j], b[j], work)
-            _accumulate(b[i], work, -1.0)
+            _subtract_product(b, i, _at(m, n * i + j), _at(b, j))
     for i in range(n - 1, -1, -1):
         for j in range(i + 1, n):
-            _times(m[i, j], b[j], work)
-            _accumulate(b[i], work, -1.0)
-        _times(b[i], m[i, i], work)
-        b[i] = work
+            _subtract_product(b, i, _at(m, n * i + j), _at(b, j))
+        _put(b, i, _times(_at(b, i), _at(m, n * i + i)))
 
 
-@numba.njit(nogil=True)
-def _norm(b):
+def _norm(n, b):
     total = 0.0
-    for j in range(len(b)):
-        total += b[j, 0] ** 2 + b[j, 2] ** 2
+    for j in range(n):
+        total += b[4 * j] ** 2 + b[4 * j + 2] ** 2
     return total**0.5
 
 
-@numba.njit(nogil=True)
-def _patch(s, x, patch):
-    patch[:] = 0.0
+def _lay_patch(s, w, x):
+    _clear(w.patch, s.N)
     for g in range(s.groups):
         total = 0.0
         for j in range(s.N):
             if s.group_of[j] == g:
-                total += x[j, 0] ** 2 + x[j, 2] ** 2
+                total += x[4 * j] ** 2 + x[4 * j + 2] ** 2
         for j in range(s.N):
             if s.group_of[j] == g:
-                patch[j, 0] = x[j, 0] / total
-                patch[j, 2] = -x[j, 2] / total
+                w.patch[4 * j] = x[4 * j] / total
+                w.patch[4 * j + 2] = -x[4 * j + 2] / total
 
 
-@numba.njit(nogil=True)
 def _normalize(s, x):
     """Scale each group to about unit norm, by a power of two: nothing is rounded."""
     for g in range(s.groups):
         total = 0.0
         for j in range(s.N):
             if s.group_of[j] == g:
-                total += x[j, 0] ** 2 + x[j, 2] ** 2
-        scale = 2.0 ** np.round(-0.5 * np.log2(total))
+                total += x[4 * j] ** 2 + x[4 * j + 2] ** 2
+        scale = 2.0 ** np.rint(-0.5 * math.log2(total))
         for j in range(s.N):
             if s.group_of[j] == g:
                 for c in range(4):
-                    x[j, c] *= scale
+                    x[4 * j + c] *= scale
 
 
-@numba.njit(nogil=True)
-def _tangent(s, x, t, rows, patch, slots, m, pivots, b, out):
+def _tangent(s, w, x, t):
     """Derivative of the path, in doubles; the factors of the Jacobian stay in ``m``."""
     n = s.N
-    _values(s, x, t, rows, patch, slots, b)
-    _jacobian(s, t, rows, patch, slots, m)
-    if not _factorize(m, pivots):
+    _values(s, w, x, t)
+    _jacobian(s, w, t)
+    if not _factorize(n, w.m, w.pivots):
         return False
-    b[:] = 0.0
-    total = np.zeros(4)
-    work = np.zeros(4)
-    factor = np.zeros(4)
-    for block in range(len(s.value_place)):
-        f = s.factors[s.value_part[block], 1]
+    _clear(w.b, n)
+    for block in range(s.value_blocks):
+        f = s.factors[2 * s.value_part[block] + 1]
         if f == 0.0:
             continue
-        total[:] = 0.0
+        total = 0.0, 0.0, 0.0, 0.0
         for q in range(s.value_start[block], s.value_start[block + 1]):
-            _times(s.value[q], slots[s.value_slot[q]], work)
-            _accumulate(total, work, 1.0)
-        factor[0] = f.real
-        factor[2] = f.imag
-        _times(factor, total, work)
-        _accumulate(b[s.value_place[block]], work, -1.0)
-    for k in range(len(s.A0)):
+            total = _plus(total, _times(_at(s.value, q), _at(w.slots, s.value_slot[q])))
+        _subtract_product(w.b, s.value_place[block], _exact(f), total)
+    for k in range(s.linear):
         for j in range(n):
-            factor[0] = s.A1[k, j].real
-            factor[2] = s.A1[k, j].imag
-            _times(factor, x[j], work)
-            _accumulate(b[s.rows + k], work, -1.0)
-    _substitute(m, pivots, b)
+            _subtract_product(w.b, s.rows + k, _exact(s.A1[n * k + j]), _at(x, j))
+    _substitute(n, w.m, w.pivots, w.b)
     for j in range(n):
-        out[j] = complex(b[j, 0], b[j, 2])
+        w.slope[j] = complex(w.b[4 * j], w.b[4 * j + 2])
     return True
 
 
-@numba.njit(nogil=True)
-def _correct(s, x, t, rows, patch, slots, m, pivots, b):
-    """Newton's method with one Jacobian; sizes of the first two corrections, and success."""
-    _values(s, x, t, rows, patch, slots, b)
-    _jacobian(s, t, rows, patch, slots, m)
-    if not _factorize(m, pivots):
-        return 1.0, 1.0, False
+def _correct(s, w, x, t):
+    """Newton's method with one Jacobian; size of the first correction, and success."""
+    n = s.N
+    _values(s, w, x, t)
+    _jacobian(s, w, t)
+    if not _factorize(n, w.m, w.pivots):
+        return 1.0, False
     first = 0.0
     last = 1.0
     for k in range(NEWTON_STEPS):
-        _substitute(m, pivots, b)
-        size = _norm(b)
+        _substitute(n, w.m, w.pivots, w.b)
+        size = _norm(n, w.b)
         if not size < 1e10:
-            return 1.0, 1.0, False
-        for j in range(s.N):
-            _accumulate(x[j], b[j], -1.0)
+            return 1.0, False
+        for j in range(n):
+            _put(x, j, _minus(_at(x, j), _at(w.b, j)))
         if k == 0:
             first = size
             if first > 0.1:
-                return first, size, False
+                return first, False
         elif size > 0.25 * last and size > 1e-20:
-            return first, size, False
+            return first, False
         last = size
         if size < CONVERGED or (k > 0 and size < 1e-20):
-            return first, size, True
-        _values(s, x, t, rows, patch, slots, b)
-    return first, last, last < 1e-16
+            return first, True
+        _values(s, w, x, t)
+    return first, last < 1e-16
 
 
-@numba.njit(nogil=True, cache=True)
-def track_extended_batch(
-    s, e, starts, indices, max_steps, points, outcome, winding, error, steps, reason
-):
-    """Track the paths of ``starts`` at ``indices``; results into the arrays."""
+def _predict(n, w, z, gap, known):
+    """Point ``y`` at t + z by Hermite interpolation, or, if nothing is ``known``, the tangent."""
+    for j in range(n):
+        here = complex(w.x[4 * j], w.x[4 * j + 2])
+        w.here[j] = here
+        slope = w.slope[j]
+        if known:
+            secant = (here - w.old[j]) / gap
+            second = (slope - secant) / gap
+            third = (slope - 2.0 * secant + w.old_slope[j]) / (gap * gap)
+            move = z * (slope + z * (second + (z + gap) * third))
+        else:
+            move = z * slope
+        re, re_low = _sum(w.x[4 * j], w.x[4 * j + 1], move.real, 0.0)
+        im, im_low = _sum(w.x[4 * j + 2], w.x[4 * j + 3], move.imag, 0.0)
+        _put(w.y, j, (re, re_low, im, im_low))
+
+
+def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: ExtendedBatch) -> None:
+    """Track paths ``first, first + stride, ..``; results into the arrays."""
     n = s.N
-    slots = np.zeros((n + 1 + len(s.first), 4))
-    rows = np.zeros((len(s.A0), n, 4))
-    m = np.zeros((n, n, 4))
-    b = np.zeros((n, 4))
-    pivots = np.zeros(n, dtype=np.int64)
-    patch = np.zeros((n, 4))
-    x = np.zeros((n, 4))
-    y = np.zeros((n, 4))
-    slope = np.zeros(n, dtype=np.complex128)
-    old = np.zeros(n, dtype=np.complex128)
-    old_slope = np.zeros(n, dtype=np.complex128)
-    here = np.zeros(n, dtype=np.complex128)
-    for path in indices:
+    max_steps = batch.max_steps
+    outcome = batch.outcome
+    reason = batch.reason
+    steps = batch.steps
+    x = w.x
+    path = batch.first
+    while path < batch.count:
         begin(e, 0)
-        x[:] = 0.0
         for j in range(n):
-            x[j, 0] = starts[path, j].real
-            x[j, 2] = starts[path, j].imag
+            _put(x, j, _exact(batch.starts[n * path + j]))
         t = 1.0 + 0.0j
         goal = complex(e.real[NEXT_RE], e.real[NEXT_IM])
         fresh = True
@@ -458,17 +509,17 @@ def track_extended_batch(
             taken += 1
             if fresh:
                 _normalize(s, x)
-                _patch(s, x, patch)
-                _rows_at(s, t, rows)
-                _, _, good = _correct(s, x, t, rows, patch, slots, m, pivots, b)
-                good = good and _tangent(s, x, t, rows, patch, slots, m, pivots, b, slope)
+                _lay_patch(s, w, x)
+                _rows_at(s, w, t)
+                _first, good = _correct(s, w, x, t)
+                good = good and _tangent(s, w, x, t)
                 if not good:
                     reason[path] = ENDGAME
                     done = 10 + give_up(e, 0)
                     break
                 size = 0.0
                 for j in range(n):
-                    size += abs(slope[j]) ** 2
+                    size += abs(w.slope[j]) ** 2
                 h = min(0.01, 0.01 / (1e-300 + size**0.5)) * max(abs(t), 1e-3)
                 fresh = False
                 known = False
@@ -481,20 +532,9 @@ def track_extended_batch(
                 z = delta / length * min(h, 0.5 * length if h > 0.7 * length else h)
                 following = t + z
                 z = following - t
-            for j in range(n):
-                c = complex(x[j, 0], x[j, 2])
-                here[j] = c
-                if known:
-                    secant = (c - old[j]) / gap
-                    second = (slope[j] - secant) / gap
-                    third = (slope[j] - 2.0 * secant + old_slope[j]) / (gap * gap)
-                    move = z * (slope[j] + z * (second + (z + gap) * third))
-                else:
-                    move = z * slope[j]
-                y[j, 0], y[j, 1] = _sum(x[j, 0], x[j, 1], move.real, 0.0)
-                y[j, 2], y[j, 3] = _sum(x[j, 2], x[j, 3], move.imag, 0.0)
-            _rows_at(s, following, rows)
-            first, _, good = _correct(s, y, following, rows, patch, slots, m, pivots, b)
+            _predict(n, w, z, gap, known)
+            _rows_at(s, w, following)
+            first, good = _correct(s, w, w.y, following)
             if not good or first > TOLERANCE:
                 h = abs(z) * 0.5
                 if good:
@@ -503,12 +543,13 @@ def track_extended_batch(
                     reason[path] = STEP_SIZE if taken <= max_steps else STEPS
                     done = 10 + give_up(e, 0)
                 continue
-            old[:] = here
-            old_slope[:] = slope
+            for j in range(n):
+                w.old[j] = w.here[j]
+                w.old_slope[j] = w.slope[j]
+                _put(x, j, _at(w.y, j))
             gap = z
-            x[:] = y
             t = following
-            good = _tangent(s, x, t, rows, patch, slots, m, pivots, b, slope)
+            good = _tangent(s, w, x, t)
             known = True
             grow = (0.2 * TOLERANCE / max(first, 1e-300)) ** 0.25
             h = abs(z) * min(max(grow, 0.3), 2.5)
@@ -517,18 +558,16 @@ def track_extended_batch(
                 done = 10 + give_up(e, 0)
             elif t == goal:
                 for j in range(n):
-                    here[j] = complex(x[j, 0], x[j, 2])
-                done = arrived(s, e, 0, here, 1e-16, 1.0, 0.0, t)
+                    w.here[j] = complex(x[4 * j], x[4 * j + 2])
+                done = arrived(s, e, 0, w.here, 1e-16, 1.0, 0.0, t)
                 if done == -1:
                     done = 0
-                    x[:] = 0.0
                     for j in range(n):
-                        x[j, 0] = e.saved[j].real
-                        x[j, 2] = e.saved[j].imag
+                        _put(x, j, _exact(e.saved[j]))
                     t = complex(e.real[SAVED_RE], e.real[SAVED_IM])
                     fresh = True
                 goal = complex(e.real[NEXT_RE], e.real[NEXT_IM])
-            size = _norm(x)
+            size = _norm(n, x)
             if size > 4.0 or size < 0.25:
                 fresh = True
         outcome[path] = done - 10
@@ -537,38 +576,18 @@ def track_extended_batch(
             if reason[path] == 0:
                 reason[path] = ENDGAME
             for j in range(n):
-                points[path, j] = complex(x[j, 0], x[j, 2])
-            error[path] = np.inf
+                batch.points[n * path + j] = complex(x[4 * j], x[4 * j + 2])
+            batch.error[path] = np.inf
         else:
             reason[path] = 0
-            points[path] = e.best[:n]
-            winding[path] = e.whole[WINDING]
-            error[path] = e.real[BEST_ERROR]
+            for j in range(n):
+                batch.points[n * path + j] = e.best[j]
+            batch.winding[path] = e.whole[WINDING]
+            batch.error[path] = e.real[BEST_ERROR]
+        path += batch.stride
 
 
-def _example() -> tuple[Any, ...]:
-    from nag.algebra.polynomial import Polynomial
-    from nag.tracking.compiled import compile_rows
-
-    x = Polynomial.variable(1, 0)
-    homotopy = Homotopy(compile_rows([x**2 - 1]))
-    zeros = np.zeros(1, dtype=np.int64)
-    return (
-        extended_system(homotopy),
-        endgame_state(2, 1, True, False, 0.1, 8, 2, 2),
-        np.zeros((1, 2), dtype=np.complex128),
-        zeros,
-        1,
-        np.zeros((1, 2), dtype=np.complex128),
-        zeros,
-        zeros,
-        np.zeros(1),
-        zeros,
-        zeros,
-    )
-
-
-extended_kernel = Kernel(track_extended_batch, _example)
+extended_kernel = Kernel(track_extended_batch, "tracking")
 
 
 def track_extended(
@@ -600,14 +619,15 @@ def track_extended(
     )
     extended_kernel.prepare()
     arrays = extended_system(homotopy)
+    starts = np.ascontiguousarray(starts)
     batches = max(1, min(threads, P))
 
     def batch(first: int) -> None:
         state = endgame_state(
             homotopy.N, end_exponent, True, False, radius, samples, max_winding, levels
         )
-        indices = np.arange(first, P, batches)
-        extended_kernel(arrays, state, starts, indices, max_steps, *results)
+        paths = ExtendedBatch(starts, P, first, batches, max_steps, *results)
+        extended_kernel(arrays, state, _extended_work(homotopy), paths)
 
     if batches == 1:
         batch(0)

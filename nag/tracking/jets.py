@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from nag.machine_code.lanes import aligned, fma, fnma, load, splat, square_root, store
+from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.lanes import aligned, fma, fnma, load, pointer, splat, square_root, store
 
 
 class System(NamedTuple):
@@ -31,34 +31,34 @@ class System(NamedTuple):
     value_blocks: int
     jacobian_blocks: int
     infinities: int
-    first: Any
-    second: Any
-    value_place: Any
-    value_part: Any
-    value_start: Any
-    value_slot: Any
-    value_re: Any
-    value_im: Any
-    value_real: Any
-    jacobian_place: Any
-    jacobian_part: Any
-    jacobian_start: Any
-    jacobian_slot: Any
-    jacobian_re: Any
-    jacobian_im: Any
-    jacobian_real: Any
-    factor_re: Any
-    factor_im: Any
-    moving: Any
-    A0_re: Any
-    A0_im: Any
-    A1_re: Any
-    A1_im: Any
-    linear_moving: Any
-    group_of: Any
-    infinity: Any
+    first: Wholes
+    second: Wholes
+    value_place: Wholes
+    value_part: Wholes
+    value_start: Wholes
+    value_slot: Wholes
+    value_re: Reals
+    value_im: Reals
+    value_real: Wholes
+    jacobian_place: Wholes
+    jacobian_part: Wholes
+    jacobian_start: Wholes
+    jacobian_slot: Wholes
+    jacobian_re: Reals
+    jacobian_im: Reals
+    jacobian_real: Wholes
+    factor_re: Reals
+    factor_im: Reals
+    moving: Wholes
+    A0_re: Reals
+    A0_im: Reals
+    A1_re: Reals
+    A1_im: Reals
+    linear_moving: Wholes
+    group_of: Wholes
+    infinity: Wholes
     toric: int
-    weights: Any
+    weights: Reals
 
 
 class Work(NamedTuple):
@@ -75,32 +75,32 @@ class Work(NamedTuple):
     `nag.tracking.kernel`. ``x``: one point.
     """
 
-    vr: Any
-    vi: Any
-    cr: Any
-    ci: Any
-    dr: Any
-    di: Any
-    jr: Any
-    ji: Any
-    br: Any
-    bi: Any
-    pr: Any
-    pi: Any
-    fr: Any
-    fi: Any
-    pivots: Any
-    base: Any
-    tr: Any
-    ti: Any
-    norms: Any
-    mode: Any
-    zr: Any
-    zi: Any
-    accepted: Any
-    scalars: Any
-    counters: Any
-    x: Any
+    vr: Reals
+    vi: Reals
+    cr: Reals
+    ci: Reals
+    dr: Reals
+    di: Reals
+    jr: Reals
+    ji: Reals
+    br: Reals
+    bi: Reals
+    pr: Reals
+    pi: Reals
+    fr: Reals
+    fi: Reals
+    pivots: Reals
+    base: Reals
+    tr: Reals
+    ti: Reals
+    norms: Reals
+    mode: Reals
+    zr: Reals
+    zi: Reals
+    accepted: Reals
+    scalars: Reals
+    counters: Wholes
+    x: Complexes
 
 
 def _real_blocks(start: np.ndarray, coefficient: np.ndarray) -> np.ndarray:
@@ -169,81 +169,6 @@ def work(homotopy: Homotopy, order: int) -> Work:
     return Work(*vectors, aligned(10), np.zeros(40, np.int64), np.zeros(N, np.complex128))
 
 
-@numba.njit(nogil=True)
-def bare(s, w):
-    """The same tuples with pointers for arrays."""
-    system = System(
-        s.N,
-        s.rows,
-        s.linear,
-        s.groups,
-        s.parts,
-        s.value_products,
-        s.products,
-        s.value_blocks,
-        s.jacobian_blocks,
-        s.infinities,
-        pointer(s.first),
-        pointer(s.second),
-        pointer(s.value_place),
-        pointer(s.value_part),
-        pointer(s.value_start),
-        pointer(s.value_slot),
-        pointer(s.value_re),
-        pointer(s.value_im),
-        pointer(s.value_real),
-        pointer(s.jacobian_place),
-        pointer(s.jacobian_part),
-        pointer(s.jacobian_start),
-        pointer(s.jacobian_slot),
-        pointer(s.jacobian_re),
-        pointer(s.jacobian_im),
-        pointer(s.jacobian_real),
-        pointer(s.factor_re),
-        pointer(s.factor_im),
-        pointer(s.moving),
-        pointer(s.A0_re),
-        pointer(s.A0_im),
-        pointer(s.A1_re),
-        pointer(s.A1_im),
-        pointer(s.linear_moving),
-        pointer(s.group_of),
-        pointer(s.infinity),
-        s.toric,
-        pointer(s.weights),
-    )
-    work = Work(
-        pointer(w.vr),
-        pointer(w.vi),
-        pointer(w.cr),
-        pointer(w.ci),
-        pointer(w.dr),
-        pointer(w.di),
-        pointer(w.jr),
-        pointer(w.ji),
-        pointer(w.br),
-        pointer(w.bi),
-        pointer(w.pr),
-        pointer(w.pi),
-        pointer(w.fr),
-        pointer(w.fi),
-        pointer(w.pivots),
-        pointer(w.base),
-        pointer(w.tr),
-        pointer(w.ti),
-        pointer(w.norms),
-        pointer(w.mode),
-        pointer(w.zr),
-        pointer(w.zi),
-        pointer(w.accepted),
-        pointer(w.scalars),
-        pointer(w.counters),
-        pointer(w.x),
-    )
-    return system, work
-
-
-@numba.njit(nogil=True)
 def _block(first, last, slot, cr, ci, real, vr, vi, shift):
     re = splat(0.0)
     im = splat(0.0)
@@ -263,13 +188,11 @@ def _block(first, last, slot, cr, ci, real, vr, vi, shift):
     return re, im
 
 
-@numba.njit(nogil=True)
 def _add(br, bi, k, re, im):
     store(br, k, load(br, k) + re)
     store(bi, k, load(bi, k) + im)
 
 
-@numba.njit(nogil=True)
 def products(s, w, first, last):
     """Products ``first .. last - 1`` of the slots."""
     for k in range(first, last):
@@ -281,7 +204,6 @@ def products(s, w, first, last):
         store(w.vi, s.N + 1 + k, fma(ai, br, ar * bi))
 
 
-@numba.njit(nogil=True)
 def factors_at(s, w):
     """Factors of all parts at the lanes' t."""
     tr = load(w.tr, 0)
@@ -303,7 +225,6 @@ def factors_at(s, w):
         store(w.fi, p, fma(ti, br, fma(tr, bi, splat(s.factor_im[2 * p]))))
 
 
-@numba.njit(nogil=True)
 def _scaled(s, w, part, re, im):
     if s.moving[part] == 0:
         return re, im
@@ -314,7 +235,6 @@ def _scaled(s, w, part, re, im):
     return fnma(im, fi, re * fr), fma(im, fr, re * fi)
 
 
-@numba.njit(nogil=True)
 def values(s, w):
     """Minus the values of all rows at the lanes' points and t, into the right-hand side."""
     zero = splat(0.0)
@@ -362,13 +282,12 @@ def values(s, w):
         k = patches + s.group_of[j]
         x = load(w.vr, j)
         y = load(w.vi, j)
-        p = load(w.pr, j)
-        q = load(w.pi, j)
-        store(w.br, k, fma(q, y, fnma(p, x, load(w.br, k))))
-        store(w.bi, k, fnma(q, x, fnma(p, y, load(w.bi, k))))
+        pr = load(w.pr, j)
+        pi = load(w.pi, j)
+        store(w.br, k, fma(pi, y, fnma(pr, x, load(w.br, k))))
+        store(w.bi, k, fnma(pi, x, fnma(pr, y, load(w.bi, k))))
 
 
-@numba.njit(nogil=True)
 def jacobian(s, w):
     """The Jacobian of all rows at the lanes' points and t."""
     zero = splat(0.0)
@@ -411,7 +330,6 @@ def jacobian(s, w):
         store(w.ji, k * n + j, load(w.pi, j))
 
 
-@numba.njit(nogil=True)
 def incomplete_slots(s, w, k):
     """Taylor coefficients of order ``k >= 2`` of the slots, those of the point taken as 0."""
     zero = splat(0.0)
@@ -442,7 +360,6 @@ def incomplete_slots(s, w, k):
         store(w.ci, top + s.N + 1 + q, im)
 
 
-@numba.njit(nogil=True)
 def complete_slots(s, w, k):
     """Add to the coefficients of order ``k`` what the point's own coefficients contribute.
 
@@ -482,7 +399,6 @@ def complete_slots(s, w, k):
         store(w.ci, top + m, im)
 
 
-@numba.njit(nogil=True)
 def _lower_block(s, w, k, first, last, real):
     if k == 1:
         return _block(first, last, s.value_slot, s.value_re, s.value_im, real, w.vr, w.vi, 0)
@@ -490,7 +406,6 @@ def _lower_block(s, w, k, first, last, real):
     return _block(first, last, s.value_slot, s.value_re, s.value_im, real, w.cr, w.ci, shift)
 
 
-@numba.njit(nogil=True)
 def _toric_right_side(s, w, k):
     size = s.N + 1 + s.value_products
     for b in range(s.value_blocks):
@@ -513,7 +428,6 @@ def _toric_right_side(s, w, k):
         _add(w.br, w.bi, s.value_place[b], fnma(re, c, im * d), splat(0.0) - fma(re, d, im * c))
 
 
-@numba.njit(nogil=True)
 def right_side(s, w, k):
     """Minus the Taylor coefficient of order ``k`` of the rows, that of the point taken as 0."""
     zero = splat(0.0)
@@ -570,7 +484,6 @@ def right_side(s, w, k):
             store(w.bi, s.rows + q, im)
 
 
-@numba.njit(nogil=True)
 def normalize(s, w):
     """Scale the lanes' points to unit norm in each group and lay the patch through them."""
     for g in range(s.groups):

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.lanes import fma, fnma, load, select_less, splat, store
+from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.tracking.endgame import (
     BEST_ERROR,
     ENDGAME,
@@ -27,16 +29,15 @@ from nag.tracking.endgame import (
     STEPS,
     WHOLES,
     WINDING,
+    Endgame,
     arrived,
-    bare_endgame,
     begin,
-    endgame_state,
     give_up,
     retreat,
 )
-from nag.tracking.homotopy import Homotopy
 from nag.tracking.jets import (
-    bare,
+    System,
+    Work,
     complete_slots,
     factors_at,
     incomplete_slots,
@@ -46,14 +47,11 @@ from nag.tracking.jets import (
     right_side,
     values,
 )
-from nag.tracking.kernel_cache import Kernel
-from nag.tracking.lanes import fma, fnma, load, pointer, select_less, splat, store
 from nag.tracking.linear_algebra import factorize, pivot_ratio, substitute
 
 PREDICT, CORRECT, AGAIN = 0.0, 1.0, 2.0
 
 
-@numba.njit(nogil=True)
 def _predict(s, w, order):
     """Pade (order - 1, 1) from the base point's Taylor coefficients, in the lanes that predict."""
     n = s.N
@@ -91,7 +89,6 @@ def _predict(s, w, order):
         store(w.vi, j, select_less(m, half, im, load(w.vi, j)))
 
 
-@numba.njit(nogil=True)
 def _correct(s, w, norms, k):
     """Add the solution to the point; squared norm of it, the largest of the groups."""
     zero = splat(0.0)
@@ -110,7 +107,6 @@ def _correct(s, w, norms, k):
     store(norms, k, largest)
 
 
-@numba.njit(nogil=True)
 def _measure(s, w, order):
     """Squared norm of the Taylor coefficient in the right-hand side."""
     total = splat(0.0)
@@ -121,7 +117,6 @@ def _measure(s, w, order):
     store(w.norms, 1 + order, total)
 
 
-@numba.njit(nogil=True)
 def _newton_and_jets(s, w, order):
     """One Newton step, one simplified one, and the Taylor coefficients of the path."""
     n = s.N
@@ -148,7 +143,6 @@ def _newton_and_jets(s, w, order):
         complete_slots(s, w, k)
 
 
-@numba.njit(nogil=True)
 def _accept(s, w, order):
     """Make the current points and Taylor coefficients the base, in the lanes accepted."""
     n = s.N
@@ -175,7 +169,6 @@ PATH, ROUNDS, TAKEN, REJECTED, STATE = range(5)
 COUNTERS = 5
 
 
-@numba.njit(nogil=True)
 def _put(s, w, lane, points, k):
     for j in range(s.N):
         x = points[s.N * k + j]
@@ -183,7 +176,6 @@ def _put(s, w, lane, points, k):
         w.vi[8 * j + lane] = x.imag
 
 
-@numba.njit(nogil=True)
 def _fill(s, w, e, f, c, lane, path, starts):
     """Put a path into a lane."""
     _put(s, w, lane, starts, path)
@@ -199,7 +191,6 @@ def _fill(s, w, e, f, c, lane, path, starts):
     f[8 * GOAL_IM + lane] = e.real[REALS * lane + NEXT_IM]
 
 
-@numba.njit(nogil=True)
 def _restart(s, w, e, f, c, lane):
     """Go back to the point that the endgame saved."""
     _put(s, w, lane, e.saved, lane)
@@ -212,37 +203,52 @@ def _restart(s, w, e, f, c, lane):
     c[8 * REJECTED + lane] = 0
 
 
-@numba.njit(nogil=True, cache=True)
-def track_batch(
-    arrays,
-    scratch,
-    ends,
-    parameters,
-    order,
-    max_steps,
-    start_points,
-    first,
-    stride,
-    end_points,
-    outcomes,
-    windings,
-    errors,
-    all_steps,
-    reasons,
-):
-    """Track paths ``first, first + stride, ..``; results into the arrays."""
-    tolerance_main, newton_main, newton_end, floor, radius_factor, safety, theta_max = parameters
-    s, w = bare(arrays, scratch)
+class Batch(NamedTuple):
+    """Paths to be tracked in one batch, where their results go, and the settings.
+
+    ``starts``: points at t = 1, shape (count, N), of which ``first, first + stride, ..`` are
+    tracked; ``points``: end points. ``outcome, winding, error, steps, reason``: one each path.
+    The rest: see `nag.tracking.settings.Settings`.
+    """
+
+    starts: Complexes
+    count: int
+    first: int
+    stride: int
+    points: Complexes
+    outcome: Wholes
+    winding: Wholes
+    error: Reals
+    steps: Wholes
+    reason: Wholes
+    order: int
+    max_steps: int
+    tolerance: float
+    newton: float
+    newton_end: float
+    floor: float
+    radius_factor: float
+    safety: float
+    contraction: float
+
+
+def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
+    """Track the paths of a batch."""
     n = s.N
-    count = len(start_points)
-    e = bare_endgame(ends)
-    starts = pointer(start_points)
-    points = pointer(end_points)
-    outcome = pointer(outcomes)
-    winding = pointer(windings)
-    error = pointer(errors)
-    steps = pointer(all_steps)
-    reason = pointer(reasons)
+    order = batch.order
+    max_steps = batch.max_steps
+    count = batch.count
+    stride = batch.stride
+    starts = batch.starts
+    points = batch.points
+    outcome = batch.outcome
+    winding = batch.winding
+    error = batch.error
+    steps = batch.steps
+    reason = batch.reason
+    floor = batch.floor
+    safety = batch.safety
+    theta_max = batch.contraction
     f = w.scalars
     c = w.counters
     x = w.x
@@ -252,11 +258,11 @@ def track_batch(
     zr = w.zr
     zi = w.zi
     accepted = w.accepted
-    following = first
+    following = batch.first
     busy = 0
     for lane in range(8):
         c[8 * STATE + lane] = -1
-        _put(s, w, lane, starts, first)
+        _put(s, w, lane, starts, batch.first)
         if following < count:
             _fill(s, w, e, f, c, lane, following, starts)
             following += stride
@@ -300,9 +306,9 @@ def track_batch(
             n1 = norms[8 + lane] ** 0.5
             ending = e.whole[WHOLES * lane + PHASE] != MAIN
             looping = e.whole[WHOLES * lane + PHASE] == LOOP
-            tolerance = min(tolerance_main, 1e-4) if looping else tolerance_main
+            tolerance = min(batch.tolerance, 1e-4) if looping else batch.tolerance
             arriving = w.tr[lane] == f[8 * GOAL_RE + lane] and w.ti[lane] == f[8 * GOAL_IM + lane]
-            newton = newton_end if arriving or state == 1 else newton_main
+            newton = batch.newton_end if arriving or state == 1 else batch.newton
             finite = n0 < 1e100 and n1 < 1e100
             ok = finite
             if finite:
@@ -343,7 +349,7 @@ def track_batch(
                     n0 = max(f[8 * FIRST + lane], 1e-300)
                     aim = min(aim, 0.3 * theta_max / max(f[8 * THETA + lane], 1e-300) * n0)
                     h = f[8 * H_USED + lane] * min((aim / n0) ** power, 4.0)
-                h = min(radius_factor * radius, h)
+                h = min(batch.radius_factor * radius, h)
                 f[8 * H + lane] = h
                 f[8 * T_RE + lane] = w.tr[lane]
                 f[8 * T_IM + lane] = w.ti[lane]
@@ -436,49 +442,4 @@ def track_batch(
                     busy += 1
 
 
-def _example() -> tuple[Any, ...]:
-    """Arguments of the types with which the kernel is compiled."""
-    from nag.algebra.polynomial import Polynomial
-    from nag.tracking.compiled import compile_rows
-    from nag.tracking.jets import system, work
-
-    x = Polynomial.variable(1, 0)
-    homotopy = Homotopy(compile_rows([x * x - 1]))
-    one = np.ones((1, 2), dtype=np.complex128)
-    whole = np.zeros(1, dtype=np.int64)
-    return (
-        system(homotopy),
-        work(homotopy, 3),
-        endgame_state(2, 1, True, True, 0.1, 8, 2, 2),
-        (1e-4, 1e-7, 1e-9, 1e-6, 0.5, 0.2, 0.1),
-        3,
-        100,
-        one,
-        0,
-        1,
-        one,
-        whole,
-        whole,
-        np.zeros(1),
-        whole,
-        whole,
-    )
-
-
-track_lanes = Kernel(track_batch, _example)
-
-
-def compiled() -> bool:
-    """Whether all kernels are compiled already, here or in the cache on disk."""
-    from nag.tracking.newton_kernel import newton_lanes
-
-    return track_lanes.compiled and newton_lanes.compiled
-
-
-def ready() -> Kernel:
-    """The tracking kernel; all kernels are compiled, or loaded from the cache, if need be."""
-    from nag.tracking.newton_kernel import newton_lanes
-
-    track_lanes.prepare()
-    newton_lanes.prepare()
-    return track_lanes
+track_lanes = Kernel(track_batch, "tracking")

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import numba
-
-from nag.tracking.lanes import any_less, fma, fnma, load, select_less, splat, store
+from nag.machine_code.lanes import any_less, fma, fnma, load, select_less, splat, store
 
 
-@numba.njit(nogil=True)
 def factorize(n, ar, ai, pivots):
     """Overwrite the matrix by its factors; the diagonal holds the inverse pivots.
 
@@ -62,7 +59,6 @@ def factorize(n, ar, ai, pivots):
                 store(ai, i * n + j, fnma(li, ur, fnma(lr, ui, load(ai, i * n + j))))
 
 
-@numba.njit(nogil=True)
 def substitute(n, ar, ai, pivots, br, bi):
     """Overwrite the right-hand side by the solution, with the factors of `factorize`."""
     half = splat(0.5)
@@ -102,7 +98,6 @@ def substitute(n, ar, ai, pivots, br, bi):
         store(bi, i, fma(im, pr, re * pi))
 
 
-@numba.njit(nogil=True)
 def substitute_adjoint(n, ar, ai, pivots, br, bi):
     """Overwrite the right-hand side by the solution with the conjugate transposed matrix."""
     for i in range(n):
@@ -140,7 +135,6 @@ def substitute_adjoint(n, ar, ai, pivots, br, bi):
                 bi[a], bi[b] = bi[b], bi[a]
 
 
-@numba.njit(nogil=True)
 def pivot_ratio(n, ar, ai, lane):
     """Smallest over largest pivot in one lane: a cheap hint at the condition."""
     low, high = 1e300, 0.0

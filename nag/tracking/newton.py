@@ -60,7 +60,7 @@ def refine(
     Newton's method made of it; compare ``moved`` with what was expected.
     """
     from nag.tracking.jets import system, work
-    from nag.tracking.newton_kernel import low_parts, newton_lanes
+    from nag.tracking.newton_kernel import Refinement, low_parts, newton_lanes
 
     homotopy = rows if isinstance(rows, Homotopy) else Homotopy(rows, A)
     fixed = _at(homotopy, t, homotopy.A0 + t * homotopy.A1 if A is None else A)
@@ -69,17 +69,8 @@ def refine(
     P = len(start)
     before, smallest, error, size = np.zeros(P), np.zeros(P), np.full(P, np.inf), np.zeros(P)
     if P:
-        newton_lanes(
-            system(fixed),
-            work(fixed, 1),
-            low_parts(fixed),
-            result,
-            iterations,
-            before,
-            smallest,
-            error,
-            size,
-        )
+        batch = Refinement(result, P, iterations, before, smallest, error, size)
+        newton_lanes(system(fixed), work(fixed, 1), low_parts(fixed), batch)
     # A matrix that is singular in double precision leaves NaN.
     before, smallest = (np.where(np.isfinite(v), v, 0.0) for v in (before, smallest))
     result = np.where(np.isfinite(result), result, start)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.lanes import aligned, fma, load, splat, square_root, store
+from nag.machine_code.records import Complexes, Reals
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.jets import bare, factors_at, jacobian, normalize, products, system, work
-from nag.tracking.kernel_cache import Kernel
-from nag.tracking.lanes import aligned, fma, load, pointer, splat, square_root, store
+from nag.tracking.jets import System, Work, factors_at, jacobian, normalize, products
 from nag.tracking.linear_algebra import factorize, substitute, substitute_adjoint
 from nag.tracking.precision import (
     add_complex,
@@ -24,10 +24,27 @@ from nag.tracking.precision import (
 class Low(NamedTuple):
     """Low parts of coefficients, and scratch for double-double slots."""
 
-    value_re: Any
-    value_im: Any
-    slots: Any
-    total: Any
+    value_re: Reals
+    value_im: Reals
+    slots: Reals
+    total: Reals
+
+
+class Refinement(NamedTuple):
+    """Points to be refined in place, and what is found out about them.
+
+    ``points``: shape (count, N). ``before, after``: smallest singular value of the Jacobian at the
+    first and the last point; ``error``: length of the last step; ``frobenius``: Frobenius norm of
+    the last Jacobian.
+    """
+
+    points: Complexes
+    count: int
+    iterations: int
+    before: Reals
+    after: Reals
+    error: Reals
+    frobenius: Reals
 
 
 def low_parts(homotopy: Homotopy) -> Low:
@@ -50,16 +67,17 @@ def low_parts(homotopy: Homotopy) -> Low:
     )
 
 
-@numba.njit(nogil=True)
-def _residual(s, w, low_re, low_im, slots, total):
+def _residual(s, w, low):
     """Minus the values of polynomial and linear rows in double-double, rounded at the end."""
     zero = splat(0.0)
+    slots = low.slots
+    total = low.total
     size = s.N + 1 + s.value_products
     store_complex(slots, size, s.N, (splat(1.0), zero, zero, zero))
     for q in range(s.value_products):
-        a = load_complex(slots, size, s.first[q])
-        b = load_complex(slots, size, s.second[q])
-        store_complex(slots, size, s.N + 1 + q, multiply_complex(a, b))
+        x = load_complex(slots, size, s.first[q])
+        y = load_complex(slots, size, s.second[q])
+        store_complex(slots, size, s.N + 1 + q, multiply_complex(x, y))
     nothing = (zero, zero, zero, zero)
     for k in range(s.N):
         store_complex(total, s.N, k, nothing)
@@ -68,9 +86,9 @@ def _residual(s, w, low_re, low_im, slots, total):
         for q in range(s.value_start[b], s.value_start[b + 1]):
             c = (
                 splat(s.value_re[q]),
-                splat(low_re[q]),
+                splat(low.value_re[q]),
                 splat(s.value_im[q]),
-                splat(low_im[q]),
+                splat(low.value_im[q]),
             )
             x = load_complex(slots, size, s.value_slot[q])
             value = add_complex(value, multiply_complex(c, x))
@@ -92,7 +110,6 @@ def _residual(s, w, low_re, low_im, slots, total):
         store(w.bi, k, zero - value[2])
 
 
-@numba.njit(nogil=True)
 def _matrix(s, w):
     """Jacobian at the points, factorised; the squared Frobenius norm."""
     factors_at(s, w)
@@ -107,7 +124,6 @@ def _matrix(s, w):
     return frobenius
 
 
-@numba.njit(nogil=True)
 def _length(s, w):
     total = splat(0.0)
     for j in range(s.N):
@@ -117,7 +133,6 @@ def _length(s, w):
     return square_root(total)
 
 
-@numba.njit(nogil=True)
 def _smallest(s, w):
     """Smallest singular value of the factorised matrix, by inverse iteration."""
     for j in range(s.N):
@@ -138,28 +153,25 @@ def _smallest(s, w):
     return size
 
 
-@numba.njit(nogil=True, cache=True)
-def newton_batch(arrays, scratch, low, points, iterations, before, after, error, frobenius):
-    """Refine all ``points`` in place.
-
-    ``before, after``: smallest singular value at the first and the last point; ``error``: length
-    of the last step; ``frobenius``: Frobenius norm of the last Jacobian.
-    """
-    s, w = bare(arrays, scratch)
-    low_re = pointer(low.value_re)
-    low_im = pointer(low.value_im)
-    slots = pointer(low.slots)
-    total = pointer(low.total)
+def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
+    """Refine all points of a batch in place."""
     n = s.N
+    points = batch.points
+    iterations = batch.iterations
+    count = batch.count
+    before = batch.before
+    after = batch.after
+    error = batch.error
+    frobenius = batch.frobenius
+    slots = low.slots
     zero = splat(0.0)
     size = n + 1 + s.value_products
-    count = len(points)
     for first in range(0, count, 8):
         for lane in range(8):
             path = min(first + lane, count - 1)
             for j in range(n):
-                w.vr[8 * j + lane] = points[path, j].real
-                w.vi[8 * j + lane] = points[path, j].imag
+                w.vr[8 * j + lane] = points[n * path + j].real
+                w.vi[8 * j + lane] = points[n * path + j].imag
         store(w.tr, 0, zero)
         store(w.ti, 0, zero)
         normalize(s, w)
@@ -179,7 +191,7 @@ def newton_batch(arrays, scratch, low, points, iterations, before, after, error,
                 for j in range(n):
                     store_complex(slots, size, j, (load(w.vr, j), zero, load(w.vi, j), zero))
                 length = square_root(_matrix(s, w))
-            _residual(s, w, low_re, low_im, slots, total)
+            _residual(s, w, low)
             substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
             store(w.norms, 0, _length(s, w))
             for lane in range(8):
@@ -203,19 +215,7 @@ def newton_batch(arrays, scratch, low, points, iterations, before, after, error,
             after[first + lane] = w.norms[8 + lane]
             frobenius[first + lane] = w.norms[lane]
             for j in range(n):
-                points[first + lane, j] = complex(w.vr[8 * j + lane], w.vi[8 * j + lane])
+                points[n * (first + lane) + j] = complex(w.vr[8 * j + lane], w.vi[8 * j + lane])
 
 
-def _example() -> tuple[Any, ...]:
-    from nag.algebra.polynomial import Polynomial
-    from nag.tracking.compiled import compile_rows
-
-    x = Polynomial.variable(1, 0)
-    homotopy = Homotopy(compile_rows([x * x - 1]))
-    one = np.zeros(1)
-    points = np.ones((1, 2), dtype=np.complex128)
-    low = low_parts(homotopy)
-    return system(homotopy), work(homotopy, 1), low, points, 3, one, one, one, one
-
-
-newton_lanes = Kernel(newton_batch, _example)
+newton_lanes = Kernel(newton_batch, "tracking")

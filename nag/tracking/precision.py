@@ -7,34 +7,12 @@ as long as nothing is reassociated or contracted.
 
 from __future__ import annotations
 
-from typing import Any
-
-import numba
 import numpy as np
-from llvmlite import ir
-from numba.core import cgutils
-from numba.extending import intrinsic
 
 from nag.algebra.number import Irrational, Number, to_mpf
-from nag.tracking.lanes import LANES, lanes, load, splat, store
-
-_VECTOR = ir.VectorType(ir.DoubleType(), LANES)
+from nag.machine_code.lanes import fused, load, splat, store
 
 
-@intrinsic
-def _fused(typingctx: Any, a: Any, b: Any, c: Any) -> Any:
-    """``a * b + c`` with one rounding, on every machine."""
-
-    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        function = cgutils.get_or_insert_function(
-            builder.module, ir.FunctionType(_VECTOR, [_VECTOR] * 3), f"llvm.fma.v{LANES}f64"
-        )
-        return builder.call(function, args)
-
-    return lanes(lanes, lanes, lanes), codegen
-
-
-@numba.njit(nogil=True)
 def two_sum(a, b):
     """``(s, e)`` with ``s = fl(a + b)`` and ``s + e = a + b`` exactly."""
     s = a + b
@@ -42,14 +20,12 @@ def two_sum(a, b):
     return s, (a - (s - t)) + (b - t)
 
 
-@numba.njit(nogil=True)
 def two_product(a, b):
     """``(p, e)`` with ``p = fl(a b)`` and ``p + e = a b`` exactly."""
     p = a * b
-    return p, _fused(a, b, splat(0.0) - p)
+    return p, fused(a, b, splat(0.0) - p)
 
 
-@numba.njit(nogil=True)
 def add(ah, al, bh, bl):
     """Sum of two double-doubles."""
     s, e = two_sum(ah, bh)
@@ -62,7 +38,6 @@ def add(ah, al, bh, bl):
     return s, e - (s - h)
 
 
-@numba.njit(nogil=True)
 def multiply(ah, al, bh, bl):
     """Product of two double-doubles."""
     p, e = two_product(ah, bh)
@@ -71,7 +46,6 @@ def multiply(ah, al, bh, bl):
     return s, e - (s - p)
 
 
-@numba.njit(nogil=True)
 def multiply_complex(a, b):
     """Product of two complex double-doubles ``(re high, re low, im high, im low)``."""
     ph, pl = multiply(a[0], a[1], b[0], b[1])
@@ -84,7 +58,6 @@ def multiply_complex(a, b):
     return rh, rl, ih, il
 
 
-@numba.njit(nogil=True)
 def add_complex(a, b):
     """Sum of two complex double-doubles."""
     rh, rl = add(a[0], a[1], b[0], b[1])
@@ -92,7 +65,6 @@ def add_complex(a, b):
     return rh, rl, ih, il
 
 
-@numba.njit(nogil=True)
 def load_complex(data, size, k):
     """Complex double-double ``k`` of an array of four blocks of ``size`` vectors."""
     return (
@@ -103,7 +75,6 @@ def load_complex(data, size, k):
     )
 
 
-@numba.njit(nogil=True)
 def store_complex(data, size, k, a):
     """Write a complex double-double, see `load_complex`."""
     store(data, k, a[0])

@@ -145,18 +145,9 @@ def _run(
     )
     if P == 0:
         return raw
-    run = kernel.ready()
+    kernel.track_lanes.prepare()
     arrays = jets.system(homotopy, weights)
     batches = max(1, min(threads, P // PATHS_PER_THREAD))
-    parameters = (
-        settings.tolerance,
-        settings.newton,
-        settings.newton_end,
-        settings.floor,
-        settings.radius_factor,
-        settings.safety,
-        settings.contraction,
-    )
 
     def batch(first: int) -> None:
         state = endgame_state(
@@ -169,23 +160,23 @@ def _run(
             settings.max_winding,
             settings.levels,
         )
-        run(
-            arrays,
-            jets.work(homotopy, settings.order),
-            state,
-            parameters,
-            settings.order,
-            settings.max_steps,
+        paths = kernel.Batch(
             starts,
+            P,
             first,
             batches,
-            raw.points,
-            raw.outcome,
-            raw.winding,
-            raw.error,
-            raw.steps,
-            raw.reason,
+            *(raw.points, raw.outcome, raw.winding, raw.error, raw.steps, raw.reason),
+            settings.order,
+            settings.max_steps,
+            settings.tolerance,
+            settings.newton,
+            settings.newton_end,
+            settings.floor,
+            settings.radius_factor,
+            settings.safety,
+            settings.contraction,
         )
+        kernel.track_lanes(arrays, jets.work(homotopy, settings.order), state, paths)
 
     if batches == 1:
         batch(0)

@@ -14,16 +14,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.records import Reals, Wholes
 from nag.tracking.start.target import StartError
 
 # Lifting values are integers below this; equal crossing times are then as good as impossible.
 LARGEST_LIFT = 1 << 22
 MOST_STEPS = 3_000_000
 MOST_CELLS = 200_000
+# Cells that wait to be followed.
+DEPTH = 1024
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,133 +52,215 @@ class MixedCells:
         return int(self.volumes.sum())
 
 
-@numba.njit(cache=True, nogil=True)
-def _solve(matrix, right):
+class Lifted(NamedTuple):
+    """Supports with lifting values ``lift + t slope``, and the cells at t = minus infinity.
+
+    ``points``: all supports' points, n coordinates each; those of support i have the numbers
+    ``first[i] .. first[i + 1] - 1``. ``begin``: a pair of points' numbers for each support.
+    """
+
+    n: int
+    cells: int
+    most_steps: int
+    points: Reals
+    first: Wholes
+    lift: Reals
+    slope: Reals
+    begin: Wholes
+
+
+class Followed(NamedTuple):
+    """Results and scratch of `follow_cells`.
+
+    ``found``: the cells at t = infinity, at most ``most_cells``; ``numbers``: how many there are,
+    and a code: 0, 1 for too many steps or cells, 2 for a degenerate cell. ``stack, times``: at most
+    ``depth`` cells to be followed, and from when. ``cell``: the present one. ``matrix, right``:
+    a linear system with at most two right-hand sides.
+    """
+
+    most_cells: int
+    depth: int
+    found: Wholes
+    numbers: Wholes
+    stack: Wholes
+    times: Reals
+    cell: Wholes
+    matrix: Reals
+    right: Reals
+
+
+def _solve(n, matrix, right, columns):
     """Gaussian elimination with partial pivoting, in place; the determinant's absolute value."""
-    n = len(matrix)
     determinant = 1.0
     for k in range(n):
         pivot = k
         for i in range(k + 1, n):
-            if abs(matrix[i, k]) > abs(matrix[pivot, k]):
+            if abs(matrix[n * i + k]) > abs(matrix[n * pivot + k]):
                 pivot = i
-        if abs(matrix[pivot, k]) < 1e-9:
+        if abs(matrix[n * pivot + k]) < 1e-9:
             return 0.0
         for j in range(n):
-            matrix[k, j], matrix[pivot, j] = matrix[pivot, j], matrix[k, j]
-        for j in range(right.shape[1]):
-            right[k, j], right[pivot, j] = right[pivot, j], right[k, j]
-        determinant *= matrix[k, k]
+            a, b = n * k + j, n * pivot + j
+            matrix[a], matrix[b] = matrix[b], matrix[a]
+        for j in range(columns):
+            a, b = columns * k + j, columns * pivot + j
+            right[a], right[b] = right[b], right[a]
+        determinant *= matrix[n * k + k]
         for i in range(k + 1, n):
-            factor = matrix[i, k] / matrix[k, k]
+            factor = matrix[n * i + k] / matrix[n * k + k]
             if factor != 0.0:
                 for j in range(k, n):
-                    matrix[i, j] -= factor * matrix[k, j]
-                for j in range(right.shape[1]):
-                    right[i, j] -= factor * right[k, j]
+                    matrix[n * i + j] -= factor * matrix[n * k + j]
+                for j in range(columns):
+                    right[columns * i + j] -= factor * right[columns * k + j]
     for k in range(n - 1, -1, -1):
-        for j in range(right.shape[1]):
-            value = right[k, j]
+        for j in range(columns):
+            value = right[columns * k + j]
             for i in range(k + 1, n):
-                value -= matrix[k, i] * right[i, j]
-            right[k, j] = value / matrix[k, k]
+                value -= matrix[n * k + i] * right[columns * i + j]
+            right[columns * k + j] = value / matrix[n * k + k]
     return abs(determinant)
 
 
-@numba.njit(cache=True, nogil=True)
-def _follow(points, first, lift, slope, begin, most_steps, most_cells):
-    """Follow cells for t from minus to plus infinity, where lifting values are lift + t slope.
+def _dual(s, w):
+    """Where a cell's edges are lowest, at t = 0 and its change with t, into ``right``."""
+    n = s.n
+    for i in range(n):
+        a, b = w.cell[2 * i], w.cell[2 * i + 1]
+        for j in range(n):
+            w.matrix[n * i + j] = s.points[n * b + j] - s.points[n * a + j]
+        w.right[2 * i] = s.lift[a] - s.lift[b]
+        w.right[2 * i + 1] = s.slope[a] - s.slope[b]
+    return _solve(n, w.matrix, w.right, 2) != 0.0
 
-    Returns the cells at the end and a code: 0, 1 for too many steps, 2 for a degenerate cell.
-    """
-    n = points.shape[1]
-    stack = np.zeros((1024, n, 2), dtype=np.int64)
-    times = np.zeros(1024)
-    found = np.zeros((1024, n, 2), dtype=np.int64)
-    size = 0
-    cells = 0
+
+def _next(s, w, now):
+    """When the cell changes after ``now``, whose edge, and which point enters; -1 if never."""
+    n = s.n
+    following = np.inf
+    which, enters = -1, -1
+    for i in range(n):
+        a, b = w.cell[2 * i], w.cell[2 * i + 1]
+        for c in range(s.first[i], s.first[i + 1]):
+            if c in (a, b):
+                continue
+            value = s.lift[c] - s.lift[a]
+            rate = s.slope[c] - s.slope[a]
+            for j in range(n):
+                d = s.points[n * c + j] - s.points[n * a + j]
+                value += d * w.right[2 * j]
+                rate += d * w.right[2 * j + 1]
+            if rate < -1e-9:
+                time = -value / rate
+                if now < time < following:
+                    following = time
+                    which, enters = i, c
+    return following, which, enters
+
+
+def _share(s, w, which, enters):
+    """Coefficient of edge ``which`` where the edges make up the way to the point that enters."""
+    n = s.n
+    a = w.cell[2 * which]
+    for i in range(n):
+        for j in range(n):
+            first, second = n * w.cell[2 * i] + j, n * w.cell[2 * i + 1] + j
+            w.matrix[n * j + i] = s.points[second] - s.points[first]
+        w.right[i] = s.points[n * enters + i] - s.points[n * a + i]
+    _solve(n, w.matrix, w.right, 1)
+    return w.right[which]
+
+
+def _copy(target, place, source, start, count):
+    for k in range(count):
+        target[place + k] = source[start + k]
+
+
+def follow_cells(s: Lifted, w: Followed) -> None:
+    """Follow cells for t from minus to plus infinity."""
+    n = s.n
+    cell = w.cell
+    numbers = w.numbers
     steps = 0
-    matrix = np.zeros((n, n))
-    right = np.zeros((n, 2))
-    column = np.zeros((n, 1))
-    for start in range(len(begin)):
-        stack[0] = begin[start]
-        times[0] = -np.inf
+    for start in range(s.cells):
+        _copy(w.stack, 0, s.begin, 2 * n * start, 2 * n)
+        w.times[0] = -np.inf
         size = 1
-        while size:
+        while size > 0:
             size -= 1
-            cell = stack[size].copy()
-            now = times[size]
+            _copy(cell, 0, w.stack, 2 * n * size, 2 * n)
+            now = w.times[size]
             while True:
                 steps += 1
-                if steps > most_steps:
-                    return found[:cells], 1
-                for i in range(n):
-                    a, b = cell[i, 0], cell[i, 1]
-                    for j in range(n):
-                        matrix[i, j] = points[b, j] - points[a, j]
-                    right[i, 0] = lift[a] - lift[b]
-                    right[i, 1] = slope[a] - slope[b]
-                if _solve(matrix, right) == 0.0:
-                    return found[:cells], 2
-                following = np.inf
-                which, enters = -1, -1
-                for i in range(n):
-                    a, b = cell[i, 0], cell[i, 1]
-                    for c in range(first[i], first[i + 1]):
-                        if c in (a, b):
-                            continue
-                        value = lift[c] - lift[a]
-                        rate = slope[c] - slope[a]
-                        for j in range(n):
-                            d = points[c, j] - points[a, j]
-                            value += d * right[j, 0]
-                            rate += d * right[j, 1]
-                        if rate < -1e-9:
-                            time = -value / rate
-                            if now < time < following:
-                                following = time
-                                which, enters = i, c
+                if steps > s.most_steps:
+                    numbers[1] = 1
+                    return
+                if not _dual(s, w):
+                    numbers[1] = 2
+                    return
+                following, which, enters = _next(s, w, now)
                 if which < 0:
-                    if cells == len(found):
-                        if cells >= most_cells:
-                            return found[:cells], 1
-                        larger = np.zeros((2 * cells, n, 2), dtype=np.int64)
-                        larger[:cells] = found
-                        found = larger
-                    found[cells] = cell
-                    cells += 1
+                    if numbers[0] == w.most_cells:
+                        numbers[1] = 1
+                        return
+                    _copy(w.found, 2 * n * numbers[0], cell, 0, 2 * n)
+                    numbers[0] += 1
                     break
-                a, b = cell[which, 0], cell[which, 1]
-                for i in range(n):
-                    for j in range(n):
-                        matrix[j, i] = points[cell[i, 1], j] - points[cell[i, 0], j]
-                    column[i, 0] = points[enters, i] - points[a, i]
-                _solve(matrix, column)
-                share = column[which, 0]
+                share = _share(s, w, which, enters)
                 now = following
                 if share > 1.0 + 1e-8:
                     # Two cells become one here; the one whose new point comes later goes on.
-                    if enters < a:
+                    if enters < cell[2 * which]:
                         break
-                    cell[which, 1] = enters
+                    cell[2 * which + 1] = enters
                 elif share < -1e-8:
-                    if enters < b:
+                    if enters < cell[2 * which + 1]:
                         break
-                    cell[which, 0] = enters
+                    cell[2 * which] = enters
                 elif share < 1e-8:
-                    cell[which, 0] = enters
+                    cell[2 * which] = enters
                 elif share > 1.0 - 1e-8:
-                    cell[which, 1] = enters
+                    cell[2 * which + 1] = enters
                 else:
-                    if size == len(stack):
-                        return found[:cells], 1
-                    stack[size] = cell
-                    stack[size, which, 0] = enters
-                    times[size] = now
+                    if size == w.depth:
+                        numbers[1] = 1
+                        return
+                    _copy(w.stack, 2 * n * size, cell, 0, 2 * n)
+                    w.stack[2 * (n * size + which)] = enters
+                    w.times[size] = now
                     size += 1
-                    cell[which, 1] = enters
-    return found[:cells], 0
+                    cell[2 * which + 1] = enters
+
+
+_kernel = Kernel(follow_cells, "tracking")
+
+
+def _follow(
+    points: np.ndarray, first: np.ndarray, lift: np.ndarray, slope: np.ndarray, begin: np.ndarray
+) -> np.ndarray:
+    """The cells at t = infinity, shape ``(cells, n, 2)``."""
+    n = points.shape[1]
+    # Memory that is never written to costs nothing.
+    found = np.empty((MOST_CELLS, n, 2), dtype=np.int64)
+    numbers = np.zeros(2, dtype=np.int64)
+    stack = np.empty((DEPTH, n, 2), dtype=np.int64)
+    _kernel(
+        Lifted(n, len(begin), MOST_STEPS, points, first, lift, slope, begin),
+        Followed(
+            MOST_CELLS,
+            DEPTH,
+            found,
+            numbers,
+            stack,
+            np.empty(DEPTH),
+            np.empty((n, 2), dtype=np.int64),
+            np.empty((n, n)),
+            np.empty((n, 2)),
+        ),
+    )
+    if numbers[1]:
+        raise StartError("mixed volume: too many cells")
+    return found[: numbers[0]].copy()
 
 
 def mixed_cells(supports: Sequence[np.ndarray], rng: np.random.Generator) -> MixedCells:
@@ -214,17 +300,13 @@ def mixed_cells(supports: Sequence[np.ndarray], rng: np.random.Generator) -> Mix
         first = np.cumsum([0] + [len(p) for p in here])
         begin = cells + first[:-1][None, :, None]
         begin[:, stage] += count
-        found, code = _follow(
+        found = _follow(
             np.vstack(here).astype(float),
             first,
             np.concatenate(lift),
             np.concatenate(slope),
             np.ascontiguousarray(begin),
-            MOST_STEPS,
-            MOST_CELLS,
         )
-        if code:
-            raise StartError("mixed volume: too many cells")
         found = found - first[:-1][None, :, None]
         cells = found[(found[:, stage] < count).all(axis=1)]
         points[stage], values[stage] = supports[i], lifts[i]

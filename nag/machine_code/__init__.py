@@ -1,0 +1,1 @@
+"""Python functions of numbers, pointers and vector registers, compiled to machine code."""

@@ -1,0 +1,126 @@
+"""Types of the values in kernels, and records: the arguments that Python hands over.
+
+A record is a NamedTuple whose fields are annotated with ``int``, ``float``, ``bool`` or one of
+`Wholes`, `Reals`, `Complexes`. A kernel sees it as a pointer to a table of 64-bit words, a number
+or the address of an array's first entry each; a field's numbers stay what they are during a call.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, get_type_hints
+
+import numpy as np
+
+Wholes = np.ndarray[Any, np.dtype[np.int64]]
+Reals = np.ndarray[Any, np.dtype[np.float64]]
+Complexes = np.ndarray[Any, np.dtype[np.complex128]]
+
+
+@dataclass(frozen=True)
+class Type:
+    """Type of a value in a kernel: a number, or the ``name`` of anything else."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return self.name
+
+
+# Numbers, each of which converts to the later ones.
+BOOL, INT, REAL, COMPLEX = Type("bool"), Type("int"), Type("float"), Type("complex")
+NUMBERS = (BOOL, INT, REAL, COMPLEX)
+# A register with one double for each of eight paths.
+LANES = Type("lanes")
+NONE = Type("None")
+
+
+@dataclass(frozen=True)
+class Pointer(Type):
+    """Pointer to numbers of one type."""
+
+    element: Type
+
+
+@dataclass(frozen=True)
+class Tuple(Type):
+    """Several values."""
+
+    items: tuple[Type, ...]
+
+
+@dataclass(frozen=True)
+class Record(Type):
+    """A table of words; ``fields`` are the types of what they stand for."""
+
+    fields: tuple[tuple[str, Type], ...]
+
+
+def pointer(element: Type) -> Pointer:
+    """The type of pointers to ``element``."""
+    return Pointer(f"{element}*", element)
+
+
+def several(items: tuple[Type, ...]) -> Tuple:
+    """The type of tuples of ``items``."""
+    return Tuple(f"({', '.join(map(str, items))})", items)
+
+
+_FIELDS: dict[Any, Type] = {
+    bool: INT,
+    int: INT,
+    float: REAL,
+    Wholes: pointer(INT),
+    Reals: pointer(REAL),
+    Complexes: pointer(COMPLEX),
+}
+_WORDS: dict[Type, Any] = {
+    INT: int,
+    REAL: float,
+    pointer(INT): np.dtype("i8"),
+    pointer(REAL): np.dtype("f8"),
+    pointer(COMPLEX): np.dtype("c16"),
+}
+
+
+@cache
+def record(cls: type) -> Record:
+    """The type of a NamedTuple.
+
+    Raises:
+        TypeError: if a field's annotation is none of those that a kernel can read.
+    """
+    hints = get_type_hints(cls)
+    for name, hint in hints.items():
+        if hint not in _FIELDS:
+            raise TypeError(f"{cls.__name__}.{name}: a kernel cannot read {hint}")
+    return Record(cls.__name__, tuple((name, _FIELDS[hint]) for name, hint in hints.items()))
+
+
+def table(values: Any) -> np.ndarray:
+    """The words of a NamedTuple, int64; the arrays in it must outlive their use.
+
+    Raises:
+        TypeError: if an array is not contiguous or has another type than its field.
+    """
+    layout = _layout(type(values))
+    words = np.zeros(len(layout), dtype=np.int64)
+    doubles = words.view(np.float64)
+    for k, (value, dtype) in enumerate(zip(values, layout, strict=True)):
+        if dtype is int:
+            words[k] = value
+        elif dtype is float:
+            doubles[k] = value
+        elif value.dtype != dtype or not value.flags.c_contiguous:
+            name = f"{type(values).__name__}.{values._fields[k]}"
+            raise TypeError(f"{name} is no contiguous array of {dtype}")
+        else:
+            words[k] = value.ctypes.data
+    return words
+
+
+@cache
+def _layout(cls: type) -> tuple[Any, ...]:
+    """What each field's word is made from: ``int``, ``float``, or an array of a dtype."""
+    return tuple(_WORDS[kind] for _, kind in record(cls).fields)
