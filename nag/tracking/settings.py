@@ -80,20 +80,21 @@ def named(settings: Settings | str) -> Settings:
 def tighter(settings: Settings) -> Settings:
     """The next tighter settings, for a path that failed or jumped.
 
-    First only the shortcut is given up, as the endgame decides what a straight run cannot; then
-    the steps become shorter; the endgame begins further in from the third time on, which helps
-    where branch points are near, and harms where the Jacobian decays fast.
+    First only the shortcut is given up, as the endgame decides what a straight run cannot, and the
+    corrector goes on until small coordinates are accurate as well; then the steps become shorter;
+    the endgame begins further in from the third time on, which helps where branch points are near,
+    and harms where the Jacobian decays fast.
     """
     from dataclasses import replace
 
     if settings.shortcut:
-        return replace(settings, shortcut=False)
+        return replace(settings, shortcut=False, newton=min(settings.newton, 1e-10))
     first = settings.tightened == 0
     return replace(
         settings,
         tightened=settings.tightened + 1,
         tolerance=settings.tolerance * 1e-2,
-        newton=max(settings.newton * 1e-1, 1e-10),
+        newton=min(settings.newton, 1e-10),
         contraction=settings.contraction * 0.5,
         radius_factor=settings.radius_factor * 0.6,
         max_steps=settings.max_steps * 2,

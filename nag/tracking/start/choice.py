@@ -17,9 +17,10 @@ from nag.tracking.start.total_degree import bezout, total_degree
 
 KINDS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy")
 # So few paths are tracked in less time than another start system takes to be found.
-FEW = 300
-# A start system of the target's monomials is itself found by some five regular paths a solution.
-WORK = 4
+FEW = 64
+# A start system of the target's monomials is itself found by a path a solution; paths to infinity,
+# which it saves, are some five times as long as others.
+WORK = 1.6
 
 
 def choose(
