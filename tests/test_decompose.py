@@ -92,6 +92,17 @@ def test_small_systems(equations: list[str], expected: dict[tuple[int, int, int]
     assert kinds(answer) == Counter(expected)
 
 
+# Seed 2 lost paths where the equation was met on its own; solving it as a whole found all.
+@pytest.mark.parametrize("seed", [0, 2])
+def test_all_roots_of_unity_are_points(seed: int) -> None:
+    answer = decompose(PolynomialSystem(("x",), [parse_polynomial("x^30 - 1", ["x"])]), seed=seed)
+    assert answer.complete
+    points = np.array([c.points[0, 0] for c in answer.components])
+    assert len(points) == 30
+    assert np.abs(points**30 - 1).max() < 1e-12
+    assert np.abs(points[:, None] - points + np.eye(30)).min() > 0.2
+
+
 def test_union_of_a_sphere_a_curve_and_points_is_taken_apart() -> None:
     sphere, a, b, c = "(x^2 + y^2 + z^2 - 1)", "(y - x^2)", "(z - x^3)", "(x - 1/2)"
     answer = decompose(

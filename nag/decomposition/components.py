@@ -16,6 +16,7 @@ from nag.decomposition.cutting import Equations
 from nag.decomposition.fibres import Tracker
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.frame import Frame
+from nag.decomposition.isolated import contains, isolated_superset
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
@@ -59,7 +60,8 @@ def decompose(
     """Decompose the zero set of ``system`` into irreducible components over the complex numbers.
 
     Linear equations are solved exactly first. Where doubts are left, slices and constants are drawn
-    anew, and the least doubtful answer is given. The same seed gives the same answer, byte for
+    anew, and the least doubtful answer is given; a finite set of simple points may be found by
+    solving the equations all at once. The same seed gives the same answer, byte for
     byte, whatever the number of threads.
 
     Args:
@@ -87,6 +89,14 @@ def decompose(
         answers.append(answer)
         if answer.complete or tracked > MOST_PATHS:
             break
+    if not any(a.complete or a.dimension > 0 for a in answers) and tracked <= MOST_PATHS:
+        rng = np.random.default_rng([seed, ATTEMPTS])
+        answer = _decompose_once(
+            system, rng, Tracker(settings, threads), progress, symmetries, isolated=True
+        )
+        tracked += answer.paths.tracked
+        if answer.complete and all(contains(answer, other) for other in answers):
+            answers.append(answer)
     best = min(answers, key=lambda a: (not a.complete, _undecided(a), len(a.notes)))
     paths = replace(best.paths, tracked=tracked)
     return replace(best, paths=paths, seed=seed, settings=settings)
@@ -102,7 +112,9 @@ def _decompose_once(
     tracker: Tracker,
     progress: Progress | None,
     symmetries: Sequence[SignedPermutation],
+    isolated: bool = False,
 ) -> Decomposition:
+    """One attempt; ``isolated``: at a finite set of simple points, all found at once."""
     elimination = eliminate_linear(system, graphs=False)
     reduced, frame = elimination.system, Frame.of(elimination)
     if not symmetries:
@@ -114,7 +126,12 @@ def _decompose_once(
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
     flag = random_rows(rng, reduced.n, reduced.n)
-    superset = witness_superset(equations, reduced.n, reduced.nonzero, flag, rng, tracker, progress)
+    if isolated:
+        superset = isolated_superset(reduced, rng, tracker)
+    else:
+        superset = witness_superset(
+            equations, reduced.n, reduced.nonzero, flag, rng, tracker, progress
+        )
     counts, notes = superset.counts, list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
