@@ -108,7 +108,10 @@ class Kernel:
         self._loaded = Loaded(code)
         count = self.function.__code__.co_argcount
         kind = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * count)
-        self._call = kind(self._loaded.address(self.function.__name__))
+        address = self._loaded.address(self.function.__name__)
+        if not address:
+            raise RuntimeError(f"{self.function.__name__} is missing in its object code")
+        self._call = kind(address)
 
     def _compile(self) -> bytes:
         from nag.machine_code.functions import Module

@@ -3,12 +3,14 @@
 Work arrays are flat, with the lane (the path) as the last and fastest index, so that vector ``k``
 of an array ``a`` is ``a[8 * k : 8 * k + 8]``. Every operation acts on each lane alone, hence a
 path's result does not depend on the paths beside it. No operation may be reassociated. Lanes are
-added, subtracted, multiplied and divided by Python's operators. Except for `aligned`, the functions
-here are names that kernels use; nothing calls them.
+added, subtracted, multiplied and divided by Python's operators. Except for the last two, the
+functions here are names that kernels use; nothing calls them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -62,3 +64,9 @@ def aligned(vectors: int) -> np.ndarray:
     raw = np.zeros(vectors * LANES + ALIGNMENT // 8)
     offset = (-raw.ctypes.data % ALIGNMENT) // 8
     return raw[offset : offset + vectors * LANES]
+
+
+def separate(vectors: np.ndarray, sizes: Sequence[int]) -> list[np.ndarray]:
+    """Parts of an `aligned` array with that many vectors each, one after the other."""
+    ends = LANES * np.cumsum([0, *sizes])
+    return [vectors[a:b] for a, b in pairwise(ends.tolist())]

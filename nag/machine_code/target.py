@@ -12,7 +12,10 @@ from llvmlite import binding
 @cache
 def processor() -> tuple[str, str, str]:
     """Kind of system, name of the processor, and its features; object code is for one of each."""
-    features = binding.get_host_cpu_features().flatten()
+    try:
+        features = binding.get_host_cpu_features().flatten()
+    except RuntimeError:
+        features = ""
     return binding.get_process_triple(), binding.get_host_cpu_name(), features
 
 
@@ -30,8 +33,11 @@ def _prepare() -> None:
 def _machine() -> binding.TargetMachine:
     _prepare()
     triple, name, features = processor()
-    return binding.Target.from_triple(triple).create_target_machine(
-        cpu=name, features=features, opt=1, reloc="static", codemodel="jitdefault", jit=True
+    target = binding.Target.from_triple(triple)
+    # On x86, LLVM's loader knows static relocations best; elsewhere it has a choice of its own.
+    relocation = "static" if target.name.startswith("x86") else "default"
+    return target.create_target_machine(
+        cpu=name, features=features, opt=1, reloc=relocation, codemodel="jitdefault", jit=True
     )
 
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from nag.machine_code.lanes import aligned, fma, fnma, load, splat, square_root, store
+from nag.machine_code.lanes import aligned, fma, fnma, load, separate, splat, square_root, store
 from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.tracking.homotopy import Homotopy
 
@@ -104,8 +103,8 @@ class Work(NamedTuple):
 
 
 def _real_blocks(start: np.ndarray, coefficient: np.ndarray) -> np.ndarray:
-    real = [not coefficient[a:b].imag.any() for a, b in pairwise(start)]
-    return np.array(real, dtype=np.int64)
+    imaginary = np.append(0, np.cumsum(coefficient.imag != 0))
+    return (np.diff(imaginary[start]) == 0).astype(np.int64)
 
 
 def _parts(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -165,7 +164,7 @@ def work(homotopy: Homotopy, order: int) -> Work:
     parts = len(homotopy.factors)
     sizes = [slots] * 2 + [order * value_slots] * 2 + [value_slots] * 2 + [N * N] * 2 + [N] * 4
     sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, 1, order + 2, 1, 1, 1, 1]
-    vectors = [aligned(size) for size in sizes]
+    vectors = separate(aligned(sum(sizes)), sizes)
     return Work(*vectors, aligned(10), np.zeros(40, np.int64), np.zeros(N, np.complex128))
 
 
