@@ -19,6 +19,9 @@ from nag.tracking.start.target import Start, StartError, Target, group_degrees, 
 from nag.tracking.start.toric import by_degeneration
 from nag.tracking.start.total_degree import MOST_PATHS
 
+# Arc of the start system's coefficients round those of the target, in turns.
+WIDTH = 1 / 3
+
 
 def polyhedral(target: Target, cells: MixedCells, rng: np.random.Generator, threads: int) -> Start:
     """The homotopy from random coefficients, whose solutions come from the mixed cells.
@@ -29,13 +32,13 @@ def polyhedral(target: Target, cells: MixedCells, rng: np.random.Generator, thre
         StartError: if there are too many paths, or not all solutions were found.
     """
     volume = _bounded("polyhedral", cells.mixed_volume)
-    system, spent = by_degeneration(cells, rng, threads)
+    system, spent = by_degeneration(cells, _near(target, rng), threads)
     reached = len(system.points)
     detail = f"its solutions by {spent} toric paths"
     if 0 < reached < volume:
         system, spent = by_monodromy(system, volume, rng, threads)
         detail += f", {volume - reached} of them by monodromy with {spent} regular paths"
-    return _start("polyhedral", target, system, volume, detail, rng)
+    return _start("polyhedral", target, system, volume, detail, 1.0)
 
 
 def monodromy(target: Target, volume: int, rng: np.random.Generator, threads: int) -> Start:
@@ -57,7 +60,21 @@ def monodromy(target: Target, volume: int, rng: np.random.Generator, threads: in
     else:
         system, spent = by_monodromy(system, volume, rng, threads)
     detail = f"its solutions by monodromy, {spent} regular paths"
-    return _start("monodromy", target, system, volume, detail, rng)
+    return _start("monodromy", target, system, volume, detail, complex(unit(rng, 1)[0]))
+
+
+def _near(target: Target, rng: np.random.Generator) -> tuple[np.ndarray, ...]:
+    """Random coefficients of absolute value 1, in an arc round the target's.
+
+    On the way to the target no coefficient comes near zero then; where that of a vertex does, paths
+    run far towards infinity and back.
+    """
+    result = []
+    for row, support in zip(target.rows, target.supports, strict=True):
+        c = np.array([complex(row.get(tuple(e), 0)) for e in support.tolist()])
+        turns = np.where(c == 0, 1.0, WIDTH) * (rng.random(len(c)) - 0.5)
+        result.append(np.exp(1j * np.angle(c) + 2j * np.pi * turns))
+    return tuple(result)
 
 
 def _bounded(name: str, volume: int) -> int:
@@ -72,7 +89,7 @@ def _start(
     system: GenericSystem,
     volume: int,
     detail: str,
-    rng: np.random.Generator,
+    gamma: complex,
 ) -> Start:
     if len(system.points) != volume:
         raise StartError(
@@ -82,6 +99,5 @@ def _start(
     degrees = group_degrees(system.rows, groups)
     begin = homogenized(system.rows, target.n, groups, degrees)
     goal = homogenized(target.rows, target.n, groups, degrees)
-    gamma = complex(unit(rng, 1)[0])
     homotopy = straight_line(begin, goal, gamma)
     return Start(name, homotopy, system.points, groups, detail=detail)

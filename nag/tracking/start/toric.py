@@ -20,7 +20,7 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.settings import named, tighter
 from nag.tracking.start.fibre_monodromy import Fibre, GenericSystem, equal_pairs
 from nag.tracking.start.mixed_cells import MixedCells
-from nag.tracking.start.target import StartError, group_degrees, homogenized, unit
+from nag.tracking.start.target import StartError, group_degrees, homogenized
 from nag.tracking.track import track_regular
 
 # The homotopies begin where the least power of the degeneration's parameter is exp(-LENGTH);
@@ -120,17 +120,16 @@ def _span(generators: np.ndarray, modulus: int) -> np.ndarray:
 
 
 def by_degeneration(
-    cells: MixedCells, rng: np.random.Generator, threads: int
+    cells: MixedCells, coefficients: tuple[np.ndarray, ...], threads: int
 ) -> tuple[GenericSystem, int]:
     """A system with the cells' supports, its solutions at the ends of toric paths, their number.
 
-    If there are as many solutions as the mixed volume, they are all, whatever happened on the way;
-    there may be fewer.
+    The coefficients are generic, of absolute value 1. If there are as many solutions as the mixed
+    volume, they are all, whatever happened on the way; there may be fewer.
 
     Raises:
         StartError: if the exponents are too large.
     """
-    coefficients = tuple(unit(rng, len(s)) for s in cells.supports)
     n = len(cells.supports)
     groups = (tuple(range(n)),)
     system = GenericSystem(cells.supports, coefficients, np.zeros((0, 1 + n), dtype=np.complex128))
