@@ -31,12 +31,14 @@ def system(variables: str, *equations: str) -> PolynomialSystem:
     return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
 
 
-def kinds(found: Intersection) -> Counter[tuple[int, int]]:
+def kinds(found: Intersection, accuracy: float = 1e-12) -> Counter[tuple[int, int]]:
     assert found.complete and not found.notes
-    assert all(c.residual < 1e-12 and c.accuracy < 1e-12 for c in found.components)
+    assert all(c.residual < 1e-12 and c.accuracy < accuracy for c in found.components)
     return Counter((c.dimension, c.degree) for c in found.components)
 
 
+# Points at which equations vanish to a high order are known to fewer digits.
+SINGULAR = 1e-9
 SPHERE = "x^2 + y^2 + z^2 - 1"
 
 
@@ -60,6 +62,52 @@ def test_two_components_meet_where_algebra_says(equations, expected, seed: int) 
     both = decompose(system(names, *equations), seed=seed)
     assert len(both.components) == 2
     assert kinds(intersect_pair(both, 0, 1, seed=seed)) == Counter(expected)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize(
+    ("equations", "expected"),
+    [
+        ([f"({SPHERE})^2*(z - 1/2)"], {(1, 2): 1}),
+        ([f"({SPHERE})^2*(z - 1/2)^2"], {(1, 2): 1}),
+        ([f"({SPHERE})^3*(z - 1)^2"], {(1, 1): 2}),
+        (["y^2*(y - x^2)"], {(0, 1): 1}),
+        (["y^2*(y - x^2)^2"], {(0, 1): 1}),
+        (["y*(y - x^3)^2"], {(0, 1): 1}),
+        (["(y^2 - x^3)^3*y^2"], {(0, 1): 1}),
+        # The plane meets the umbrella in its axis, twice, and in one more line.
+        (["(x^2 - y^2*z)^2*x^2"], {(1, 1): 2}),
+        (["(x^2 + y^2 - z^2)^2*z^2"], {(1, 1): 2}),
+        (["(y - x^2)*z", "(z - x^3)^2*z"], {(0, 1): 1}),
+        (["x^2*y", "x^2*z"], {(0, 1): 1}),
+    ],
+)
+def test_double_components_meet_where_simple_ones_would(equations, expected, seed: int) -> None:
+    names = "x y z" if "z" in "".join(equations) else "x y"
+    both = decompose(system(names, *equations), seed=seed)
+    assert len(both.components) == 2 and any(c.multiplicity > 1 for c in both.components)
+    found = intersect_pair(both, 0, 1, seed=seed)
+    assert kinds(found, SINGULAR) == Counter(expected)
+    if expected == {(0, 1): 1}:
+        assert np.abs(found.components[0].points).max() < SINGULAR
+
+
+def test_the_curves_of_two_rhombi_with_common_bars_meet_in_twelve_poses() -> None:
+    case = read_case(CASES / "gonzalez.toml")
+    curves = decompose(case.system)
+    assert sorted(c.multiplicity for c in curves.components) == [1, 1, 1, 1, 2, 2]
+    for i in range(6):
+        assert kinds(intersect_pair(curves, i, i)) == {(1, 2): 1}
+    meetings = [kinds(intersect_pair(curves, i, j), SINGULAR) for i, j in combinations(range(6), 2)]
+    assert sorted(meetings, key=len) == [Counter()] * 3 + [Counter({(0, 1): 1})] * 12
+
+
+def test_a_set_that_deflation_does_not_reach_leaves_the_answer_open() -> None:
+    case = read_case(CASES / "literature" / "adjacent-minors-3x4.toml")
+    minors = decompose(case.system)
+    found = intersect_pair(minors, 1, 5)
+    assert not found.complete
+    assert any("could not be made regular" in note for note in found.notes)
 
 
 @pytest.mark.parametrize(

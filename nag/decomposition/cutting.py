@@ -23,7 +23,7 @@ from nag.tracking.compiled import CompiledRows, compile_rows
 # A value relative to the size of its terms: zeros lie below 2.5e-13 at sharpened points, others
 # above 2e-6 in all systems measured.
 ON = 1e-9
-# A deflation of more steps than this has not been met in the literature's examples.
+# A deflation of more steps that add unknowns has not been met in the literature's examples.
 MOST_DEFLATIONS = 4
 # A rank is read where neighbouring singular values differ by this factor, and at a point that is
 # known to be singular, though perhaps not well, below this value.
@@ -32,8 +32,9 @@ NEARLY_SINGULAR = 1e-5
 # Newton's method may correct an end by this much, relative to its size: estimates of the error of
 # a singular end are themselves uncertain.
 NEAR = 1e-7
-# Deflated systems of more unknowns cost more than they are worth.
+# Deflated systems of more unknowns, or of more terms, cost more than they are worth.
 MOST_UNKNOWNS = 80
+MOST_TERMS = 20_000
 # A random choice of null vectors may be an unlucky one.
 ATTEMPTS = 3
 # Gradients below this, relative to what their degree lets them have, are not scaled up further.
@@ -259,7 +260,8 @@ def _find_cut(
 ) -> tuple[Cut, np.ndarray] | None:
     n, evaluator = equations.n, equations.evaluator
     polynomials, total, z, levels = list(equations.polynomials), n, x, []
-    for _ in range(1 + MOST_DEFLATIONS if deflate else 1):
+    steps = 0
+    while True:
         found = _regular_subset(polynomials, evaluator, tuple(levels), rows, x, z, accuracy, rng)
         if found is not None or not deflate:
             return found
@@ -269,7 +271,11 @@ def _find_cut(
         m = numerical_corank(singular, free, NEARLY_SINGULAR)
         if m == 0:
             return None
-        if total + (free - m) * m > MOST_UNKNOWNS:
+        steps += free > m
+        if steps > MOST_DEFLATIONS or total + (free - m) * m > MOST_UNKNOWNS:
+            return None
+        entries = sum(len(f.terms) * len(f.support) for f in polynomials)
+        if entries * m * (1 + free - m) > MOST_TERMS:
             return None
         level = Level(evaluator, q[:, :m], q[:, m:])
         polynomials = _deflated(polynomials, total, level.q1, level.q2)
@@ -277,7 +283,6 @@ def _find_cut(
         total = len(z)
         evaluator = Evaluator.of(polynomials, total)
         levels.append(level)
-    return None
 
 
 def _dyadic(rng: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:

@@ -1,0 +1,254 @@
+"""The intersection of two components as that of their product with the diagonal.
+
+The product A x B is cut by random combinations of the equations x = y, one by one (Sommese,
+Verschelde & Wampler 2004). Off the diagonal generic combinations cut transversally, however A and
+B touch: such points stay regular zeros of the two components' own cuts, deflated ones where a
+component is not reduced, and are tracked on. A path that ends on the diagonal ends at a point of
+the intersection, often a singular one. It leaves the product for the space that A and B share,
+where half as many variables remain to be deflated.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.decomposition.cutting import NEAR, Cut, Equations, regular_on, sharpen
+from nag.decomposition.factor import Factor, on_flag
+from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, admit
+from nag.decomposition.frame import Frame
+from nag.decomposition.membership import HIT, MISS, Membership, is_member
+from nag.decomposition.moving import orthonormal_rows
+from nag.decomposition.slices import random_rows, unit_complex
+from nag.decomposition.superset import Progress, clusters, forbidden, intersect
+from nag.decomposition.witness import PathCounts
+
+
+@dataclass(frozen=True, eq=False)
+class Common:
+    """Coordinates of the space that two components share, and equations of their intersection.
+
+    Attributes:
+        kept: the original variable that each coordinate is.
+        nonzero: polynomials that must not vanish.
+    """
+
+    equations: Equations
+    frame: Frame
+    kept: list[int]
+    nonzero: Evaluator
+
+
+@dataclass(eq=False)
+class Meeting:
+    """Points of an intersection, by dimension.
+
+    Attributes:
+        fibres: points with cuts.
+        rows: the slices on which they lie.
+        bare: isolated points that no deflation made regular, with their errors.
+    """
+
+    fibres: dict[int, list[Fibre]] = field(default_factory=dict)
+    rows: dict[int, np.ndarray] = field(default_factory=dict)
+    bare: list[tuple[np.ndarray, float]] = field(default_factory=list)
+    counts: PathCounts = field(default=PathCounts())
+    notes: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True, eq=False)
+class _Product:
+    """Two factors, their coordinates side by side."""
+
+    first: Factor
+    second: Factor
+
+    @property
+    def n(self) -> int:
+        return self.first.n + self.second.n
+
+    def differences(self, rng: np.random.Generator) -> list[Polynomial]:
+        """Random combinations of the equations that say that the factors' points are equal."""
+        n, split = self.n, self.first.n
+        pairs = zip(self.first.images, self.second.images, strict=True)
+        plain = [
+            f.with_variables(n, range(split)) - g.with_variables(n, range(split, n))
+            for f, g in pairs
+        ]
+        plain = [f for f in dict.fromkeys(plain) if f]
+        result = []
+        for _ in plain:
+            f = Polynomial.constant(n, 0)
+            for difference, k in zip(plain, rng.integers(-64, 64, len(plain)), strict=True):
+                f = f + difference * Fraction(2 * int(k) + 1, 64)
+            result.append(f)
+        return result
+
+    def fibres(self, rng: np.random.Generator) -> tuple[list[Fibre], np.ndarray]:
+        """The pairs of witness points, and their slice."""
+        left, right = self.first.rows, self.second.rows
+        rows = np.zeros((len(left) + len(right), 1 + self.n), dtype=complex)
+        rows[: len(left), : 1 + self.first.n] = left
+        rows[len(left) :, 0] = right[:, 0]
+        rows[len(left) :, 1 + self.first.n :] = right[:, 1:]
+        others = self.second.fibres(rng)
+        pairs = [(a, b) for a in self.first.fibres(rng) for b in others]
+        return [_pairs(a, b) for a, b in pairs], rows
+
+    def gaps(self, z: np.ndarray) -> np.ndarray:
+        """Distances of points from the diagonal, relative to their size."""
+        split = self.first.n
+        x = self.first.frame.points(z[:, :split])
+        y = self.second.frame.points(z[:, split : self.n])
+        return np.linalg.norm(x - y, axis=1) / (1 + np.linalg.norm(x, axis=1))
+
+    def common_rows(self, rows: np.ndarray, common: Common) -> np.ndarray:
+        """What a slice of the product is on the diagonal, in the shared coordinates."""
+        A = np.zeros((len(rows), len(common.frame.t)), dtype=complex)
+        split = self.first.n
+        A[:, self.first.kept] += rows[:, 1 : 1 + split]
+        A[:, self.second.kept] += rows[:, 1 + split :]
+        return orthonormal_rows(common.frame.pulled_back(A, -rows[:, 0]))
+
+
+def _pairs(first: Fibre, second: Fibre) -> Fibre:
+    """The product of two fibres, the unknowns that deflation added after all coordinates."""
+    a, b = first.cut, second.cut
+    n, aux = a.n + b.n, a.aux + b.aux
+    left = [*range(a.n), *range(n, n + a.aux)]
+    right = [*range(a.n, n), *range(n + a.aux, n + aux)]
+    polynomials = [f.with_variables(n + aux, left) for f in a.polynomials]
+    polynomials += [f.with_variables(n + aux, right) for f in b.polynomials]
+    points = np.zeros((len(first) * len(second), n + aux), dtype=complex)
+    points[:, left] = np.repeat(first.points, len(second), axis=0)
+    points[:, right] = np.tile(second.points, (len(first), 1))
+    cut = Cut(n, aux, tuple(polynomials))
+    return Fibre(cut, first.dimension + second.dimension, points)
+
+
+def meeting(
+    first: Factor,
+    second: Factor,
+    common: Common,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    progress: Progress | None = None,
+) -> Meeting:
+    """The points of the intersection of two components on generic slices of all dimensions.
+
+    Raises:
+        nag.decomposition.factor.IntersectionError: if witness points are none.
+    """
+    product, result = _Product(first, second), Meeting()
+    flag = random_rows(rng, product.n, product.n)
+    equations = product.differences(rng)
+    fibres, rows = product.fibres(rng)
+    fibres, result.counts = on_flag(fibres, rows, flag, rng, tracker)
+    d = len(rows)
+    if d == 0:
+        accuracy = max(first.accuracy, second.accuracy)
+        z = np.vstack([fibre.x for fibre in fibres])
+        near = product.gaps(z) < max(HIT, 1e2 * accuracy)
+        errors = np.full(int(near.sum()), accuracy)
+        _take(z[near], errors, 0, flag, product, common, result, rng, tracker)
+        return result
+    for k, f in enumerate(equations):
+        if not fibres or d == 0:
+            break
+        if progress is not None:
+            progress("intersecting", k, len(equations))
+        gamma, d = complex(unit_complex(rng)), d - 1
+        off, on, errors = [], [np.zeros((0, product.n), dtype=complex)], [np.zeros(0)]
+        for fibre in fibres:
+            ends = intersect(fibre, f, flag, gamma, tracker)
+            result.counts += ends.counts
+            gaps = np.full(len(ends.points), np.inf)
+            gaps[ends.finite] = product.gaps(ends.points[ends.finite])
+            here = ends.finite & (gaps < np.maximum(HIT, 1e2 * ends.accuracy))
+            away = ends.finite & ~here
+            unclear = int((gaps[away] < np.maximum(MISS, 1e4 * ends.accuracy[away])).sum())
+            on.append(ends.points[here, : product.n])
+            errors.append(ends.accuracy[here])
+            if d > 0 and away.any():
+                cut = fibre.cut.extended(f)
+                points, lost = _regular(cut, flag[:d], ends, away)
+                off.append(Fibre(cut, d, points))
+                unclear += lost
+            if unclear:
+                result.notes.append(
+                    f"{unclear} paths ended neither on the diagonal nor well off it"
+                )
+        _take(np.vstack(on), np.concatenate(errors), d, flag, product, common, result, rng, tracker)
+        fibres = off
+    if result.counts.failed:
+        result.notes.append(f"{result.counts.failed} paths failed; points may be missing")
+    return result
+
+
+def _regular(cut: Cut, rows: np.ndarray, ends: Moved, chosen: np.ndarray) -> tuple[np.ndarray, int]:
+    """The chosen ends as regular zeros of a cut, and how many of them are none.
+
+    Off the diagonal all are; an end that seems singular is a badly conditioned one.
+    """
+    points, lost = [ends.points[chosen & ends.regular]], 0
+    for i in np.flatnonzero(chosen & ~ends.regular):
+        z = ends.points[i]
+        sharpened, scale = sharpen(cut.evaluator, rows, z), 1 + np.linalg.norm(z)
+        near = np.linalg.norm(sharpened.z - z) < max(1e3 * ends.accuracy[i], NEAR) * scale
+        alone = (np.linalg.norm(np.vstack(points) - sharpened.z, axis=1) > SAME * scale).all()
+        if sharpened.converged and near and alone and regular_on(cut.evaluator, rows, sharpened):
+            points.append(sharpened.z[None])
+        else:
+            lost += 1
+    return np.vstack(points), lost
+
+
+def _take(
+    z: np.ndarray,
+    accuracy: np.ndarray,
+    d: int,
+    flag: np.ndarray,
+    product: _Product,
+    common: Common,
+    result: Meeting,
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> None:
+    """Add ends of dimension ``d`` on the diagonal to a meeting, unless larger sets hold them."""
+    x = product.first.frame.points(z[:, : product.first.n])[:, common.kept]
+    allowed = ~forbidden(common.nonzero, x, accuracy)
+    x, accuracy = x[allowed], accuracy[allowed]
+    if not len(x):
+        return
+    equations = common.equations
+    rows = result.rows[d] = product.common_rows(flag[:d], common)
+    fibres = result.fibres[d] = []
+    lost = 0
+    for cluster in clusters(x, accuracy):
+        best, error = x[cluster[0]], float(accuracy[cluster[0]])
+        if admit(best, error, fibres, equations, rows, rng, deflate=False):
+            for i in cluster[1:]:
+                admit(x[i], float(accuracy[i]), fibres, equations, rows, rng, deflate=False)
+            continue
+        answer = Membership.FOREIGN
+        for higher in sorted((e for e in result.fibres if e > d), reverse=True):
+            answer, spent = is_member(
+                best, error, result.fibres[higher], result.rows[higher], rng, tracker
+            )
+            result.counts += spent
+            if answer is not Membership.FOREIGN:
+                break
+        if answer is Membership.UNDECIDED:
+            result.notes.append(f"a point of dimension {d} could not be told from a larger set")
+        elif answer is Membership.FOREIGN and not admit(
+            best, error, fibres, equations, rows, rng, deflate=True
+        ):
+            lost += 1
+            if d == 0:
+                result.bare.append((best, error))
+    if lost and d > 0:
+        result.notes.append(f"{lost} singular points of dimension {d} could not be made regular")

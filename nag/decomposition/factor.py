@@ -1,0 +1,105 @@
+"""A component in the coordinates that are left when its system's linear equations are solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.cutting import Equations
+from nag.decomposition.fibres import Fibre, Tracker, admit
+from nag.decomposition.frame import Frame
+from nag.decomposition.monodromy import carried
+from nag.decomposition.moving import orthonormal_rows
+from nag.decomposition.slices import unit_complex
+from nag.decomposition.witness import PathCounts, WitnessSet
+
+ATTEMPTS = 4
+
+
+class IntersectionError(ValueError):
+    """Sets that cannot be intersected; the message is one line."""
+
+
+@dataclass(frozen=True, eq=False)
+class Factor:
+    """A component to be intersected: ``component`` of the system that ``elimination`` reduced."""
+
+    elimination: Elimination
+    frame: Frame
+    component: WitnessSet
+
+    @classmethod
+    def of(cls, system: PolynomialSystem, component: WitnessSet) -> Factor:
+        if component.points.shape[1] != system.n:
+            raise IntersectionError(
+                f"the component has {component.points.shape[1]} coordinates, its system {system.n}"
+            )
+        elimination = eliminate_linear(system, graphs=False)
+        return cls(elimination, Frame.of(elimination), component)
+
+    @property
+    def n(self) -> int:
+        return self.elimination.system.n
+
+    @property
+    def kept(self) -> list[int]:
+        """The original variable that each coordinate is."""
+        return list(self.elimination.kept)
+
+    @property
+    def images(self) -> tuple[Polynomial, ...]:
+        """The original variables as polynomials in the coordinates."""
+        return self.elimination.images
+
+    @property
+    def rows(self) -> np.ndarray:
+        cut = self.component.slice
+        return orthonormal_rows(self.frame.pulled_back(cut.A, cut.b))
+
+    @property
+    def accuracy(self) -> float:
+        """Relative error of the points, not below what paths leave."""
+        return max(self.component.accuracy, 1e-12)
+
+    def fibres(self, rng: np.random.Generator) -> list[Fibre]:
+        """The witness points with cuts, deflated ones if the component is not reduced.
+
+        Raises:
+            IntersectionError: if no cut is found for a point.
+        """
+        deflate = self.component.multiplicity != 1
+        equations = Equations(self.elimination.system.polynomials, self.n)
+        fibres: list[Fibre] = []
+        for x in self.component.points[:, self.kept]:
+            if not admit(x, self.accuracy, fibres, equations, self.rows, rng, deflate):
+                raise IntersectionError("the witness points are no regular zeros of the system")
+        return fibres
+
+
+def on_flag(
+    fibres: list[Fibre],
+    rows: np.ndarray,
+    flag: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> tuple[list[Fibre], PathCounts]:
+    """Fibres on the slice ``rows`` carried to the leading rows of a generic flag.
+
+    Raises:
+        IntersectionError: if paths fail again and again.
+    """
+    counts = PathCounts()
+    if len(rows) == 0:
+        return fibres, counts
+    for attempt in range(ATTEMPTS):
+        used = Tracker("careful" if attempt else tracker.settings, tracker.threads)
+        gamma = complex(unit_complex(rng))
+        there, spent = carried(fibres, rows, flag[: len(rows)], gamma, used)
+        counts += spent
+        if there is not None:
+            return there, counts
+    raise IntersectionError("the witness points could not be moved to a generic slice")
