@@ -112,7 +112,10 @@ def checked_witness_set(
         reasons.append("the corank of the Jacobian differs between its points")
     multiple = int(coranks[0] == d)
     if scheme and not multiple:
-        multiple = multiplicity(reduced.evaluator, rows, y[0])
+        nearest = y[np.linalg.norm(y, axis=1).argmin()]
+        multiple = multiplicity(reduced.evaluator, rows, nearest)
+        # A simple zero would have been seen by its corank.
+        multiple *= multiple > 1
     if scheme and coranks[0] != d and not chosen[0].cut.levels:
         reasons.append("its points are regular and singular at once: zeros too close")
     if scheme and multiple == 0:

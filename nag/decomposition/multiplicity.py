@@ -21,4 +21,16 @@ def multiplicity(evaluator: Evaluator, rows: np.ndarray, x: np.ndarray) -> int:
     """
     a = padded(rows, 1 + len(x))[:, 1:]
     along = scipy.linalg.null_space(a) if len(a) else None
-    return local_dimension(evaluator, x, lambda s, k: numerical_corank(s, k, ZERO), along) or 0
+    scaled, z = _in_unit_box(evaluator, x)
+    return local_dimension(scaled, z, lambda s, k: numerical_corank(s, k, ZERO), along) or 0
+
+
+def _in_unit_box(evaluator: Evaluator, x: np.ndarray) -> tuple[Evaluator, np.ndarray]:
+    """The equations and the point in coordinates, larger by a power of two, that are at most one.
+
+    At a large point the rounding errors of terms of high degree are no small numbers.
+    """
+    power = max(0, int(np.ceil(np.log2(np.abs(x).max(initial=1.0)))))
+    totals = evaluator.exponents.sum(axis=1)
+    coefficients = evaluator.coefficients * 2.0 ** (power * (totals - evaluator.degrees[:, None]))
+    return Evaluator(evaluator.n, evaluator.exponents, coefficients), x / 2.0**power
