@@ -10,7 +10,7 @@ from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.cutting import Equations
-from nag.decomposition.fibres import Fibre, Tracker, admit
+from nag.decomposition.fibres import Fibre, Tracker, cut_fibres
 from nag.decomposition.frame import Frame
 from nag.decomposition.monodromy import carried
 from nag.decomposition.moving import orthonormal_rows
@@ -73,10 +73,10 @@ class Factor:
         """
         deflate = self.component.multiplicity != 1
         equations = Equations(self.elimination.system.polynomials, self.n)
-        fibres: list[Fibre] = []
-        for x in self.component.points[:, self.kept]:
-            if not admit(x, self.accuracy, fibres, equations, self.rows, rng, deflate):
-                raise IntersectionError("the witness points are no regular zeros of the system")
+        points = self.component.points[:, self.kept]
+        fibres = cut_fibres(points, self.accuracy, equations, self.rows, rng, deflate)
+        if fibres is None:
+            raise IntersectionError("the witness points are no regular zeros of the system")
         return fibres
 
 

@@ -176,7 +176,12 @@ def _least_doubtful(
     answers: list[Intersection] = []
     for k in range(ATTEMPTS):
         rng = np.random.default_rng([seed, stream, k] if k else [seed, stream])
-        answers.append(attempt(rng))
+        try:
+            answers.append(attempt(rng))
+        except IntersectionError:
+            if k + 1 == ATTEMPTS and not answers:
+                raise
+            continue
         if answers[-1].complete:
             break
     best = min(answers, key=lambda a: (not a.complete, len(a.notes)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from enum import Enum
 
@@ -10,7 +11,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.cutting import Equations
-from nag.decomposition.fibres import Fibre, Tracker, admit, move
+from nag.decomposition.fibres import Fibre, Tracker, cut_fibres, move
 from nag.decomposition.slices import rows_through, unit_complex
 from nag.decomposition.witness import Decomposition, PathCounts, WitnessSet
 
@@ -19,6 +20,8 @@ from nag.decomposition.witness import Decomposition, PathCounts, WitnessSet
 HIT = 1e-8
 MISS = 1e-5
 ATTEMPTS = 4
+# Cuts are the same whenever they are asked for; finding those of a double component takes long.
+_recent: deque[tuple[PolynomialSystem, WitnessSet, list[Fibre]]] = deque(maxlen=256)
 
 
 class Membership(Enum):
@@ -70,22 +73,28 @@ def is_member(
     return Membership.UNDECIDED, counts
 
 
-def component_fibres(
-    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator
-) -> list[Fibre]:
+def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fibre]:
     """The points of a component with square systems that cut them, found anew from the system.
+
+    They are kept for the components that were asked for last.
 
     Raises:
         ValueError: if the points are not regular zeros of the system or of a deflation of it.
     """
-    rows = component.slice.rows
-    accuracy = max(component.accuracy, 1e-12)
-    equations = Equations(system.polynomials, system.n)
-    fibres: list[Fibre] = []
-    for x in component.points:
-        deflate = component.multiplicity != 1
-        if not admit(x, accuracy, fibres, equations, rows, rng, deflate):
-            raise ValueError("the witness points are no regular zeros of the system")
+    for known, owner, fibres in _recent:
+        if known is system and owner is component:
+            return fibres
+    fibres = cut_fibres(
+        component.points,
+        max(component.accuracy, 1e-12),
+        Equations(system.polynomials, system.n),
+        component.slice.rows,
+        np.random.default_rng(0),
+        deflate=component.multiplicity != 1,
+    )
+    if fibres is None:
+        raise ValueError("the witness points are no regular zeros of the system")
+    _recent.append((system, component, fibres))
     return fibres
 
 
@@ -113,7 +122,7 @@ def memberships(
     answers = []
     for component in decomposition.components:
         try:
-            fibres = component_fibres(system, component, rng)
+            fibres = component_fibres(system, component)
         except ValueError:
             answers.append(Membership.UNDECIDED)
             continue

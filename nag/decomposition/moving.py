@@ -77,7 +77,7 @@ def witness_at(
         )
     rng = np.random.default_rng([seed, 2])
     rows, goal = component.slice.rows, orthonormal_rows(target.rows)
-    fibres = component_fibres(system, component, rng)
+    fibres = component_fibres(system, component)
     lost = ""
     for attempt in range(ATTEMPTS):
         tracker = Tracker("careful" if attempt else settings, threads)

@@ -96,7 +96,7 @@ def project(
     if not chosen or len(set(chosen)) < len(chosen) or not set(chosen) <= set(range(system.n)):
         raise ValueError(f"coordinates {chosen} are not distinct indices below {system.n}")
     rng = np.random.default_rng([seed, 4])
-    fibres = component_fibres(system, component, rng)
+    fibres = component_fibres(system, component)
     d = component.dimension
     r = _image_dimension(fibres[0], chosen)
     found = [

@@ -78,7 +78,7 @@ def real_points_near(
         raise ValueError(f"the point must be {system.n} finite real numbers")
     rng = np.random.default_rng([seed, 8])
     tracker = Tracker(settings, threads)
-    fibres = component_fibres(system, component, rng)
+    fibres = component_fibres(system, component)
     everything = Evaluator.of(system.polynomials, system.n)
     found = np.zeros((0, system.n))
     flags: list[bool] = []

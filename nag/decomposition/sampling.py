@@ -63,7 +63,7 @@ def sample(
         SamplingError: if a path fails again and again.
     """
     rng = np.random.default_rng([seed, 3])
-    fibres = component_fibres(system, component, rng)
+    fibres = component_fibres(system, component)
     rows, d, n = component.slice.rows, component.dimension, system.n
     owners = [(fibre, i) for fibre in fibres for i in range(len(fibre))]
     evaluator = Evaluator.of(system.polynomials, n)
