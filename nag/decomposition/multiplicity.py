@@ -20,17 +20,19 @@ def multiplicity(evaluator: Evaluator, rows: np.ndarray, x: np.ndarray) -> int:
     ``x`` must be known to rounding. See `nag.algebra.local_ring.local_dimension`.
     """
     a = padded(rows, 1 + len(x))[:, 1:]
-    along = scipy.linalg.null_space(a) if len(a) else None
-    scaled, z = _in_unit_box(evaluator, x)
-    return local_dimension(scaled, z, lambda s, k: numerical_corank(s, k, ZERO), along) or 0
+    scaled, sizes = _scaled(evaluator, x)
+    along = scipy.linalg.null_space(a * sizes) if len(a) else None
+    return local_dimension(scaled, x / sizes, lambda s, k: numerical_corank(s, k, ZERO), along) or 0
 
 
-def _in_unit_box(evaluator: Evaluator, x: np.ndarray) -> tuple[Evaluator, np.ndarray]:
-    """The equations and the point in coordinates, larger by a power of two, that are at most one.
+def _scaled(evaluator: Evaluator, x: np.ndarray) -> tuple[Evaluator, np.ndarray]:
+    """The equations in coordinates that are at most one at ``x``, and what these are multiplied by.
 
-    At a large point the rounding errors of terms of high degree are no small numbers.
+    Scales are powers of two; each equation's largest coefficient is one again. At a large point the
+    rounding errors of terms of high degree are no small numbers.
     """
-    power = max(0, int(np.ceil(np.log2(np.abs(x).max(initial=1.0)))))
-    totals = evaluator.exponents.sum(axis=1)
-    coefficients = evaluator.coefficients * 2.0 ** (power * (totals - evaluator.degrees[:, None]))
-    return Evaluator(evaluator.n, evaluator.exponents, coefficients), x / 2.0**power
+    powers = np.ceil(np.log2(np.maximum(np.abs(x), 1.0)))
+    coefficients = evaluator.coefficients * 2.0 ** (evaluator.exponents @ powers)
+    largest = np.abs(coefficients).max(axis=1, initial=0.0)
+    coefficients /= np.where(largest == 0, 1.0, largest)[:, None]
+    return Evaluator(evaluator.n, evaluator.exponents, coefficients), 2.0**powers
