@@ -16,7 +16,8 @@ from nag.cases import read_case
 from nag.decomposition import decompose
 from nag.decomposition.expansion import expanded, positions
 from nag.decomposition.fibres import Tracker
-from nag.decomposition.orbits import Action, irreducible_orbits, join, located
+from nag.decomposition.monodromy import located
+from nag.decomposition.orbits import Action, irreducible_orbits, join
 from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import witness_superset
 from nag.report.agreement import Verdict, compare, kinds

@@ -37,8 +37,9 @@ class Evaluator:
         exponents = np.array(monomials, dtype=np.int64).reshape(len(monomials), n)
         return cls(n, exponents, coefficients)
 
-    def _monomials(self, points: np.ndarray) -> np.ndarray:
-        return _powers(points, self.exponents)
+    @cached_property
+    def _monomials(self) -> _Monomials:
+        return _Monomials.of(self.exponents)
 
     def values(self, points: np.ndarray) -> np.ndarray:
         """Values, shape ``(P, rows)``, at ``points`` of shape ``(P, n)``."""
@@ -58,8 +59,8 @@ class Evaluator:
         return np.abs(self.values(points)) / self.sizes(points)
 
     @cached_property
-    def _derivatives(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Exponents of the derivatives' monomials; place, monomial and factor of their terms."""
+    def _derivatives(self) -> tuple[_Monomials, np.ndarray, np.ndarray, np.ndarray]:
+        """The derivatives' monomials; place, monomial and factor of their terms."""
         lowered: dict[tuple[int, ...], int] = {}
         places, monomials, factors = [], [], []
         for row, m in zip(*np.nonzero(self.coefficients), strict=True):
@@ -71,7 +72,7 @@ class Evaluator:
                 factors.append(exponents[i] * self.coefficients[row, m])
         table = np.array(list(lowered), dtype=np.int64).reshape(len(lowered), self.n)
         return (
-            table,
+            _Monomials.of(table),
             np.array(places, dtype=np.int64),
             np.array(monomials, dtype=np.int64),
             np.array(factors, dtype=float),
@@ -79,8 +80,8 @@ class Evaluator:
 
     def jacobian(self, point: np.ndarray) -> np.ndarray:
         """Jacobian matrix, shape ``(rows, n)``, at one point."""
-        table, places, monomials, factors = self._derivatives
-        values = _powers(np.asarray(point, dtype=complex)[None], table)[0]
+        powers, places, monomials, factors = self._derivatives
+        values = powers(np.asarray(point, dtype=complex)[None])[0]
         terms = factors * values[monomials]
         size = len(self.coefficients) * self.n
         result = np.bincount(places, terms.real, size) + 1j * np.bincount(places, terms.imag, size)
@@ -98,15 +99,38 @@ class Evaluator:
         return self.jacobian(point) / size ** (self.degrees - 1)[:, None]
 
 
-def _powers(points: np.ndarray, exponents: np.ndarray) -> np.ndarray:
-    """Monomials at points of shape ``(P, n)``, shape ``(P, M)``."""
-    values = np.ones((len(points), len(exponents)), dtype=points.dtype)
-    for i in range(points.shape[1]):
-        column = points[:, i, None]
-        power = column
-        for k in range(1, int(exponents[:, i].max(initial=0)) + 1):
-            power = power * column if k > 1 else column
-            where = np.flatnonzero(exponents[:, i] == k)
-            if len(where):
-                values[:, where] *= power
-    return values
+@dataclass(frozen=True, eq=False)
+class _Monomials:
+    """Monomials as products of entries of a table of powers.
+
+    Attributes:
+        top: the highest power.
+        factors: int, shape ``(S, M)``: where the factors of each monomial stand in a row of the
+            table, ``x_i^k`` at place ``i * (top + 1) + k``; the rest are the entry at 0, a one.
+    """
+
+    top: int
+    factors: np.ndarray
+
+    @classmethod
+    def of(cls, exponents: np.ndarray) -> _Monomials:
+        top = int(exponents.max(initial=0))
+        rows, columns = np.nonzero(exponents)
+        # The factors of a monomial stand in neighbouring places of `rows`.
+        slots = np.arange(len(rows)) - np.searchsorted(rows, rows)
+        factors = np.zeros((int(slots.max(initial=-1)) + 1, len(exponents)), dtype=np.int64)
+        factors[slots, rows] = columns * (top + 1) + exponents[rows, columns]
+        return cls(top, factors)
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        """Values at points of shape ``(P, n)``, shape ``(P, M)``."""
+        if not len(self.factors):
+            return np.ones((len(points), self.factors.shape[1]), dtype=points.dtype)
+        table = np.ones((*points.shape, self.top + 1), dtype=points.dtype)
+        for k in range(1, self.top + 1):
+            table[:, :, k] = table[:, :, k - 1] * points
+        table = table.reshape(len(points), -1)
+        values = table[:, self.factors[0]]
+        for places in self.factors[1:]:
+            values *= table[:, places]
+        return values

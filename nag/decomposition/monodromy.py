@@ -5,30 +5,42 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from nag.decomposition.fibres import Fibre, Tracker, move
 from nag.decomposition.slices import random_rows, unit_complex
 from nag.decomposition.witness import PathCounts
 
 ATTEMPTS = 3
+# An end is one of the known points when it is that near and the next one is a thousand times
+# farther; it is none of them when it is farther than the second bound from all.
+NEAR = 1e-6
+FAR = 1e-4
 
 
 def match(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
-    """The permutation p with ``ends[i]`` at ``points[p[i]]``; None if the ends are no permutation.
+    """The permutation p with ``ends[i]`` at ``points[p[i]]``; None if there is none."""
+    nearest = located(ends, points)
+    if nearest is None or (nearest < 0).any():
+        return None
+    return nearest if len(np.unique(nearest)) == len(points) else None
+
+
+def located(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
+    """Indices of the ``points`` that ``ends`` are, -1 for none; None if that is not clear.
 
     An end belongs to the nearest point if it is a thousand times nearer than the next one.
     """
-    if len(points) == 0:
-        return np.zeros(0, dtype=int)
-    distances = np.linalg.norm(ends[:, None, :] - points[None, :, :], axis=2)
-    nearest = distances.argmin(axis=1)
-    closest = distances.min(axis=1)
-    distances[np.arange(len(ends)), nearest] = np.inf
-    if (closest > 1e-3 * distances.min(axis=1)).any():
+    if len(ends) == 0 or points.shape[1] == 0:
+        return np.zeros(len(ends), dtype=int)
+    tree = cKDTree(np.hstack([points.real, points.imag]))
+    distances, indices = tree.query(np.hstack([ends.real, ends.imag]), k=[1, 2])
+    nearest, closest = indices[:, 0], distances[:, 0]
+    scale = 1 + np.linalg.norm(points[nearest], axis=1)
+    hit = (closest < NEAR * scale) & (closest < 1e-3 * distances[:, 1])
+    if not (hit | (closest > FAR * scale)).all():
         return None
-    if (closest > 1e-6 * (1 + np.linalg.norm(points[nearest], axis=1))).any():
-        return None
-    return nearest if len(np.unique(nearest)) == len(points) else None
+    return np.where(hit, nearest, -1)
 
 
 def carried(

@@ -12,12 +12,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.fibres import Fibre, Tracker
 from nag.decomposition.irreducible import Class, irreducible_classes
-from nag.decomposition.monodromy import carried
+from nag.decomposition.monodromy import carried, located
 from nag.decomposition.slices import random_rows, unit_complex
 from nag.decomposition.trace import is_linear, second_differences
 from nag.decomposition.witness import PathCounts
@@ -25,10 +24,6 @@ from nag.decomposition.witness import PathCounts
 # Loops that join nothing before the rest is split without symmetries.
 IDLE_LOOPS = 4
 ATTEMPTS = 3
-# An end is one of the known points when it is that near and the next one is a thousand times
-# farther; it is none of them when it is farther than the second bound from all.
-NEAR = 1e-6
-FAR = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -323,15 +318,3 @@ def _linear_on_two_slices(points: _Points, indices: np.ndarray) -> tuple[bool, P
         if differences is not None:
             return is_linear(differences), counts
     return False, counts
-
-
-def located(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
-    """Indices of the ``points`` that ``ends`` are, -1 for none; None if that is not clear."""
-    tree = cKDTree(np.hstack([points.real, points.imag]))
-    distances, indices = tree.query(np.hstack([ends.real, ends.imag]), k=[1, 2])
-    nearest, closest = indices[:, 0], distances[:, 0]
-    scale = 1 + np.linalg.norm(points[nearest], axis=1)
-    hit = (closest < NEAR * scale) & (closest < 1e-3 * distances[:, 1])
-    if not (hit | (closest > FAR * scale)).all():
-        return None
-    return np.where(hit, nearest, -1)
