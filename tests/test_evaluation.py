@@ -42,3 +42,10 @@ def test_a_single_term_has_a_small_residual_near_its_zero() -> None:
     evaluator = Evaluator.of([x**2], 1)
     assert evaluator.residuals(np.array([[1e-9]]))[0, 0] < 1e-17
     assert evaluator.residuals(np.array([[1e3]]))[0, 0] > 0.5
+
+
+def test_no_points_have_no_values() -> None:
+    x, y = Polynomial.variables(2)
+    evaluator = Evaluator.of([x**2 * y - 1, x], 2)
+    assert evaluator.values(np.zeros((0, 2))).shape == (0, 2)
+    assert evaluator.residuals(np.zeros((0, 2))).shape == (0, 2)

@@ -129,7 +129,7 @@ class _Monomials:
         table = np.ones((*points.shape, self.top + 1), dtype=points.dtype)
         for k in range(1, self.top + 1):
             table[:, :, k] = table[:, :, k - 1] * points
-        table = table.reshape(len(points), -1)
+        table = table.reshape(len(points), points.shape[1] * (self.top + 1))
         values = table[:, self.factors[0]]
         for places in self.factors[1:]:
             values *= table[:, places]
