@@ -1,96 +1,188 @@
 """Decompose cases for many seeds and count the answers that are wrong or incomplete.
 
     python tests/many_seeds.py --seeds 0:1000 [--case NAME ...] [--folder literature ...]
-        [--formulation E|H] [--symmetric] [--threads N]
+        [--below SECONDS] [--journal FILE] [--formulation E|H] [--symmetric] [--threads N]
 
-Prints one line a case; exit status 1 if any answer differs from what the case file knows, or is
-incomplete.
+Prints one line a case and the totals. With a journal, a run that was cut off goes on where it
+stopped. Exit status 1 if any answer differs from what the case file knows, or is incomplete.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import time
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from nag.cases import read_case
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.cases import Truth, read_case
 from nag.decomposition import decompose
+from nag.decomposition.witness import Status
 from nag.mechanism.model import model
 from nag.report.agreement import Verdict, compare, in_words, kinds
 from nag.report.answer import symmetries_of
 
 CASES = Path(__file__).resolve().parent.parent / "cases"
+# Seconds between two notices of how far a case is.
+NOTICE = 60
 
 
-def run(
-    path: Path,
-    seeds: range,
-    formulation: str | None,
-    threads: int,
-    settings: str,
-    symmetric: bool = False,
-) -> bool:
-    """Decompose one case for all seeds, print the counts, and say whether all were right."""
-    case, chosen = read_case(path), None
+@dataclass(frozen=True)
+class Subject:
+    """A case in one formulation, ready to be decomposed."""
+
+    name: str
+    system: PolynomialSystem
+    truth: tuple[Truth, ...]
+    formulation: str | None
+    symmetries: tuple[SignedPermutation, ...]
+
+
+@dataclass(frozen=True)
+class Result:
+    """What became of one seed.
+
+    Attributes:
+        wrong: it differs from what is known, or an error was raised.
+        incomplete: it does not claim to be the whole answer.
+        undecided: number of components that are not confirmed.
+        seconds: processor time.
+        text: what was found, unless all is well.
+    """
+
+    case: str
+    seed: int
+    wrong: bool
+    incomplete: bool
+    undecided: int
+    seconds: float
+    text: str = ""
+
+
+def subject(path: Path, formulation: str | None, symmetric: bool) -> Subject:
+    """The case of a file; the cheapest formulation of a mechanism unless one is named."""
+    case, chosen, name = read_case(path), None, path.stem
+    system = case.system
     if case.mechanism is not None:
         chosen = model(case.mechanism, formulation or "auto")
         system, formulation = chosen.system, chosen.formulation
+        name += f" ({formulation})"
     else:
-        system, formulation = case.system, None
-    symmetries = symmetries_of(case, chosen) if symmetric else ()
-    wrong, incomplete, seconds = [], [], []
-    for seed in seeds:
-        begin = time.perf_counter()
+        formulation = None
+    symmetries = tuple(symmetries_of(case, chosen)) if symmetric else ()
+    return Subject(name, system, tuple(case.truth), formulation, symmetries)
+
+
+def decomposed(of: Subject, seed: int, threads: int, settings: str) -> Result:
+    """Decompose once and compare."""
+    begin = time.process_time()
+    try:
         answer = decompose(
-            system, seed=seed, threads=threads, settings=settings, symmetries=symmetries
+            of.system, seed=seed, threads=threads, settings=settings, symmetries=of.symmetries
         )
-        seconds.append(time.perf_counter() - begin)
-        agreement = compare(answer, case.truth, formulation)
-        if agreement is None or agreement.verdict is Verdict.DIFFERS or agreement.unlisted:
-            wrong.append(seed)
-        if not answer.complete:
-            incomplete.append(seed)
-        if seed in (*wrong[-1:], *incomplete[-1:]):
-            print(f"  seed {seed}: {in_words(kinds(answer.components))}", end="")
-            print(f" {answer.paths} {'; '.join(answer.notes)}")
-    seconds.sort()
-    name = path.stem if formulation is None else f"{path.stem} ({formulation})"
-    print(
-        f"{name}: {len(seeds)} seeds, {len(wrong)} wrong, {len(incomplete)} incomplete, "
-        f"median {seconds[len(seconds) // 2]:.3f} s",
-        flush=True,
+    except Exception as error:  # A run of hours is not to end with one seed.
+        spent = time.process_time() - begin
+        return Result(of.name, seed, True, True, 0, spent, f"{type(error).__name__}: {error}")
+    spent = time.process_time() - begin
+    agreement = compare(answer, of.truth, of.formulation)
+    wrong = agreement is None or agreement.verdict is Verdict.DIFFERS or bool(agreement.unlisted)
+    undecided = sum(c.status is Status.UNDECIDED for c in answer.components)
+    text = ""
+    if wrong or not answer.complete:
+        reasons = [*answer.notes, *(c.note for c in answer.components if c.note)]
+        text = f"{in_words(kinds(answer.components))} {answer.paths} {'; '.join(reasons)}"
+    return Result(of.name, seed, wrong, not answer.complete, undecided, spent, text)
+
+
+def recorded(journal: Path | None) -> dict[tuple[str, int], Result]:
+    """The results of an earlier run; a line that was cut off is left out."""
+    known: dict[tuple[str, int], Result] = {}
+    if journal is not None and journal.exists():
+        for line in journal.read_text().splitlines():
+            try:
+                result = Result(**json.loads(line))
+            except (ValueError, TypeError):
+                continue
+            known[result.case, result.seed] = result
+    return known
+
+
+def run(
+    of: Subject,
+    seeds: Sequence[int],
+    known: dict[tuple[str, int], Result],
+    options: argparse.Namespace,
+) -> Iterator[Result]:
+    """The results of all seeds, the new ones written to the journal as they come."""
+    noticed = time.monotonic()
+    for k, seed in enumerate(seeds):
+        result = known.get((of.name, seed))
+        if result is None:
+            result = decomposed(of, seed, options.threads, options.settings)
+            if options.journal is not None:
+                with options.journal.open("a") as file:
+                    file.write(json.dumps(asdict(result)) + "\n")
+        if result.wrong or result.incomplete:
+            print(f"  seed {seed}: {result.text}", flush=True)
+        yield result
+        if options.below is not None and k == 0 and result.seconds > options.below:
+            return
+        if time.monotonic() - noticed > NOTICE:
+            noticed = time.monotonic()
+            print(f"{of.name}: {k + 1} of {len(seeds)} seeds", file=sys.stderr, flush=True)
+
+
+def summary(name: str, results: Sequence[Result]) -> str:
+    """Counts and the median time of some results, in one line."""
+    seconds = sorted(r.seconds for r in results)
+    return (
+        f"{name}: {len(results)} seeds, {sum(r.wrong for r in results)} wrong, "
+        f"{sum(r.incomplete for r in results)} incomplete, "
+        f"{sum(r.undecided > 0 for r in results)} with undecided components, "
+        f"median {seconds[len(seconds) // 2]:.3f} s, longest {seconds[-1]:.3f} s"
     )
-    return not wrong and not incomplete
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seeds", default="0:20", help="first:last+1")
     parser.add_argument("--case", action="append", help="stem of a case file; all by default")
     parser.add_argument("--folder", action="append", help="folder under cases/, in their place")
+    parser.add_argument("--below", type=float, help="pass over cases that take more seconds a seed")
+    parser.add_argument("--journal", type=Path, help="file that keeps the results of every seed")
     parser.add_argument("--symmetric", action="store_true", help="use the systems' symmetries")
     parser.add_argument("--formulation", choices=["E", "H"])
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--settings", default="default")
-    options = parser.parse_args()
+    return parser.parse_args()
+
+
+def main() -> int:
+    options = arguments()
     first, last = map(int, options.seeds.split(":"))
+    seeds = range(first, last)
     folders = [CASES / name for name in options.folder or ["."]]
     paths = [p.resolve() for folder in folders for p in sorted(folder.glob("*.toml"))]
     if options.case:
         paths = [p for p in paths if p.stem in options.case]
-    results = [
-        run(
-            p,
-            range(first, last),
-            options.formulation,
-            options.threads,
-            options.settings,
-            options.symmetric,
-        )
-        for p in paths
-    ]
-    return 0 if all(results) else 1
+    known, everything, passed_over = recorded(options.journal), [], []
+    for path in paths:
+        of = subject(path, options.formulation, options.symmetric)
+        results = list(run(of, seeds, known, options))
+        if len(results) < len(seeds):
+            passed_over.append(f"{of.name} ({results[0].seconds:.1f} s)")
+            continue
+        everything += results
+        print(summary(of.name, results), flush=True)
+    if passed_over:
+        print(f"passed over: {', '.join(passed_over)}")
+    if everything:
+        print(summary(f"total of {len(paths) - len(passed_over)} cases", everything))
+    return 1 if any(r.wrong or r.incomplete for r in everything) else 0
 
 
 if __name__ == "__main__":
