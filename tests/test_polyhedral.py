@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from nag.cases import read_case
 from nag.tracking.start.fibre_monodromy import GenericSystem
 from nag.tracking.start.mixed_cells import MixedCells, mixed_cells
-from nag.tracking.start.polyhedral import monodromy, polyhedral
+from nag.tracking.start.polyhedral import polyhedral
 from nag.tracking.start.target import Start, StartError, Target, unit
 from nag.tracking.start.toric import binomial_solutions, by_degeneration, cell_weights
 
@@ -103,20 +103,16 @@ def test_the_volume_of_multiples_of_a_simplex_is_bezouts_number(degrees: list[in
     assert cells.mixed_volume == prod(degrees)
 
 
-def start_system(name: str, kind: str, seed: int) -> Start:
+def start_system(name: str, seed: int) -> Start:
     each, rng = target(name), np.random.default_rng(seed)
-    cells = mixed_cells(each.supports, rng)
-    if kind == "polyhedral":
-        return polyhedral(each, cells, rng, 1)
-    return monodromy(each, cells.mixed_volume, rng, 1)
+    return polyhedral(each, mixed_cells(each.supports, rng), rng, 1)
 
 
-@pytest.mark.parametrize("kind", ["polyhedral", "monodromy"])
 @pytest.mark.parametrize(("name", "volume"), [("cyclic-5", 70), ("cyclic-6", 156), ("eco-8", 64)])
 def test_the_start_system_has_as_many_regular_solutions_as_the_volume(
-    name: str, volume: int, kind: str
+    name: str, volume: int
 ) -> None:
-    start = start_system(name, kind, 0)
+    start = start_system(name, 0)
     points = start.homotopy.normalized(start.points)
     assert len(points) == volume
     assert np.abs(start.homotopy.values(points, 1.0)).max() < 1e-12
@@ -161,15 +157,23 @@ def test_paths_lost_in_the_degeneration_are_found_by_monodromy(
         return replace(system, points=system.points[::2]), spent
 
     monkeypatch.setattr("nag.tracking.start.polyhedral.by_degeneration", half)
-    start = start_system("cyclic-5", "polyhedral", 0)
+    start = start_system("cyclic-5", 0)
     assert len(start.points) == 70
     assert "35 of them by monodromy" in start.detail
 
 
-def test_a_wrong_volume_is_noticed() -> None:
-    each = target("griewank-osborne")
-    with pytest.raises(StartError, match="3 of the 4 solutions"):
-        monodromy(each, 4, np.random.default_rng(0), 1)
+def test_solutions_that_stay_lost_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    def half(*arguments: Any) -> tuple[GenericSystem, int]:
+        system, spent = by_degeneration(*arguments)
+        return replace(system, points=system.points[::2]), spent
+
+    def nothing(system: GenericSystem, *_: Any) -> tuple[GenericSystem, int, bool]:
+        return system, 0, False
+
+    monkeypatch.setattr("nag.tracking.start.polyhedral.by_degeneration", half)
+    monkeypatch.setattr("nag.tracking.start.polyhedral.by_monodromy", nothing)
+    with pytest.raises(StartError, match="35 of the 70 solutions"):
+        start_system("cyclic-5", 0)
 
 
 def test_systems_without_generic_solutions_have_volume_zero() -> None:

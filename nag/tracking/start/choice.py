@@ -42,16 +42,17 @@ def choose(
     total = bezout(target)
     if kind == "total":
         return total_degree(target, rng), f"total degree, as asked: {_paths(total)}"
-    if kind in ("polyhedral", "monodromy"):
+    if kind == "polyhedral":
         from nag.tracking.start.mixed_cells import mixed_cells
-        from nag.tracking.start.polyhedral import monodromy, polyhedral
+        from nag.tracking.start.polyhedral import polyhedral
 
-        cells = mixed_cells(target.supports, rng)
-        if kind == "polyhedral":
-            start = polyhedral(target, cells, rng, threads)
-        else:
-            start = monodromy(target, cells.mixed_volume, rng, threads)
-        return start, f"{kind}, as asked: {_paths(cells.mixed_volume)}; {start.detail}"
+        start = polyhedral(target, mixed_cells(target.supports, rng), rng, threads)
+        return start, f"polyhedral, as asked: {_paths(len(start.points))}; {start.detail}"
+    if kind == "monodromy":
+        from nag.tracking.start.monodromy import monodromy
+
+        start = monodromy(target, rng, threads)
+        return start, f"monodromy, as asked: {_paths(len(start.points))}; {start.detail}"
     groups, number = _usable_groups(target, given)
     if kind == "multihomogeneous":
         start = multihomogeneous(target, groups, rng)

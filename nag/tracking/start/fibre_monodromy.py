@@ -8,7 +8,7 @@ Whatever is found is a solution, even where a path was lost; only how many there
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,7 +16,7 @@ import numpy as np
 
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.settings import named
-from nag.tracking.start.target import Terms, group_degrees, homogenized, unit
+from nag.tracking.start.target import Start, Target, Terms, group_degrees, homogenized, unit
 from nag.tracking.track import track_regular
 
 # Loops without a new solution after which the search ends, and loops in all.
@@ -103,25 +103,32 @@ class Fibre:
 
 
 def by_monodromy(
-    system: GenericSystem, expected: int, rng: np.random.Generator, threads: int
-) -> tuple[GenericSystem, int]:
-    """The system with further solutions, and the number of paths that this took.
+    system: GenericSystem,
+    most: int,
+    rng: np.random.Generator,
+    threads: int,
+    complete: Callable[[np.ndarray], bool] | None = None,
+) -> tuple[GenericSystem, int, bool]:
+    """The system with further solutions, the number of paths, and whether ``complete`` said so.
+
+    The search ends with ``most`` solutions, or when many loops find no more.
 
     Args:
         system: at least one of its solutions is known.
-        expected: how many solutions there are; the search ends there, or when loops find no more.
+        most: how many solutions there are, or how many of them are wanted at most.
         rng: where the other coefficients of the loops come from.
         threads: number of threads.
+        complete: tells whether given solutions are all; asked where a loop found no more.
     """
     n = len(system.supports)
     groups = (tuple(range(n)),)
     other = replace(system, coefficients=tuple(unit(rng, len(s)) for s in system.supports))
     degrees = group_degrees(system.rows, groups)
     first, second = (homogenized(each.rows, n, groups, degrees) for each in (system, other))
-    here, there = Fibre(system.points, expected), Fibre(system.points[:0], expected)
+    here, there = Fibre(system.points, most), Fibre(system.points[:0], most)
     spent, idle = 0, 0
     for _ in range(MOST_LOOPS):
-        if len(here.points) >= expected or idle >= MOST_IDLE:
+        if len(here.points) >= most or idle >= MOST_IDLE:
             break
         gamma = complex(unit(rng, 1)[0])
         forward = straight_line(first, second, gamma)
@@ -134,10 +141,24 @@ def by_monodromy(
         gained += here.add(_moved(backward, left, threads))
         spent += len(left)
         idle = 0 if gained else idle + 1
-    return replace(system, points=here.points), spent
+        # The question costs as much as a loop: after 1, 3, 7 loops in vain.
+        if idle and not idle & (idle + 1) and complete is not None and complete(here.points):
+            return replace(system, points=here.points), spent, True
+    return replace(system, points=here.points), spent, False
 
 
 def _moved(homotopy: Homotopy, points: np.ndarray, threads: int) -> np.ndarray:
     if not len(points):
         return points
     return track_regular(homotopy, points, named("fast"), threads)[0]
+
+
+def start_at(
+    name: str, target: Target, system: GenericSystem, detail: str, gamma: complex
+) -> Start:
+    """The homotopy from ``system``, all of whose solutions are known, to ``target``."""
+    groups = (tuple(range(target.n)),)
+    degrees = group_degrees(system.rows, groups)
+    begin = homogenized(system.rows, target.n, groups, degrees)
+    goal = homogenized(target.rows, target.n, groups, degrees)
+    return Start(name, straight_line(begin, goal, gamma), system.points, groups, detail=detail)
