@@ -109,14 +109,14 @@ def test_a_partition_gives_at_most_what_the_search_ends_with(order: list[int], s
 
 
 def test_auto_takes_the_fewest_paths_and_says_why() -> None:
-    start, reason = choose(EIGENVALUES, "auto", (), np.random.default_rng(0), "default", 1)
+    start, reason = choose(EIGENVALUES, "auto", (), np.random.default_rng(0), 1)
     assert start.name == "multihomogeneous" and len(start.points) == 2
     assert "total degree 4" in reason and "multihomogeneous 2" in reason
 
 
 def test_unknown_kinds_and_too_many_paths_are_refused() -> None:
     with pytest.raises(ValueError, match="auto, total"):
-        choose(EIGENVALUES, "best", (), np.random.default_rng(0), "default", 1)
+        choose(EIGENVALUES, "best", (), np.random.default_rng(0), 1)
     names = [f"x{i}" for i in range(8)]
     huge = target(" ".join(names), *(f"{v}^10 + {names[i - 1]} - 1" for i, v in enumerate(names)))
     with pytest.raises(StartError, match="100000000 paths"):

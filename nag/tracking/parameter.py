@@ -119,7 +119,7 @@ def solve_generic(
     rng = np.random.default_rng(seed)
     values = unit(rng, len(family.parameters)) * (0.5 + rng.random(len(family.parameters)))
     target = Target(family.n, family.terms([complex(v) for v in values]))
-    begin, _ = choose(target, start, (), rng, settings, threads)
+    begin, _ = choose(target, start, (), rng, threads)
     paths = track(begin.homotopy, begin.points, settings, threads)
     points = begin.affine(paths.points[paths.where(PathStatus.REGULAR)])
     doubtful = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)

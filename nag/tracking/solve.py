@@ -68,7 +68,7 @@ def solve(
     for attempt in range(ATTEMPTS):
         if progress:
             progress("solve", attempt, ATTEMPTS)
-        begin, reason = choose(problem.target, start, system.groups, rng, settings, threads)
+        begin, reason = choose(problem.target, start, system.groups, rng, threads)
         tracking = "careful" if attempt and settings == "default" else settings
         paths = track(begin.homotopy, begin.points, tracking, threads)
         found = _result(problem, begin, reason, paths, rng, seed, name)
@@ -89,7 +89,7 @@ def begin_of(
     """The homotopy of the first attempt, and the seconds and steps that tracking it takes."""
     rng = np.random.default_rng(seed)
     problem = _Problem.of(system, [f for f in system.polynomials if f], rng)
-    begin, _ = choose(problem.target, start, system.groups, rng, settings, 1)
+    begin, _ = choose(problem.target, start, system.groups, rng, 1)
     started = time.perf_counter()
     paths = track(begin.homotopy, begin.points, settings)
     return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())

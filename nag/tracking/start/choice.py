@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from nag.tracking.settings import Settings
 from nag.tracking.start.multihomogeneous import (
     MOST_TERMS,
     Groups,
@@ -28,7 +27,6 @@ def choose(
     kind: str,
     given: Groups,
     rng: np.random.Generator,
-    settings: Settings | str,
     threads: int,
 ) -> tuple[Start, str]:
     """A start system of the ``kind`` asked for, and why that one, in one sentence.
