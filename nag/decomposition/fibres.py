@@ -11,6 +11,7 @@ from nag.decomposition.slices import padded
 from nag.decomposition.witness import PathCounts
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.settings import Settings, named
 from nag.tracking.track import track
 
 # Two ends are one point when they differ by less than this, or than their errors explain.
@@ -44,10 +45,33 @@ class Fibre:
 
 @dataclass(frozen=True)
 class Tracker:
-    """How paths are to be tracked: named settings and number of threads."""
+    """How paths are to be tracked: settings, or the name of some, and number of threads."""
 
-    settings: str = "default"
+    settings: Settings | str = "default"
     threads: int = 1
+
+    @property
+    def double_double(self) -> bool:
+        """Whether paths that fail in doubles are tracked in more precise arithmetic."""
+        return named(self.settings).double_double
+
+    @property
+    def in_doubles(self) -> Tracker:
+        """The same without arithmetic beyond doubles."""
+        settings = replace(named(self.settings), double_double=False, high_precision_paths=0)
+        return replace(self, settings=settings)
+
+    @property
+    def brief(self) -> Tracker:
+        """The same in doubles, where paths that fail twice can be replaced by others."""
+        used = self.in_doubles
+        return replace(used, settings=replace(used.settings, retries=1))
+
+    def again(self, attempt: int) -> Tracker:
+        """The tracker for the attempts at what other slices may make easier, 0 the first one."""
+        careful = replace(named("careful"), high_precision_paths=0)
+        precise = replace(self, settings=careful)
+        return (self.in_doubles, precise.in_doubles, precise)[min(attempt, 2)]
 
 
 @dataclass(frozen=True, eq=False)

@@ -36,7 +36,7 @@ def _differences(
 ) -> tuple[np.ndarray | None, PathCounts]:
     counts = PathCounts()
     for attempt in range(ATTEMPTS):
-        used = Tracker("careful" if attempt else tracker.settings, tracker.threads)
+        used = tracker.again(attempt)
         differences, spent = second_differences(fibres, rows, rng, used)
         counts += spent
         if differences is not None:
@@ -50,7 +50,7 @@ def _elsewhere(
     """Second differences of the same points carried to another generic slice."""
     counts = PathCounts()
     for attempt in range(ATTEMPTS):
-        used = Tracker("careful" if attempt else tracker.settings, tracker.threads)
+        used = tracker.again(attempt)
         target = random_rows(rng, len(rows), rows.shape[1] - 1)
         there, spent = carried(fibres, rows, target, complex(unit_complex(rng)), used)
         counts += spent

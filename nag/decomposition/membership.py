@@ -56,10 +56,11 @@ def is_member(
     for attempt in range(ATTEMPTS):
         target = rows_through(rng, dimension, point)
         gamma = complex(unit_complex(rng))
-        careful = Tracker("careful" if attempt else tracker.settings, tracker.threads)
+        # Most often one of the paths answers, and those that fail do not matter.
+        used = (tracker.brief, tracker, Tracker("careful", tracker.threads))[min(attempt, 2)]
         nearest, unclear = np.inf, False
         for fibre in fibres:
-            ends = move(fibre, flag[:dimension], target, gamma, careful, endgame=True)
+            ends = move(fibre, flag[:dimension], target, gamma, used, endgame=True)
             counts += ends.counts.repeatable
             x = ends.points[ends.finite, : fibre.cut.n]
             distances = np.linalg.norm(x - point, axis=1) / scale

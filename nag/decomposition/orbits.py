@@ -94,9 +94,6 @@ class _Points:
                 result.append(fibre.only(mask))
         return result, np.sort(indices)
 
-    def careful(self, attempt: int) -> Tracker:
-        return Tracker("careful" if attempt else self.tracker.settings, self.tracker.threads)
-
     def gamma(self) -> complex:
         return complex(unit_complex(self.rng))
 
@@ -159,7 +156,7 @@ def _permutation(points: _Points, action: Action) -> tuple[np.ndarray | None, Pa
         there: Sequence[Fibre] | None = points.fibres
         if len(points.rows):
             there, spent = carried(
-                points.fibres, points.rows, target, points.gamma(), points.careful(attempt)
+                points.fibres, points.rows, target, points.gamma(), points.tracker.again(attempt)
             )
             counts += spent
         if there is None:
@@ -280,7 +277,7 @@ def _around(
     counts, rows = PathCounts(), points.rows
     fibres, start = points.chosen(start)
     for attempt in range(ATTEMPTS):
-        used = points.careful(attempt)
+        used = points.tracker.again(attempt)
         middle = random_rows(points.rng, len(rows), rows.shape[1] - 1)
         out, back = points.gamma(), points.gamma()
         there, spent = carried(fibres, rows, middle, out, used)
@@ -301,7 +298,7 @@ def _linear_on_two_slices(points: _Points, indices: np.ndarray) -> tuple[bool, P
     counts, rows = PathCounts(), points.rows
     fibres, _ = points.chosen(indices)
     for attempt in range(ATTEMPTS):
-        used = points.careful(attempt)
+        used = points.tracker.again(attempt)
         differences, spent = second_differences(fibres, rows, points.rng, used)
         counts += spent
         if differences is None:

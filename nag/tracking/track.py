@@ -56,7 +56,7 @@ def track(
     starts = homotopy.normalized(starts)
     paths = _attempt(homotopy, starts, chosen, threads, endgame, end_exponent)
     for attempt in range(chosen.retries):
-        if attempt == 1:
+        if attempt == 1 and chosen.double_double:
             paths = _in_double_double(homotopy, starts, paths, chosen, threads, end_exponent)
         again = set(paths.where(PathStatus.FAILED).tolist())
         if distinct:
