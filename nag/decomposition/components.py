@@ -16,6 +16,7 @@ from nag.decomposition.cutting import Equations
 from nag.decomposition.fibres import Tracker
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.frame import Frame
+from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.isolated import contains, isolated_superset
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.slices import random_rows
@@ -125,7 +126,7 @@ def _decompose_once(
     ]
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
-    flag = random_rows(rng, reduced.n, reduced.n)
+    flag = random_rows(rng, reduced.n, reduced.n, NEARER)
     if isolated:
         superset = isolated_superset(reduced, rng, tracker)
     else:
@@ -139,7 +140,7 @@ def _decompose_once(
     all_original = Evaluator.of(system.polynomials, system.n)
     components: list[WitnessSet] = []
     for d in sorted(superset.fibres, reverse=True):
-        fibres, rows = superset.fibres[d], flag[:d]
+        fibres, rows = superset.fibres[d], superset.flag[:d]
         if not fibres:
             continue
         if progress is not None:

@@ -266,7 +266,7 @@ def _find_cut(
         if found is not None or not deflate:
             return found
         free = total - len(rows)
-        q = _dyadic(rng, (total, free))
+        q = dyadic(rng, (total, free))
         singular = np.linalg.svd(evaluator.balanced_jacobian(z) @ q, compute_uv=False)
         m = numerical_corank(singular, free, NEARLY_SINGULAR)
         if m == 0:
@@ -285,7 +285,7 @@ def _find_cut(
         levels.append(level)
 
 
-def _dyadic(rng: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+def dyadic(rng: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
     """Random numbers of absolute value between 1/2 and 3/2 with eight bits.
 
     With coefficients that are exact, Newton's method in any precision converges to exact points.
@@ -333,7 +333,7 @@ def _combinations(
     """
     powers = [leading_power(f) for f in polynomials]
     result = []
-    for row in _dyadic(rng, (count, len(polynomials))):
+    for row in dyadic(rng, (count, len(polynomials))):
         terms: dict[tuple[int, ...], Number] = {}
         for weight, power, f in zip(row, powers, polynomials, strict=True):
             factor = Fraction(weight) / power

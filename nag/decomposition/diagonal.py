@@ -21,10 +21,11 @@ from nag.decomposition.cutting import NEAR, Cut, Equations, regular_on, sharpen
 from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, admit
 from nag.decomposition.frame import Frame
+from nag.decomposition.hypersurface import intersect
 from nag.decomposition.membership import HIT, MISS, Membership, is_member
 from nag.decomposition.moving import orthonormal_rows
 from nag.decomposition.slices import random_rows, unit_complex
-from nag.decomposition.superset import Progress, clusters, forbidden, intersect
+from nag.decomposition.superset import Progress, clusters, forbidden
 from nag.decomposition.witness import PathCounts
 
 

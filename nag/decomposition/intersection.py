@@ -158,7 +158,7 @@ def intersect_equations(
         for d, found in superset.fibres.items():
             if not found:
                 continue
-            cut = factor.frame.slice(flag[:d])
+            cut = factor.frame.slice(superset.flag[:d])
             rows[d] = orthonormal_rows(common.frame.pulled_back(cut.A, cut.b))
             x = factor.frame.points(np.vstack([fibre.x for fibre in found]))[:, common.kept]
             fibres[d], lost = _with_cuts(x, common.equations, rows[d], rng)

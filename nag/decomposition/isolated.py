@@ -27,7 +27,8 @@ def isolated_superset(
 
     Where this is not so, or the solver has doubts, there are no points but a note that says it.
     """
-    nothing = Superset({}, PathCounts(), ("no finite set of simple points was found",))
+    rows = np.zeros((0, 1 + system.n), dtype=complex)
+    nothing = Superset({}, rows, PathCounts(), ("no finite set of simple points was found",))
     if len(system.polynomials) < system.n:
         return nothing
     seed = int(rng.integers(2**31))
@@ -41,13 +42,12 @@ def isolated_superset(
         return nothing
     fibres: list[Fibre] = []
     equations = Equations(system.polynomials, system.n)
-    rows = np.zeros((0, 1 + system.n), dtype=complex)
     for s in found.solutions:
         if not admit(s.point, s.accuracy, fibres, equations, rows, rng, deflate=False):
             return nothing
     if sum(map(len, fibres)) != len(found.solutions):
         return nothing
-    return Superset({0: fibres}, counts, ())
+    return Superset({0: fibres}, rows, counts, ())
 
 
 def contains(answer: Decomposition, other: Decomposition) -> bool:

@@ -17,8 +17,12 @@ def complex_normal(rng: np.random.Generator, shape: tuple[int, ...]) -> np.ndarr
     return rng.standard_normal(shape) + 1j * rng.standard_normal(shape)
 
 
-def random_rows(rng: np.random.Generator, codimension: int, n: int) -> np.ndarray:
+def random_rows(
+    rng: np.random.Generator, codimension: int, n: int, offset: float = 1.0
+) -> np.ndarray:
     """A generic slice of the given codimension: rows ``(-b, A)``, the rows of A orthonormal.
+
+    The numbers b are complex standard normal times ``offset``.
 
     Any number of leading rows is again a generic slice, so ``random_rows(rng, n, n)`` is a flag
     of slices for all dimensions.
@@ -27,7 +31,7 @@ def random_rows(rng: np.random.Generator, codimension: int, n: int) -> np.ndarra
         return np.zeros((0, 1 + n), dtype=complex)
     q, _ = np.linalg.qr(complex_normal(rng, (n, n)))
     b = complex_normal(rng, (codimension, 1))
-    return np.hstack([-b, q[:codimension]])
+    return np.hstack([-offset * b, q[:codimension]])
 
 
 def rows_through(rng: np.random.Generator, codimension: int, point: np.ndarray) -> np.ndarray:

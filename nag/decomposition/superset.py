@@ -1,45 +1,46 @@
 """Witness supersets, equation by equation: u-generation (Duff, Leykin & Rodriguez 2022).
 
-A set of dimension d is kept as its points on the first d rows of a flag of slices. Where an
-equation f of degree m vanishes on such a point, the point stays; from the others start the paths
-of ``f = u^m`` from the slice ``L_d = 0`` to ``u = 0``, m from each, which end at the points of
-dimension d - 1. Nothing is randomised: each point carries the equations that cut it.
+A set of dimension d is kept as its points on the first d rows of a flag of slices; each point
+carries the equations that cut it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.cutting import ON, Cut, Equations, leading_power
-from nag.decomposition.fibres import (
-    SAME,
-    Fibre,
-    Moved,
-    Tracker,
-    admit,
-    homogeneous,
-    moved,
+from nag.decomposition.cutting import Cut, Equations, dyadic, leading_power
+from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, admit
+from nag.decomposition.hypersurface import (
+    FEW_FLAGS,
+    MOST_FLAGS,
+    Crossing,
+    Sections,
+    crossing,
 )
 from nag.decomposition.membership import Membership, is_member
-from nag.decomposition.slices import padded, unit_complex
 from nag.decomposition.witness import PathCounts
-from nag.tracking.compiled import compile_rows
-from nag.tracking.homotopy import Homotopy
-from nag.tracking.track import track
+
+# Other flags on which a doubtful intersection is tried again.
+ELSEWHERE = 1
 
 Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
 class Superset:
-    """Witness points of every dimension, singular ends that no cut was found for, and counts."""
+    """Witness points of every dimension, on the leading rows of a flag of slices.
+
+    ``notes`` tell of singular ends that no cut was found for.
+    """
 
     fibres: dict[int, list[Fibre]]
+    flag: np.ndarray
     counts: PathCounts
     notes: tuple[str, ...]
 
@@ -48,60 +49,6 @@ def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
     """Order of intersection: lowest degree first, then fewest variables, then as given."""
     keys = [(f.degree, len(f.support), i) for i, f in enumerate(equations)]
     return [i for *_, i in sorted(keys)]
-
-
-def intersect(
-    fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker
-) -> Moved:
-    """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0."""
-    cut, d, degree = fibre.cut, fibre.dimension, f.degree
-    n, total = cut.n, cut.n + cut.aux
-    f = f * (1 / leading_power(f))
-    u = Polynomial.variable(total + 1, total)
-    place = range(total)
-    rows = [g.with_variables(total + 1, place) for g in cut.polynomials]
-    rows.append(f.with_variables(total + 1, range(n)) - u**degree)
-    compiled = compile_rows(rows, n=total + 1)
-    columns = total + 2
-    slices = padded(flag[:d], columns)
-    a0, a1 = slices.copy(), np.zeros_like(slices)
-    a0[d - 1] = 0
-    a0[d - 1, -1] = 1
-    a1[d - 1] = gamma * slices[d - 1] - a0[d - 1]
-    # An evaluator divides by the largest coefficient.
-    values = Evaluator.of([f], n).values(fibre.x)[:, 0] * max(
-        map(abs, map(float, f.terms.values()))
-    )
-    roots = np.exp(2j * np.pi * np.arange(degree) / degree)
-    u_start = (values.astype(complex) ** (1 / degree))[:, None] * roots[None, :]
-    starts = np.concatenate(
-        [np.repeat(fibre.points, degree, axis=0), u_start.reshape(-1, 1)], axis=1
-    )
-    homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
-    for settings in (tracker.settings, "careful"):
-        paths = track(
-            homotopy, points, settings=settings, threads=tracker.threads, end_exponent=degree
-        )
-        ends = moved(paths, keep=total)
-        twice = _coinciding(ends)
-        if not twice.any():
-            return ends
-    failed = ends.failed | twice
-    counts = replace(ends.counts, failed=int(failed.sum()))
-    return replace(ends, finite=ends.finite & ~twice, failed=failed, counts=counts)
-
-
-def _coinciding(ends: Moved) -> np.ndarray:
-    """Which regular ends are not alone: distinct paths never end at one regular point."""
-    twice = np.zeros(len(ends.points), dtype=bool)
-    regular = np.flatnonzero(ends.regular)
-    points = ends.points[regular]
-    for i, j in enumerate(regular):
-        distances = np.linalg.norm(points[:i] - points[i], axis=1)
-        same = distances < SAME * (1 + np.linalg.norm(points[i]))
-        twice[regular[:i][same]] = True
-        twice[j] |= bool(same.any())
-    return twice
 
 
 def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
@@ -164,53 +111,61 @@ def _collect(
     return _Candidates(fibres, [[(points[i], float(accuracy[i])) for i in g] for g in groups])
 
 
-def witness_superset(
-    equations: Sequence[Polynomial],
-    n: int,
-    nonzero: Sequence[Polynomial],
-    flag: np.ndarray,
-    rng: np.random.Generator,
-    tracker: Tracker,
-    progress: Progress | None = None,
-    start: Sequence[Fibre] = (),
-    known: Sequence[Polynomial] = (),
-) -> Superset:
-    """Witness points of all dimensions for ``equations`` in n variables, intersected in order.
+def _mixed(f: Polynomial, others: Sequence[Polynomial], rng: np.random.Generator) -> Polynomial:
+    """``f`` and random multiples of others, all of comparable size."""
+    size = leading_power(f)
+    for g, weight in zip(others, dyadic(rng, (len(others),)), strict=True):
+        f = f + g * (Fraction(weight) * size / leading_power(g))
+    return f
 
-    ``flag`` holds n slices; a point of dimension d lies on its first d rows. No point of a
-    component is missed unless a path failed, and the points that lie on components of higher
-    dimension are taken out again after each equation.
 
-    What is intersected is the whole space, or the pure-dimensional set whose points on ``flag``
-    are ``start`` and on which the polynomials ``known`` vanish.
-    """
-    fibres: dict[int, list[Fibre]] = {}
-    for fibre in start:
-        fibres.setdefault(fibre.dimension, []).append(fibre)
-    if not fibres:
-        point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
-        fibres[n] = [Fibre(Cut(n, 0, ()), n, point[None])]
-    counts, notes = PathCounts(), []
-    avoid = Evaluator.of(nonzero, n)
-    for k, f in enumerate(equations):
-        here = Evaluator.of([f], n)
-        gamma = complex(unit_complex(rng))
-        kept: dict[int, list[Fibre]] = {}
-        pieces: dict[int, list[tuple[Cut, Moved]]] = {}
-        for d in sorted(fibres, reverse=True):
-            for fibre in fibres[d]:
-                on = here.residuals(fibre.x)[:, 0] < ON
-                if on.any():
-                    kept.setdefault(d, []).append(fibre.only(on))
-                if d > 0 and f.degree > 0 and not on.all():
-                    if progress is not None:
-                        progress("intersecting", k, len(equations))
-                    ends = intersect(fibre.only(~on), f, flag, gamma, tracker)
-                    counts += ends.counts
-                    pieces.setdefault(d - 1, []).append((fibre.cut.extended(f), ends))
-        so_far = Equations((*known, *equations[: k + 1]), n)
-        for d in sorted(pieces, reverse=True):
-            candidates = _collect(pieces[d], n, d, avoid)
+@dataclass(frozen=True, eq=False)
+class _Meeting:
+    """Sets that met a polynomial, and what they are then; None if that was left open."""
+
+    polynomial: Polynomial
+    crossed: Crossing
+    settled: Superset | None
+
+    @property
+    def doubts(self) -> tuple[int, int]:
+        notes = self.settled.notes if self.settled is not None else ()
+        return len(notes), self.crossed.counts.failed
+
+
+@dataclass(frozen=True, eq=False)
+class _Stage:
+    """How sets are to meet polynomials, where ``before`` vanish on them and ``avoid`` must not."""
+
+    before: tuple[Polynomial, ...]
+    n: int
+    avoid: Evaluator
+    rng: np.random.Generator
+    tracker: Tracker
+    flags: int
+
+    def meeting(
+        self, found: Superset, f: Polynomial, deflate: bool, elsewhere: bool = False
+    ) -> tuple[_Meeting, PathCounts]:
+        sections = Sections(found.fibres, found.flag)
+        crossed = crossing(sections, f, self.rng, self.tracker, self.flags, elsewhere)
+        settled, spent = self.settled(f, crossed, deflate)
+        return _Meeting(f, crossed, settled), PathCounts(crossed.counts.tracked) + spent
+
+    def settled(
+        self, f: Polynomial, crossed: Crossing, deflate: bool
+    ) -> tuple[Superset | None, PathCounts]:
+        """The points of all dimensions after an intersection, without those of larger sets.
+
+        None if ``deflate`` is False and a singular end may belong to a component that is not
+        reduced.
+        """
+        flag, rng, tracker = crossed.before.flag, self.rng, self.tracker
+        so_far = Equations((*self.before, f), self.n)
+        kept = {d: list(fibres) for d, fibres in crossed.kept.items()}
+        counts, notes = PathCounts(), []
+        for d in sorted(crossed.ends, reverse=True):
+            candidates = _collect(crossed.ends[d], self.n, d, self.avoid)
             kept.setdefault(d, []).extend(candidates.fibres)
             for cluster in candidates.singular:
                 x, accuracy = cluster[0]
@@ -227,9 +182,81 @@ def witness_superset(
                         break
                 if answer is Membership.MEMBER:
                     continue
+                if not deflate:
+                    return None, counts
                 if answer is Membership.UNDECIDED:
                     notes.append(f"a point of dimension {d} could not be told from a larger set")
                 elif not admit(x, accuracy, kept[d], so_far, flag[:d], rng, deflate=True):
                     notes.append(f"a singular point of dimension {d} could not be made regular")
-        fibres = {d: [fibre for fibre in kept[d] if len(fibre)] for d in kept}
-    return Superset(fibres, counts, tuple(notes))
+        kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
+        return Superset(kept, flag, PathCounts(), tuple(notes)), counts
+
+
+def witness_superset(
+    equations: Sequence[Polynomial],
+    n: int,
+    nonzero: Sequence[Polynomial],
+    flag: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    progress: Progress | None = None,
+    start: Sequence[Fibre] = (),
+    known: Sequence[Polynomial] = (),
+) -> Superset:
+    """Witness points of all dimensions for ``equations`` in n variables, intersected in order.
+
+    ``flag`` holds n slices; a point of dimension d lies on its first d rows, or on those of the
+    flag of the superset if it had to be changed. No point of a component is missed unless a path
+    failed, and the points that lie on components of higher dimension are taken out again after
+    each equation.
+
+    What is intersected is the whole space, or the pure-dimensional set whose points on ``flag``
+    are ``start`` and on which the polynomials ``known`` vanish.
+
+    The first equations alone may define components that are not reduced where all together do
+    not. A general combination of an equation with later ones of its degree meets a reduced set in
+    a reduced one, but for what lies on all of them (Bertini): it takes the equation's place then.
+    """
+    fibres: dict[int, list[Fibre]] = {}
+    for fibre in start:
+        fibres.setdefault(fibre.dimension, []).append(fibre)
+    if not fibres:
+        point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
+        fibres[n] = [Fibre(Cut(n, 0, ()), n, point[None])]
+    equations = list(equations)
+    counts, notes = PathCounts(), []
+    found = Superset(fibres, flag, counts, ())
+    avoid = Evaluator.of(nonzero, n)
+    mixing, flags = False, MOST_FLAGS
+    for k, f in enumerate(equations):
+        if progress is not None:
+            progress("intersecting", k, len(equations))
+        later = [g for g in equations[k + 1 :] if g.degree == f.degree]
+        stage = _Stage((*known, *equations[:k]), n, avoid, rng, tracker, flags)
+        first = _mixed(f, later, rng) if mixing else f
+        best, spent = stage.meeting(found, first, deflate=mixing or not later)
+        counts += spent
+        if best.settled is None:
+            mixed, spent = stage.meeting(found, _mixed(f, later, rng), deflate=False)
+            counts += spent
+            if mixed.settled is None and mixed.crossed.singular >= best.crossed.singular:
+                mixed = best
+            mixing = mixed is not best
+            best = mixed
+            if best.settled is None:
+                settled, spent = stage.settled(best.polynomial, best.crossed, deflate=True)
+                counts += spent
+                best = replace(best, settled=settled)
+        for _ in range(ELSEWHERE):
+            if best.doubts == (0, 0):
+                break
+            other, spent = stage.meeting(found, best.polynomial, deflate=True, elsewhere=True)
+            counts += spent
+            best = min(best, other, key=lambda meeting: meeting.doubts)
+        found = best.settled
+        equations[k] = best.polynomial
+        notes += found.notes
+        counts += PathCounts(0, best.crossed.counts.failed, best.crossed.counts.at_infinity)
+        if best.crossed.counts.failed:
+            flags = FEW_FLAGS
+    return Superset(found.fibres, found.flag, counts, tuple(notes))

@@ -1,0 +1,208 @@
+"""Sets of all dimensions, by their points on a flag of slices, meet a hypersurface.
+
+Where an equation f of degree m vanishes on a point of dimension d, the point stays; from the others
+start the paths of ``f = u^m`` from the slice ``L_d = 0`` to ``u = 0``, m from each, which end at
+the points of dimension d - 1 (Duff, Leykin & Rodriguez 2022).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.decomposition.cutting import ON, Cut, leading_power
+from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, homogeneous, moved
+from nag.decomposition.monodromy import carried
+from nag.decomposition.slices import padded, random_rows, unit_complex
+from nag.decomposition.witness import PathCounts
+from nag.tracking.compiled import compile_rows
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.track import track
+
+# Flags on which an intersection is tried in doubles before more precise arithmetic helps out, and
+# fewer where not even that did before.
+MOST_FLAGS, FEW_FLAGS = 8, 2
+# Flags on which that arithmetic is tried, and what a path costs in it, in units of those before:
+# another flag comes cheaper than more failed paths than one of so many.
+EXTENDED, DEAR = 2, 75
+# Slices to which points may have to be moved to get to another flag.
+ATTEMPTS = 8
+# Offsets of the flags tried later, as part of those of the first: slices nearer to the origin.
+NEARER = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class Sections:
+    """Sets of all dimensions by their points, those of dimension d on the first d rows of a flag.
+
+    Attributes:
+        flag: slices, shape ``(n, 1 + n)``.
+    """
+
+    fibres: Mapping[int, Sequence[Fibre]]
+    flag: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Crossing:
+    """What became of sets that met a hypersurface.
+
+    Attributes:
+        before: the sets.
+        kept: points on the hypersurface, by dimension.
+        ends: ends of the paths of the others, by dimension, with the systems that cut them.
+        counts: of these paths.
+    """
+
+    before: Sections
+    kept: Mapping[int, Sequence[Fibre]]
+    ends: Mapping[int, Sequence[tuple[Cut, Moved]]]
+    counts: PathCounts
+
+    @property
+    def singular(self) -> int:
+        """Number of finite ends that are not regular."""
+        pieces = [ends for own in self.ends.values() for _, ends in own]
+        return sum(int(np.sum(ends.finite & ~ends.regular)) for ends in pieces)
+
+
+def intersect(
+    fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker
+) -> Moved:
+    """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0."""
+    cut, d, degree = fibre.cut, fibre.dimension, f.degree
+    n, total = cut.n, cut.n + cut.aux
+    f = f * (1 / leading_power(f))
+    u = Polynomial.variable(total + 1, total)
+    place = range(total)
+    rows = [g.with_variables(total + 1, place) for g in cut.polynomials]
+    rows.append(f.with_variables(total + 1, range(n)) - u**degree)
+    compiled = compile_rows(rows, n=total + 1)
+    columns = total + 2
+    slices = padded(flag[:d], columns)
+    a0, a1 = slices.copy(), np.zeros_like(slices)
+    a0[d - 1] = 0
+    a0[d - 1, -1] = 1
+    a1[d - 1] = gamma * slices[d - 1] - a0[d - 1]
+    # An evaluator divides by the largest coefficient.
+    values = Evaluator.of([f], n).values(fibre.x)[:, 0] * max(
+        map(abs, map(float, f.terms.values()))
+    )
+    roots = np.exp(2j * np.pi * np.arange(degree) / degree)
+    u_start = (values.astype(complex) ** (1 / degree))[:, None] * roots[None, :]
+    starts = np.concatenate(
+        [np.repeat(fibre.points, degree, axis=0), u_start.reshape(-1, 1)], axis=1
+    )
+    homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
+    for settings in (tracker.settings, *(("careful",) if tracker.double_double else ())):
+        paths = track(
+            homotopy, points, settings=settings, threads=tracker.threads, end_exponent=degree
+        )
+        ends = moved(paths, keep=total)
+        twice = _coinciding(ends)
+        if not twice.any():
+            return ends
+    failed = ends.failed | twice
+    counts = replace(ends.counts, failed=int(failed.sum()))
+    return replace(ends, finite=ends.finite & ~twice, failed=failed, counts=counts)
+
+
+def _coinciding(ends: Moved) -> np.ndarray:
+    """Which regular ends are not alone: distinct paths never end at one regular point."""
+    twice = np.zeros(len(ends.points), dtype=bool)
+    regular = np.flatnonzero(ends.regular)
+    points = ends.points[regular]
+    for i, j in enumerate(regular):
+        distances = np.linalg.norm(points[:i] - points[i], axis=1)
+        same = distances < SAME * (1 + np.linalg.norm(points[i]))
+        twice[regular[:i][same]] = True
+        twice[j] |= bool(same.any())
+    return twice
+
+
+def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracker) -> Crossing:
+    here = Evaluator.of([f], f.n)
+    counts = PathCounts()
+    kept: dict[int, list[Fibre]] = {}
+    ends: dict[int, list[tuple[Cut, Moved]]] = {}
+    for d in sorted(sections.fibres, reverse=True):
+        for fibre in sections.fibres[d]:
+            on = here.residuals(fibre.x)[:, 0] < ON
+            if on.any():
+                kept.setdefault(d, []).append(fibre.only(on))
+            if d > 0 and f.degree > 0 and not on.all():
+                new = intersect(fibre.only(~on), f, sections.flag, gamma, tracker)
+                counts += new.counts
+                ends.setdefault(d - 1, []).append((fibre.cut.extended(f), new))
+    return Crossing(sections, kept, ends, counts)
+
+
+def _elsewhere(
+    sections: Sections, rng: np.random.Generator, tracker: Tracker
+) -> tuple[Sections | None, PathCounts]:
+    """The same sets on another flag; None if points could not be moved."""
+    counts = PathCounts()
+    for _ in range(ATTEMPTS):
+        n = sections.flag.shape[1] - 1
+        flag = random_rows(rng, n, n, NEARER)
+        gamma = complex(unit_complex(rng))
+        fibres: dict[int, list[Fibre]] = {}
+        for d in sorted(sections.fibres, reverse=True):
+            there, spent = carried(sections.fibres[d], sections.flag[:d], flag[:d], gamma, tracker)
+            counts += spent
+            if there is None:
+                break
+            fibres[d] = there
+        else:
+            return Sections(fibres, flag), counts
+    return None, counts
+
+
+def crossing(
+    sections: Sections,
+    f: Polynomial,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    flags: int = MOST_FLAGS,
+    elsewhere: bool = False,
+) -> Crossing:
+    """All points of the sets where ``f`` vanishes, and how many paths led there.
+
+    A path to infinity may come near it long before its end can be told from others in double
+    precision. On which paths that happens depends on the slices: where a path fails, all sets are
+    moved to another flag, ``flags`` of them at most, until few do. Those that fail on
+    the best of these flags are tracked in more precise arithmetic.
+
+    Args:
+        elsewhere: whether to begin with another flag already.
+    """
+    tracked = 0
+    found: list[tuple[complex, Crossing]] = []
+    for attempt in range(flags):
+        if attempt or elsewhere:
+            there, spent = _elsewhere(sections, rng, tracker.in_doubles)
+            tracked += spent.tracked
+            sections = sections if there is None else there
+        gamma = complex(unit_complex(rng))
+        crossed = _crossing(sections, f, gamma, tracker.brief)
+        tracked += crossed.counts.tracked
+        if not crossed.counts.failed:
+            return replace(crossed, counts=replace(crossed.counts, tracked=tracked))
+        found.append((gamma, crossed))
+        # Ends that are singular on some flags only are regular ones that are badly conditioned.
+        found.sort(key=lambda each: (each[1].singular, each[1].counts.failed))
+        best = found[0][1]
+        if DEAR * best.counts.failed < best.counts.tracked:
+            break
+    for gamma, crossed in found[:EXTENDED]:
+        again = _crossing(crossed.before, f, gamma, tracker)
+        tracked += again.counts.tracked
+        if again.counts.failed < best.counts.failed:
+            best = again
+        if not best.counts.failed:
+            break
+    return replace(best, counts=replace(best.counts, tracked=tracked))
