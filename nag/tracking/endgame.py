@@ -69,8 +69,17 @@ class Endgame(NamedTuple):
 ) = range(12)
 REALS = 12
 # Columns of Endgame.whole.
-PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, SHORT_STEPS, NO_SHORTCUT, NEAR = range(8)
-WHOLES = 8
+PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, SHORT_STEPS, NO_SHORTCUT = range(7)
+WHOLES = 7
+# Radius of convergence over |t| from where on a path may run straight to t = 0: the estimate from
+# a few coefficients of t ** q, 0 < q < 1, lies between 1.25 and 1.7.
+STRAIGHT_ON = 1.7
+# Radius of convergence in log t within which no other branch point is likely to lie: 8 samples
+# a loop tell 1e-6 where it is exp(1.7) times as far as the loop.
+ALONE = 2.0
+# The same where a loop has met a branch point. Radii at which loops wait for better.
+DISTURBED = 1.0
+PATIENCE = 8
 
 
 def endgame_state(
@@ -234,14 +243,15 @@ def give_up(e, lane):
     return FAILED
 
 
-def arrived(s, e, lane, x, noise, hint, radius, t):
+def arrived(s, e, lane, x, noise, hint, radius, turned, t):
     """A lane arrived at its target.
 
     Args:
         s: the system; e: endgame state; lane: which one.
         x: the point, shape (N,); ``best`` of the lane receives the end point.
         noise: estimated error of ``x``; hint: pivot ratio of its Jacobian.
-        radius: radius of convergence of the Taylor series at ``x``; t: where it is.
+        radius: radius of convergence of the Taylor series at ``x``; turned: of that in ``log t``.
+        t: where it is.
 
     Returns:
         0 to go on to the target ``NEXT_RE, NEXT_IM``; -1 to go back to the point ``saved`` first;
@@ -265,35 +275,34 @@ def arrived(s, e, lane, x, noise, hint, radius, t):
         retreat(s, e, lane, True)
         return -1
     if phase in (MAIN, SHRINK):
-        if phase == MAIN:
-            e.real[REALS * lane + FIRST_HINT] = hint
+        e.real[REALS * lane + FIRST_HINT] = hint
         _keep(s, e.saved, lane, x)
         e.real[REALS * lane + SAVED_RE] = t.real
         e.real[REALS * lane + SAVED_IM] = t.imag
         e.real[REALS * lane + SAVED_ANGLE] = e.real[REALS * lane + ANGLE]
-        if e.shortcut and e.whole[WHOLES * lane + NO_SHORTCUT] == 0 and radius > 1.25 * abs(t):
+        straight = e.shortcut and e.whole[WHOLES * lane + NO_SHORTCUT] == 0
+        if straight and radius > STRAIGHT_ON * abs(t):
             e.whole[WHOLES * lane + PHASE] = SHORTCUT
             e.whole[WHOLES * lane + SHORT_STEPS] = 0
             e.real[REALS * lane + NEXT_RE] = 0.0
             e.real[REALS * lane + NEXT_IM] = 0.0
             return 0
-        # Loops are for singular ends: there the radius of convergence is |t|, twice running. Else
-        # the nearest singularity may lie beside t = 0, and further in the path runs straight.
-        near = radius < 1.1 * abs(t)
-        wait = e.whole[WHOLES * lane + LEVEL] < 4 and not (
-            near and e.whole[WHOLES * lane + NEAR] == 1
-        )
-        e.whole[WHOLES * lane + NEAR] = 1 if near else 0
-        if e.shortcut and e.whole[WHOLES * lane + NO_SHORTCUT] == 0 and wait and _shrink(e, lane):
+        wait = e.shortcut and turned < ALONE and e.whole[WHOLES * lane + LEVEL] < PATIENCE
+        if wait and _shrink(e, lane):
             return 0
         _begin_loop(s, e, lane, x)
     _keep_sample(s, e, lane, x)
     last = e.whole[WHOLES * lane + SAMPLE] - 1
-    if last == 0 or last % e.per_loop != 0:
+    patient = e.shortcut and e.whole[WHOLES * lane + LEVEL] < PATIENCE
+    disturbed = patient and turned < DISTURBED
+    if not disturbed and (last == 0 or last % e.per_loop != 0):
         return 0
-    if not _closed(s, e, lane, last):
+    if disturbed or not _closed(s, e, lane, last):
         # Far out, long cycles are more likely cycles of branch points further in.
-        if last < e.per_loop * min(e.max_winding, 2 << e.whole[WHOLES * lane + LEVEL]):
+        longest = e.max_winding
+        if not patient:
+            longest = min(longest, 2 << e.whole[WHOLES * lane + LEVEL])
+        if not disturbed and last < e.per_loop * longest:
             return 0
         e.real[REALS * lane + LAST_RATIO] = 1e300
         # The path now is on another branch of its cycle: back to its own.

@@ -2,7 +2,8 @@
 
 Near an end where the Jacobian decays fast, rounding in doubles hides the path before the endgame
 has seen enough of it. Here points, residuals, Jacobians and their factors carry 32 digits; the
-predictor is a cubic Hermite polynomial through the last two points, in doubles.
+predictor is a cubic Hermite polynomial through the last two points, in doubles; in the endgame it
+is one in the logarithm of t.
 """
 
 from __future__ import annotations
@@ -20,10 +21,13 @@ from nag.tracking.endgame import (
     BEST_ERROR,
     ENDGAME,
     FAILED,
+    LOOP,
     NEXT_IM,
     NEXT_RE,
+    PHASE,
     SAVED_IM,
     SAVED_RE,
+    SHRINK,
     STEP_SIZE,
     STEPS,
     WINDING,
@@ -39,7 +43,10 @@ from nag.tracking.precision import split
 # Largest first Newton correction after a prediction, and the size at which corrections stop.
 TOLERANCE = 1e-6
 CONVERGED = 1e-26
-NEWTON_STEPS = 8
+NEWTON_STEPS = 10
+# Rounding errors of the values, and the largest that points may have with which tracking goes on.
+RESIDUAL = 1e-31
+ROUNDING = 1e-6
 MOST_STEPS = 6000
 _SPLITTER = 134217729.0
 
@@ -437,33 +444,59 @@ def _tangent(s, w, x, t):
     return True
 
 
+def _noise(n, w):
+    """Size of a correction that is nothing but rounding errors of the values."""
+    for i in range(n):
+        _put(w.b, i, (RESIDUAL if i % 2 == 1 else -RESIDUAL, 0.0, 0.0, 0.0))
+    _substitute(n, w.m, w.pivots, w.b)
+    return _norm(n, w.b)
+
+
 def _correct(s, w, x, t):
-    """Newton's method with one Jacobian; size of the first correction, and success."""
+    """Newton's method; sizes of the first and the last correction, and success.
+
+    The Jacobian is that of an earlier point as long as corrections contract fast. Those that do
+    not contract are rounding errors, or the point is too far from the path.
+    """
     n = s.N
-    _values(s, w, x, t)
-    _jacobian(s, w, t)
-    if not _factorize(n, w.m, w.pivots):
-        return 1.0, False
     first = 0.0
     last = 1.0
+    used = 0
     for k in range(NEWTON_STEPS):
+        _values(s, w, x, t)
+        if used == 0:
+            _jacobian(s, w, t)
+            if not _factorize(n, w.m, w.pivots):
+                return 1.0, 1.0, False
         _substitute(n, w.m, w.pivots, w.b)
         size = _norm(n, w.b)
         if not size < 1e10:
-            return 1.0, False
-        for j in range(n):
-            _put(x, j, _minus(_at(x, j), _at(w.b, j)))
+            return 1.0, 1.0, False
         if k == 0:
             first = size
             if first > 0.1:
-                return first, False
-        elif size > 0.25 * last and size > 1e-20:
-            return first, False
+                return first, size, False
+        elif size > 0.5 * last and used == 0:
+            return first, size, size < min(ROUNDING, 1e2 * _noise(n, w))
+        for j in range(n):
+            _put(x, j, _minus(_at(x, j), _at(w.b, j)))
+        used += 1
+        if k > 0 and size > 0.1 * last:
+            used = 0
         last = size
-        if size < CONVERGED or (k > 0 and size < 1e-20):
-            return first, True
-        _values(s, w, x, t)
-    return first, last < 1e-16
+        if size < CONVERGED:
+            return first, size, True
+    return first, last, last < min(ROUNDING, 1e2 * _noise(n, w))
+
+
+def _turned(e):
+    """Whether the path is followed in the logarithm of t."""
+    return e.whole[PHASE] in (LOOP, SHRINK)
+
+
+def _slope_in_logarithm(n, w, t):
+    for j in range(n):
+        w.slope[j] = w.slope[j] * t
 
 
 def _predict(n, w, z, gap, known):
@@ -503,6 +536,8 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
         known = False
         gap = 0.0j
         h = 0.0
+        noise = 1e-16
+        turned = False
         taken = 0
         done = 0
         while done < 10:
@@ -511,7 +546,7 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
                 _normalize(s, x)
                 _lay_patch(s, w, x)
                 _rows_at(s, w, t)
-                _first, good = _correct(s, w, x, t)
+                _first, _last, good = _correct(s, w, x, t)
                 good = good and _tangent(s, w, x, t)
                 if not good:
                     reason[path] = ENDGAME
@@ -520,10 +555,19 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
                 size = 0.0
                 for j in range(n):
                     size += abs(w.slope[j]) ** 2
-                h = min(0.01, 0.01 / (1e-300 + size**0.5)) * max(abs(t), 1e-3)
+                size = size**0.5
                 fresh = False
                 known = False
+                turned = _turned(e)
+                if turned:
+                    _slope_in_logarithm(n, w, t)
+                    h = min(0.01, 0.01 / (1e-300 + abs(t) * size))
+                else:
+                    h = min(0.01, 0.01 / (1e-300 + size)) * max(abs(t), 1e-3)
             delta = goal - t
+            if turned:
+                ratio = goal / t
+                delta = complex(math.log(abs(ratio)), math.atan2(ratio.imag, ratio.real))
             length = abs(delta)
             if h >= length:
                 z = delta
@@ -531,15 +575,16 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
             else:
                 z = delta / length * min(h, 0.5 * length if h > 0.7 * length else h)
                 following = t + z
-                z = following - t
+                if turned:
+                    following = t * math.exp(z.real) * complex(math.cos(z.imag), math.sin(z.imag))
             _predict(n, w, z, gap, known)
             _rows_at(s, w, following)
-            first, good = _correct(s, w, w.y, following)
+            first, last, good = _correct(s, w, w.y, following)
             if not good or first > TOLERANCE:
                 h = abs(z) * 0.5
                 if good:
                     h = abs(z) * min(0.6, max(0.1, (0.2 * TOLERANCE / first) ** 0.25))
-                if h < 1e-13 * abs(t) or taken > max_steps:
+                if h < 1e-13 * (1.0 if turned else abs(t)) or taken > max_steps:
                     reason[path] = STEP_SIZE if taken <= max_steps else STEPS
                     done = 10 + give_up(e, 0)
                 continue
@@ -551,6 +596,9 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
             t = following
             good = _tangent(s, w, x, t)
             known = True
+            noise = max(1e-16, last)
+            if turned:
+                _slope_in_logarithm(n, w, t)
             grow = (0.2 * TOLERANCE / max(first, 1e-300)) ** 0.25
             h = abs(z) * min(max(grow, 0.3), 2.5)
             if not good or taken > max_steps:
@@ -559,7 +607,7 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
             elif t == goal:
                 for j in range(n):
                     w.here[j] = complex(x[4 * j], x[4 * j + 2])
-                done = arrived(s, e, 0, w.here, 1e-16, 1.0, 0.0, t)
+                done = arrived(s, e, 0, w.here, noise, 1.0, 0.0, 1e6, t)
                 if done == -1:
                     done = 0
                     for j in range(n):
@@ -567,6 +615,8 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
                     t = complex(e.real[SAVED_RE], e.real[SAVED_IM])
                     fresh = True
                 goal = complex(e.real[NEXT_RE], e.real[NEXT_IM])
+                if turned != _turned(e):
+                    fresh = True
             size = _norm(n, x)
             if size > 4.0 or size < 0.25:
                 fresh = True

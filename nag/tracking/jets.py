@@ -10,6 +10,7 @@ import numpy as np
 from nag.machine_code.lanes import aligned, fma, fnma, load, separate, splat, square_root, store
 from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.logarithm import composition
 
 
 class System(NamedTuple):
@@ -70,8 +71,10 @@ class Work(NamedTuple):
     point and Taylor coefficients at the last accepted t, real and imaginary parts in turn.
     ``tr, ti``: t. ``norms``: squared norms of the two Newton corrections, then those of the Taylor
     coefficients of order 1 and up. ``mode``: 0 in the lanes that predict. ``zr, zi``: their steps
-    in t. ``accepted``: 1 in the lanes whose step is accepted. ``scalars, counters``: see
-    `nag.tracking.kernel`. ``x``: one point.
+    in t. ``accepted``: 1 in the lanes whose step is accepted. ``turned, turned_norms``: Taylor
+    coefficients in the logarithm of t, laid out as ``base`` and ``norms`` are from order 1 on.
+    ``scalars, counters``: see `nag.tracking.kernel`. ``composition``: see
+    `nag.tracking.logarithm`. ``x``: one point.
     """
 
     vr: Reals
@@ -97,8 +100,11 @@ class Work(NamedTuple):
     zr: Reals
     zi: Reals
     accepted: Reals
+    turned: Reals
+    turned_norms: Reals
     scalars: Reals
     counters: Wholes
+    composition: Reals
     x: Complexes
 
 
@@ -163,9 +169,15 @@ def work(homotopy: Homotopy, order: int) -> Work:
     value_slots = N + 1 + tape.value_products
     parts = len(homotopy.factors)
     sizes = [slots] * 2 + [order * value_slots] * 2 + [value_slots] * 2 + [N * N] * 2 + [N] * 4
-    sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, 1, order + 2, 1, 1, 1, 1]
+    sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, 1, order + 2] + [1] * 4
+    sizes += [2 * order * N, order, 16]
     vectors = separate(aligned(sum(sizes)), sizes)
-    return Work(*vectors, aligned(10), np.zeros(40, np.int64), np.zeros(N, np.complex128))
+    return Work(
+        *vectors,
+        np.zeros(40, np.int64),
+        composition(order).ravel(),
+        np.zeros(N, np.complex128),
+    )
 
 
 def _block(first, last, slot, cr, ci, real, vr, vi, shift):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import fma, fnma, load, select_less, splat, store
+from nag.machine_code.lanes import fma, load, select_less, splat, store
 from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.tracking.endgame import (
     BEST_ERROR,
@@ -24,6 +24,7 @@ from nag.tracking.endgame import (
     SAVED_RE,
     SHORT_STEPS,
     SHORTCUT,
+    SHRINK,
     START,
     STEP_SIZE,
     STEPS,
@@ -48,45 +49,30 @@ from nag.tracking.jets import (
     values,
 )
 from nag.tracking.linear_algebra import factorize, pivot_ratio, substitute
+from nag.tracking.logarithm import turn
+from nag.tracking.predictor import (
+    ACCURACY,
+    CORRECT,
+    FIRST,
+    GOAL_IM,
+    GOAL_RE,
+    GROWTH,
+    H_USED,
+    LOGARITHMIC,
+    PREDICT,
+    SCALARS,
+    T_IM,
+    T_RE,
+    THETA,
+    H,
+    convergence_radius,
+    next_step,
+    next_t,
+    predict,
+)
 
-PREDICT, CORRECT, AGAIN = 0.0, 1.0, 2.0
-
-
-def _predict(s, w, order):
-    """Pade (order - 1, 1) from the base point's Taylor coefficients, in the lanes that predict."""
-    n = s.N
-    half = splat(0.5)
-    two = splat(2.0)
-    hr = load(w.zr, 0)
-    hi = load(w.zi, 0)
-    m = load(w.mode, 0)
-    limit = splat(0.5625)
-    tiny = splat(1e-200)
-    top = 2 * n * order
-    for j in range(n):
-        lr, li = load(w.base, top + j), load(w.base, top + n + j)
-        ar, ai = load(w.base, top - 2 * n + j), load(w.base, top - n + j)
-        qr = fnma(hi, li, hr * lr)
-        qi = fma(hi, lr, hr * li)
-        q2 = fma(qr, qr, qi * qi)
-        size = fma(ar, ar, ai * ai)
-        dr = ar - qr
-        di = ai - qi
-        inverse = splat(1.0) / fma(dr, dr, di * di)
-        sr = fnma(ai, ai, ar * ar)
-        si = two * ar * ai
-        re = fma(si, di, sr * dr) * inverse
-        im = fnma(sr, di, si * dr) * inverse
-        # Where the pole is near, or both coefficients are noise, the Taylor polynomial is safer.
-        # The square of a coefficient that decays to zero underflows, and the quotient with it.
-        re = select_less(tiny, size, select_less(q2, limit * size, re, ar + qr), ar + qr)
-        im = select_less(tiny, size, select_less(q2, limit * size, im, ai + qi), ai + qi)
-        for k in range(order - 2, -1, -1):
-            x = load(w.base, 2 * n * k + j) + fnma(hi, im, hr * re)
-            im = load(w.base, 2 * n * k + n + j) + fma(hi, re, hr * im)
-            re = x
-        store(w.vr, j, select_less(m, half, re, load(w.vr, j)))
-        store(w.vi, j, select_less(m, half, im, load(w.vi, j)))
+# Steps after which a straight run to t = 0 ends with the first that is not accepted.
+SHORT = 12
 
 
 def _correct(s, w, norms, k):
@@ -161,9 +147,6 @@ def _accept(s, w, order):
             store(w.base, q_im, select_less(half, a, load(w.ci, q), load(w.base, q_im)))
 
 
-# Rows of the lanes' scalars.
-T_RE, T_IM, GOAL_RE, GOAL_IM, H, H_USED, FIRST, THETA, ACCURACY, RADIUS = range(10)
-SCALARS = 10
 # Rows of the lanes' counters.
 PATH, ROUNDS, TAKEN, REJECTED, STATE = range(5)
 COUNTERS = 5
@@ -255,8 +238,6 @@ def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
     power = 1.0 / (order + 1)
     norms = w.norms
     mode = w.mode
-    zr = w.zr
-    zi = w.zi
     accepted = w.accepted
     following = batch.first
     busy = 0
@@ -272,30 +253,13 @@ def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
             state = c[8 * STATE + lane]
             mode[lane] = PREDICT if state == 0 else CORRECT
             if state == 0:
-                dr = f[8 * GOAL_RE + lane] - f[8 * T_RE + lane]
-                di = f[8 * GOAL_IM + lane] - f[8 * T_IM + lane]
-                length = (dr * dr + di * di) ** 0.5
-                h = f[8 * H + lane]
-                if h >= length:
-                    h = length
-                    zr[lane] = dr
-                    zi[lane] = di
-                    w.tr[lane] = f[8 * GOAL_RE + lane]
-                    w.ti[lane] = f[8 * GOAL_IM + lane]
-                else:
-                    # A step that would leave a crumb is halved instead.
-                    if h > 0.7 * length:
-                        h = 0.5 * length
-                    zr[lane] = dr / length * h
-                    zi[lane] = di / length * h
-                    w.tr[lane] = f[8 * T_RE + lane] + zr[lane]
-                    w.ti[lane] = f[8 * T_IM + lane] + zi[lane]
-                f[8 * H_USED + lane] = h
+                next_t(w, lane)
             elif state == 1:
                 w.tr[lane] = f[8 * T_RE + lane]
                 w.ti[lane] = f[8 * T_IM + lane]
-        _predict(s, w, order)
+        predict(s, w, order)
         _newton_and_jets(s, w, order)
+        turning = 0
         for lane in range(8):
             accepted[lane] = 0.0
             state = c[8 * STATE + lane]
@@ -306,9 +270,12 @@ def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
             n1 = norms[8 + lane] ** 0.5
             ending = e.whole[WHOLES * lane + PHASE] != MAIN
             looping = e.whole[WHOLES * lane + PHASE] == LOOP
+            closing = looping or e.whole[WHOLES * lane + PHASE] == SHRINK
             tolerance = min(batch.tolerance, 1e-4) if looping else batch.tolerance
             arriving = w.tr[lane] == f[8 * GOAL_RE + lane] and w.ti[lane] == f[8 * GOAL_IM + lane]
-            newton = batch.newton_end if arriving or state == 1 else batch.newton
+            # The Taylor coefficients' Jacobian is that before the correction, which where the
+            # Jacobian decays must be small against its smallest singular value.
+            newton = batch.newton_end if arriving or closing or state == 1 else batch.newton
             finite = n0 < 1e100 and n1 < 1e100
             ok = finite
             if finite:
@@ -335,22 +302,14 @@ def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
                 f[8 * ACCURACY + lane] = left if left > 1e-15 else 1e-15
                 if c[8 * ROUNDS + lane] >= 1 and left > newton:
                     f[8 * ACCURACY + lane] = n1
-                last = norms[8 * (order + 1) + lane] ** 0.5
-                radius = 1e6
-                if last > 0.0:
-                    second = norms[8 * order + lane] ** 0.5
-                    third = norms[8 * (order - 1) + lane] ** 0.5
-                    radius = min(radius, max(second / last, (third / last) ** 0.5))
-                f[8 * RADIUS + lane] = radius
-                aim = safety * tolerance
-                if state == 1:
-                    h = (aim * radius / last) ** power if last > 0.0 else 1e6
-                else:
+                f[8 * GROWTH + lane] = 0.0
+                if state != 1:
+                    aim = safety * tolerance
                     n0 = max(f[8 * FIRST + lane], 1e-300)
                     aim = min(aim, 0.3 * theta_max / max(f[8 * THETA + lane], 1e-300) * n0)
-                    h = f[8 * H_USED + lane] * min((aim / n0) ** power, 4.0)
-                h = min(batch.radius_factor * radius, h)
-                f[8 * H + lane] = h
+                    f[8 * GROWTH + lane] = min((aim / n0) ** power, 4.0)
+                if closing or (arriving and e.active):
+                    turning = 1
                 f[8 * T_RE + lane] = w.tr[lane]
                 f[8 * T_IM + lane] = w.ti[lane]
                 c[8 * STATE + lane] = 0
@@ -369,7 +328,9 @@ def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
                     shrink = min(max(shrink, 0.1), 0.6)
                 f[8 * H + lane] = f[8 * H_USED + lane] * shrink
                 c[8 * STATE + lane] = 0
-                size = (f[8 * T_RE + lane] ** 2 + f[8 * T_IM + lane] ** 2) ** 0.5
+                size = 1.0
+                if f[8 * LOGARITHMIC + lane] < 0.5:
+                    size = (f[8 * T_RE + lane] ** 2 + f[8 * T_IM + lane] ** 2) ** 0.5
                 if not f[8 * H + lane] > 1e-10 * size:
                     c[8 * STATE + lane] = -2
                     reason[c[8 * PATH + lane]] = STEP_SIZE if finite else NOT_FINITE
@@ -379,12 +340,14 @@ def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
                 reason[c[8 * PATH + lane]] = STEPS
             if e.whole[WHOLES * lane + PHASE] == SHORTCUT:
                 e.whole[WHOLES * lane + SHORT_STEPS] += 1
-                if (e.whole[WHOLES * lane + SHORT_STEPS] > 30 and accepted[lane] < 0.5) or c[
+                if (e.whole[WHOLES * lane + SHORT_STEPS] > SHORT and accepted[lane] < 0.5) or c[
                     8 * STATE + lane
                 ] == -2:
                     accepted[lane] = 0.0
                     c[8 * STATE + lane] = -3
         _accept(s, w, order)
+        if turning:
+            turn(s, w, order, load(f, T_RE), load(f, T_IM))
         for lane in range(8):
             state = c[8 * STATE + lane]
             if state == -1:
@@ -407,7 +370,15 @@ def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
                 time = complex(f[8 * T_RE + lane], f[8 * T_IM + lane])
                 hint = pivot_ratio(n, w.jr, w.ji, lane)
                 done = arrived(
-                    s, e, lane, x, f[8 * ACCURACY + lane], hint, f[8 * RADIUS + lane], time
+                    s,
+                    e,
+                    lane,
+                    x,
+                    f[8 * ACCURACY + lane],
+                    hint,
+                    convergence_radius(norms, order + 1, lane),
+                    convergence_radius(w.turned_norms, order - 1, lane),
+                    time,
                 )
                 if done == -1:
                     _restart(s, w, e, f, c, lane)
@@ -417,6 +388,11 @@ def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
                 if done == 0 and c[8 * TAKEN + lane] >= max_steps:
                     reason[path] = STEPS
                     done = 10 + give_up(e, lane)
+            if accepted[lane] > 0.5:
+                phase = e.whole[WHOLES * lane + PHASE]
+                tolerance = min(batch.tolerance, 1e-4) if phase == LOOP else batch.tolerance
+                turned = phase in (LOOP, SHRINK)
+                next_step(w, order, lane, safety * tolerance, batch.radius_factor, turned)
             if done >= 10:
                 outcome[path] = done - 10
                 steps[path] = c[8 * TAKEN + lane]

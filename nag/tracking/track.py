@@ -18,6 +18,8 @@ STRAIGHT, CAUCHY = 1, 2
 MOST_COORDINATES, MOST_EXTENDED = 24, 100
 # Smallest homogenising coordinate of a finite zero of a generic system.
 AT_INFINITY = 1e-10
+# Least ratio of a singular value to a Newton step that proves a regular zero.
+PROOF = 1e5
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -274,13 +276,14 @@ def _classified(homotopy: Homotopy, raw: _Raw, endgame: bool) -> Paths:
         rough = homotopy.normalized(points[ended])
         error = np.maximum(raw.error[ended], 1e-15)
         sharp = refine(homotopy, None, rough)
-        regular = (
-            (raw.winding[ended] == 1)
-            & (sharp.before > 300 * error)
-            & (sharp.moved <= 1e3 * error + 1e-11)
-            & (sharp.smallest > 0.5 * sharp.before)
-            & (sharp.error < 1e-8)
-        )
+        steady = sharp.smallest > 0.5 * sharp.before
+        near = sharp.moved <= 1e3 * error + 1e-11
+        # Newton's method proves a regular zero where its steps are far smaller than the singular
+        # values; so does a rough end whose error is.
+        proved = steady & (near | (sharp.moved <= 0.1 * sharp.smallest))
+        proved &= (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
+        likely = steady & near & (sharp.error < 1e-8) & (sharp.before > 300 * error)
+        regular = (raw.winding[ended] == 1) & (proved | likely)
         points[ended] = np.where(regular[:, None], sharp.points, rough)
         accuracy[ended] = np.where(regular, sharp.error, error)
         smallest[ended] = np.where(regular, sharp.smallest, sharp.before)
@@ -294,8 +297,10 @@ def _classified(homotopy: Homotopy, raw: _Raw, endgame: bool) -> Paths:
         status[ended] = np.where(
             far, PathStatus.AT_INFINITY, np.where(regular, PathStatus.REGULAR, PathStatus.SINGULAR)
         )
-        # A path that ran straight to a singular end has not been judged by an endgame.
-        lost = ended[~regular & (raw.outcome[ended] == STRAIGHT)]
+        # A path that ran straight to a singular end has not been judged by an endgame; branches
+        # do not meet at a regular zero.
+        straight = raw.outcome[ended] == STRAIGHT
+        lost = ended[~regular & (straight | (proved & ~far))]
         status[lost] = PathStatus.FAILED
         reason[lost] = Reason.ENDGAME
     winding = np.where(status == PathStatus.FAILED, 0, raw.winding)
