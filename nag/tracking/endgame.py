@@ -71,9 +71,10 @@ REALS = 12
 # Columns of Endgame.whole.
 PHASE, SAMPLE, LEVEL, WINDING, LAST_WINDING, SHORT_STEPS, NO_SHORTCUT = range(7)
 WHOLES = 7
-# Radius of convergence over |t| from where on a path may run straight to t = 0: the estimate from
-# a few coefficients of t ** q, 0 < q < 1, lies between 1.25 and 1.7.
-STRAIGHT_ON = 1.7
+# Radius of convergence over |t| from where on a path may run straight to t = 0. Where it ends
+# singularly, the estimate from the coefficients of t ** q, 0 < q < 1, lies between 1.25 and 1.7,
+# and the branch point is found nearer to 0 than this part of |t|.
+STRAIGHT_ON, SURELY_STRAIGHT_ON, AT_THE_END = 1.25, 1.7, 0.2
 # Radius of convergence in log t within which no other branch point is likely to lie: 8 samples
 # a loop tell 1e-6 where it is exp(1.7) times as far as the loop.
 ALONE = 2.0
@@ -243,7 +244,7 @@ def give_up(e, lane):
     return FAILED
 
 
-def arrived(s, e, lane, x, noise, hint, radius, turned, t):
+def arrived(s, e, lane, x, noise, hint, radius, turned, branch, t):
     """A lane arrived at its target.
 
     Args:
@@ -251,7 +252,7 @@ def arrived(s, e, lane, x, noise, hint, radius, turned, t):
         x: the point, shape (N,); ``best`` of the lane receives the end point.
         noise: estimated error of ``x``; hint: pivot ratio of its Jacobian.
         radius: radius of convergence of the Taylor series at ``x``; turned: of that in ``log t``.
-        t: where it is.
+        branch: nearest branch point as it seems; t: where the path is.
 
     Returns:
         0 to go on to the target ``NEXT_RE, NEXT_IM``; -1 to go back to the point ``saved`` first;
@@ -281,7 +282,8 @@ def arrived(s, e, lane, x, noise, hint, radius, turned, t):
         e.real[REALS * lane + SAVED_IM] = t.imag
         e.real[REALS * lane + SAVED_ANGLE] = e.real[REALS * lane + ANGLE]
         straight = e.shortcut and e.whole[WHOLES * lane + NO_SHORTCUT] == 0
-        if straight and radius > STRAIGHT_ON * abs(t):
+        far = radius > STRAIGHT_ON * abs(t) and abs(branch) > AT_THE_END * abs(t)
+        if straight and (far or radius > SURELY_STRAIGHT_ON * abs(t)):
             e.whole[WHOLES * lane + PHASE] = SHORTCUT
             e.whole[WHOLES * lane + SHORT_STEPS] = 0
             e.real[REALS * lane + NEXT_RE] = 0.0

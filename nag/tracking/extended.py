@@ -607,7 +607,7 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
             elif t == goal:
                 for j in range(n):
                     w.here[j] = complex(x[4 * j], x[4 * j + 2])
-                done = arrived(s, e, 0, w.here, noise, 1.0, 0.0, 1e6, t)
+                done = arrived(s, e, 0, w.here, noise, 1.0, 0.0, 1e6, 0j, t)
                 if done == -1:
                     done = 0
                     for j in range(n):

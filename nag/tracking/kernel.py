@@ -65,6 +65,7 @@ from nag.tracking.predictor import (
     T_RE,
     THETA,
     H,
+    branch_point,
     convergence_radius,
     next_step,
     next_t,
@@ -378,6 +379,7 @@ def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
                     hint,
                     convergence_radius(norms, order + 1, lane),
                     convergence_radius(w.turned_norms, order - 1, lane),
+                    branch_point(s, w, order, lane),
                     time,
                 )
                 if done == -1:

@@ -76,6 +76,27 @@ def convergence_radius(norms, order, lane):
     return min(1e6, max((second / last) ** 0.5, (third / last) ** 0.25))
 
 
+def branch_point(s, w, order, lane):
+    """Estimated nearest branch point, as if of a square root, from the base point of a lane.
+
+    The coefficients of ``(t - z) ** (1/2)`` of orders k - 1 and k have the ratio
+    ``(z - t) k / (k - 3/2)``.
+    """
+    n = s.N
+    product = 0.0 + 0.0j
+    total = 0.0
+    for j in range(n):
+        q = 2 * n * order + j
+        last = complex(w.base[8 * q + lane], w.base[8 * (q + n) + lane])
+        q -= 2 * n
+        product += complex(w.base[8 * q + lane], w.base[8 * (q + n) + lane]) * last.conjugate()
+        total += last.real * last.real + last.imag * last.imag
+    t = complex(w.scalars[8 * T_RE + lane], w.scalars[8 * T_IM + lane])
+    if not total > 0.0:
+        return t + 1e6
+    return t + product / total * ((order - 1.5) / order)
+
+
 def next_step(w, order, lane, aim, factor, turned):
     """Size of the next step of a lane, with t or its logarithm as the path's parameter.
 

@@ -41,9 +41,9 @@ class Settings:
     newton: float = 1e-7
     newton_end: float = 1e-12
     contraction: float = 0.1
-    order: int = 5
+    order: int = 6
     floor: float = 1e-6
-    radius_factor: float = 0.4
+    radius_factor: float = 0.5
     safety: float = 0.2
     max_steps: int = 4000
     endgame_radius: float = 0.1
@@ -59,7 +59,7 @@ class Settings:
 
 
 NAMED = {
-    "fast": Settings(tolerance=1e-2, radius_factor=0.5),
+    "fast": Settings(tolerance=1e-2, radius_factor=0.6),
     "default": Settings(),
     "careful": Settings(
         tolerance=1e-5, radius_factor=0.3, newton=1e-9, max_steps=20000, high_precision_paths=4
