@@ -34,7 +34,7 @@ NEARLY_SINGULAR = 1e-5
 NEAR = 1e-7
 # Deflated systems of more unknowns, or of more terms, cost more than they are worth.
 MOST_UNKNOWNS = 80
-MOST_TERMS = 20_000
+MOST_TERMS = 100_000
 # A random choice of null vectors may be an unlucky one.
 ATTEMPTS = 3
 # Gradients below this, relative to what their degree lets them have, are not scaled up further.
@@ -274,7 +274,7 @@ def _find_cut(
         steps += free > m
         if steps > MOST_DEFLATIONS or total + (free - m) * m > MOST_UNKNOWNS:
             return None
-        entries = sum(len(f.terms) * len(f.support) for f in polynomials)
+        entries = sum(sum(map(bool, e)) for f in polynomials for e in f.terms)
         if entries * m * (1 + free - m) > MOST_TERMS:
             return None
         level = Level(evaluator, q[:, :m], q[:, m:])
