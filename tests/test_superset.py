@@ -1,74 +1,53 @@
-"""Witness supersets: what is not reduced on the way only, and paths that fail on some slices."""
+"""Witness supersets, and what their points are decided by."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections import Counter
 
 import numpy as np
 import pytest
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition import hypersurface, superset
-from nag.decomposition.fibres import Tracker
+from nag.decomposition.confirm import vanishing
+from nag.decomposition.cutting import Cut
+from nag.decomposition.fibres import Tracker, moved
 from nag.decomposition.slices import random_rows
-from nag.tracking.paths import PathStatus
+from nag.decomposition.superset import witness_superset
+from nag.tracking.paths import Paths, PathStatus
 
 
-def polynomials(variables: str, *equations: str) -> tuple[Polynomial, ...]:
-    return tuple(parse_polynomial(e, tuple(variables.split())) for e in equations)
+def polynomials(names: str, *texts: str) -> tuple[Polynomial, ...]:
+    variables = tuple(names.split())
+    return tuple(parse_polynomial(text, variables) for text in texts)
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_nothing_is_deflated_where_only_the_first_equations_have_a_double_component(
-    seed: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def admit(*arguments: object, deflate: bool) -> bool:
-        assert not deflate
-        return original(*arguments, deflate=deflate)
-
-    original = superset.admit
-    monkeypatch.setattr(superset, "admit", admit)
-    # The first two have the double line x = y = 0, on which the third is 1.
-    equations = polynomials("x y z", "y*z", "x^2 + y", "x*z + y + 1")
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_what_only_the_first_equations_see_as_multiple_is_not_deflated(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    found = superset.witness_superset(equations, 3, (), random_rows(rng, 3, 3), rng, Tracker())
-    assert found.notes == () and found.counts.failed == 0
-    points = np.vstack([fibre.x for fibre in found.fibres[0]])
-    points = points[np.argsort(points[:, 0].real)]
-    assert np.abs(points - [[-1, -1, 0], [1, -1, 0]]).max() < 1e-12
-    assert not any(found.fibres[d] for d in found.fibres if d > 0)
+    flag = random_rows(rng, 3, 3)
+    equations = polynomials("x y z", "y - x^3", "y + x^3", "x*(z^3 + 2)")
+    found = witness_superset(equations, 3, (), flag, rng, Tracker())
+    assert not found.notes and not found.counts.failed
+    assert Counter({d: sum(map(len, f)) for d, f in found.fibres.items()}) == Counter({1: 1})
+    assert all(not f.cut.levels for f in found.fibres[1])
 
 
-@pytest.mark.parametrize("bad", [1, 3, hypersurface.MOST_FLAGS])
-def test_a_path_that_fails_on_some_flags_is_tracked_on_another_or_more_precisely(
-    bad: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    precise = []
+@pytest.mark.parametrize("size", [1, 30, 1000])
+def test_a_value_of_one_is_told_from_zero_beside_large_terms(size: int) -> None:
+    cut = Cut(4, 0, polynomials("x y z w", f"x - {size}", f"y + {size}", f"z - 2*{size}", "w"))
+    point = np.array([[size, -size, 2 * size, 0]], dtype=complex)
+    rows = np.zeros((0, 5), dtype=complex)
+    product, shifted = polynomials("x y z w", "x*y*z*w", "x*y*z*w - 1")
+    assert vanishing(cut, product, rows, point).tolist() == [True]
+    assert vanishing(cut, shifted, rows, point).tolist() == [False]
 
-    def track(*arguments: object, settings: object, **options: object) -> object:
-        paths = original(*arguments, settings=settings, **options)
-        tracker = Tracker(settings)
-        precise.append(tracker.double_double)
-        if len(precise) > bad or tracker.double_double:
-            return paths
-        status = paths.status.copy()
-        status[0] = PathStatus.FAILED
-        return replace(paths, status=status)
 
-    original = hypersurface.track
-    monkeypatch.setattr(hypersurface, "track", track)
-    equations = polynomials("x y", "y^2 - x^3 - 2")
-    rng = np.random.default_rng(0)
-    flag = random_rows(rng, 2, 2)
-    found = superset.witness_superset(equations, 2, (), flag, rng, Tracker())
-    assert precise == [False] * min(bad + 1, hypersurface.MOST_FLAGS) + [True] * (
-        bad == hypersurface.MOST_FLAGS
-    )
-    assert found.counts.failed == 0 and found.notes == ()
-    (fibre,) = found.fibres[1]
-    assert len(fibre) == 3
-    x, y = fibre.x.T
-    assert np.abs(y**2 - x**3 - 2).max() < 1e-12
-    on = found.flag[0, 0] + fibre.x @ found.flag[0, 1:]
-    assert np.abs(on).max() < 1e-12
+def test_an_end_at_infinity_that_is_not_known_well_counts_as_failed() -> None:
+    status = np.array([PathStatus.AT_INFINITY] * 2 + [PathStatus.REGULAR], dtype=np.int8)
+    points = np.array([[0, 1], [1e-14, 1], [1, 1]], dtype=complex)
+    accuracy = np.array([1e-10, 1e-6, 1e-15])
+    blank = {name: np.zeros(3) for name in Paths.__dataclass_fields__}
+    ends = moved(Paths(**blank | {"points": points, "status": status, "accuracy": accuracy}))
+    assert ends.failed.tolist() == [False, True, False]
+    assert (ends.counts.failed, ends.counts.at_infinity) == (1, 1)

@@ -14,7 +14,8 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.cutting import ON, Cut, leading_power
+from nag.decomposition.confirm import vanishing
+from nag.decomposition.cutting import Cut, leading_power
 from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, homogeneous, moved
 from nag.decomposition.monodromy import carried
 from nag.decomposition.slices import padded, random_rows, unit_complex
@@ -125,13 +126,12 @@ def _coinciding(ends: Moved) -> np.ndarray:
 
 
 def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracker) -> Crossing:
-    here = Evaluator.of([f], f.n)
     counts = PathCounts()
     kept: dict[int, list[Fibre]] = {}
     ends: dict[int, list[tuple[Cut, Moved]]] = {}
     for d in sorted(sections.fibres, reverse=True):
         for fibre in sections.fibres[d]:
-            on = here.residuals(fibre.x)[:, 0] < ON
+            on = vanishing(fibre.cut, f, sections.flag[:d], fibre.points)
             if on.any():
                 kept.setdefault(d, []).append(fibre.only(on))
             if d > 0 and f.degree > 0 and not on.all():

@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.cutting import Cut, Equations, dyadic, leading_power
+from nag.decomposition.cutting import ON, Cut, Equations, dyadic, leading_power
 from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, admit
 from nag.decomposition.hypersurface import (
     FEW_FLAGS,
@@ -135,9 +135,13 @@ class _Meeting:
 
 @dataclass(frozen=True, eq=False)
 class _Stage:
-    """How sets are to meet polynomials, where ``before`` vanish on them and ``avoid`` must not."""
+    """How sets are to meet polynomials, where ``before`` vanish on them and ``avoid`` must not.
+
+    ``after`` are the equations that they will meet later.
+    """
 
     before: tuple[Polynomial, ...]
+    after: tuple[Polynomial, ...]
     n: int
     avoid: Evaluator
     rng: np.random.Generator
@@ -151,6 +155,16 @@ class _Stage:
         crossed = crossing(sections, f, self.rng, self.tracker, self.flags, elsewhere)
         settled, spent = self.settled(f, crossed, deflate)
         return _Meeting(f, crossed, settled), PathCounts(crossed.counts.tracked) + spent
+
+    def holding(self, so_far: Equations, x: np.ndarray, accuracy: float) -> Equations:
+        """The equations so far, and the later ones that seem to vanish at a point as well.
+
+        A component that is multiple for the first equations may be a simple one for all.
+        """
+        limit = max(ON, 1e2 * accuracy)
+        later = Equations(self.after, self.n).evaluator.residuals(x[None])[0] < limit
+        more = [g for g, vanishes in zip(self.after, later, strict=True) if vanishes]
+        return Equations((*so_far.polynomials, *more), self.n) if more else so_far
 
     def settled(
         self, f: Polynomial, crossed: Crossing, deflate: bool
@@ -182,11 +196,19 @@ class _Stage:
                         break
                 if answer is Membership.MEMBER:
                     continue
+                holding = self.holding(so_far, x, accuracy)
+                if answer is Membership.FOREIGN and admit(
+                    x, accuracy, kept[d], holding, flag[:d], rng, deflate=False
+                ):
+                    continue
                 if not deflate:
                     return None, counts
                 if answer is Membership.UNDECIDED:
                     notes.append(f"a point of dimension {d} could not be told from a larger set")
-                elif not admit(x, accuracy, kept[d], so_far, flag[:d], rng, deflate=True):
+                elif not any(
+                    admit(x, accuracy, kept[d], each, flag[:d], rng, deflate=True)
+                    for each in dict.fromkeys((holding, so_far))
+                ):
                     notes.append(f"a singular point of dimension {d} could not be made regular")
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
         return Superset(kept, flag, PathCounts(), tuple(notes)), counts
@@ -232,7 +254,8 @@ def witness_superset(
         if progress is not None:
             progress("intersecting", k, len(equations))
         later = [g for g in equations[k + 1 :] if g.degree == f.degree]
-        stage = _Stage((*known, *equations[:k]), n, avoid, rng, tracker, flags)
+        before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
+        stage = _Stage(before, after, n, avoid, rng, tracker, flags)
         first = _mixed(f, later, rng) if mixing else f
         best, spent = stage.meeting(found, first, deflate=mixing or not later)
         counts += spent
