@@ -47,6 +47,8 @@ def sorted_points(result: SolveResult) -> np.ndarray:
         "caprasse",
         "planar-3-rpr",
         "inverse-6r",
+        "inverse-6r-clustered",
+        "chandra-8",
         "stewart-gough",
         "katsura-6",
         "cyclic-5",

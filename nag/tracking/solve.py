@@ -19,7 +19,6 @@ from nag.tracking.settings import Settings, named
 from nag.tracking.singular_ends import Place, analyse
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
 from nag.tracking.start.choice import choose
-from nag.tracking.start.scaling import scaled_terms
 from nag.tracking.start.target import Start, Target
 from nag.tracking.track import track
 
@@ -126,13 +125,8 @@ class _Problem:
         slices = [_random_linear(n, rng) for _ in range(added)]
         square = _squared([*equations, *slices], n, rng)
         target = Target.of(square, n)
-        scales = np.array(target.scales, dtype=np.int64)
-
-        def scaled(f: Polynomial) -> Polynomial:
-            return Polynomial(n, scaled_terms(f, scales))
-
-        nonzero = Evaluator.of([scaled(f) for f in system.nonzero], n)
-        mended = tuple(scaled(f) for f in [*equations, *slices])
+        nonzero = Evaluator.of([target.scaled(f) for f in system.nonzero], n)
+        mended = tuple(target.scaled(f) for f in [*equations, *slices])
         return cls(system, mended, nonzero, target, added, len(equations) > n)
 
 
@@ -300,9 +294,9 @@ class _Ends:
         if not conjugates_present(points, accuracy, multiplicity, real):
             notes.append("the conjugate of a solution is missing")
         kept = ~_vanishes(problem.nonzero, points, accuracy)
-        factors = problem.target.factors
+        original = problem.target.original
         described = zip(
-            points * factors,
+            original(points),
             multiplicity.tolist(),
             real.tolist(),
             residual.tolist(),
@@ -313,8 +307,8 @@ class _Ends:
         )
         return cls(
             tuple(Solution(*x) for x, keep in zip(described, kept, strict=True) if keep),
-            np.array(on_components).reshape(-1, n) * factors,
-            np.array(undecided).reshape(-1, n) * factors,
+            original(np.array(on_components).reshape(-1, n)),
+            original(np.array(undecided).reshape(-1, n)),
             int((~kept).sum()),
             tuple(notes),
         )

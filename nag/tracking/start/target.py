@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
@@ -13,6 +14,7 @@ from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.start.centring import centres, shifted
 from nag.tracking.start.scaling import independent_rows, scaled_terms, variable_scales
 
 Terms = Mapping[Exponents, Number | complex]
@@ -29,12 +31,14 @@ class Target:
     Attributes:
         n: number of variables and of polynomials.
         rows: the terms, in variables ``y``.
-        scales: integers: the original variables are ``x_i = 2^scales[i] y_i``.
+        scales, centres: the original variables are ``x_i = 2^scales[i] y_i + centres[i]``, with
+            integers and rational numbers.
     """
 
     n: int
     rows: tuple[Terms, ...]
     scales: tuple[int, ...] = ()
+    centres: tuple[Fraction, ...] = ()
 
     def __post_init__(self) -> None:
         if len(self.rows) != self.n:
@@ -42,15 +46,25 @@ class Target:
 
     @classmethod
     def of(cls, polynomials: Sequence[Polynomial], n: int) -> Target:
-        """The polynomials with variables and rows scaled by powers of two."""
+        """The polynomials with variables centred, and those and rows scaled by powers of two."""
+        origins = centres(polynomials, n)
+        polynomials = [shifted(f, origins) for f in polynomials]
         scales = variable_scales(polynomials, n)
         rows = independent_rows([scaled_terms(f, scales) for f in polynomials])
-        return cls(n, rows, tuple(scales.tolist()))
+        return cls(n, rows, tuple(scales.tolist()), origins)
 
-    @property
-    def factors(self) -> np.ndarray:
-        """What the variables ``y`` are multiplied by to give the original ones, shape ``(n,)``."""
-        return np.exp2(self.scales or np.zeros(self.n))
+    def scaled(self, f: Polynomial) -> Polynomial:
+        """``f``, a polynomial in the original variables, in the variables ``y``, scaled."""
+        if self.centres:
+            f = shifted(f, self.centres)
+        return Polynomial(self.n, scaled_terms(f, np.array(self.scales, dtype=np.int64)))
+
+    def original(self, points: np.ndarray) -> np.ndarray:
+        """Values of the original variables, from those of ``y``, shape ``(P, n)``."""
+        if not self.scales:
+            return points
+        origins = np.array([float(b) for b in self.centres])
+        return points * np.exp2(self.scales) + origins
 
     @cached_property
     def degrees(self) -> tuple[int, ...]:
