@@ -29,6 +29,7 @@ NAMES = ("x", "y", "z", "w")
 # Products of ideals have the product of the numbers of generators.
 MOST_EQUATIONS = 40
 HIGHEST_DEGREE = 6
+MOST_TRIES = 1000
 
 
 @dataclass(frozen=True)
@@ -161,7 +162,10 @@ def random_union(seed: int) -> Union:
     n = int(rng.integers(3, 5))
     wanted = int(rng.integers(2, 4))
     chosen: list[Component] = []
-    while len(chosen) < wanted:
+    tries = 0
+    # Two components may leave no room for a third.
+    while len(chosen) < wanted and (tries < MOST_TRIES or len(chosen) < 2):
+        tries += 1
         new = _component(rng, n)
         equations = reduce(mul, (len(c.generators) for c in [*chosen, new]))
         if equations > MOST_EQUATIONS or sum(c.height for c in [*chosen, new]) > HIGHEST_DEGREE:
