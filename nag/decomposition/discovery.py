@@ -2,16 +2,13 @@
 
 Newton's method leads to a generic point of some component. The corank of the Jacobian there is its
 dimension if the component is reduced; else it is the largest one for which deflation makes the
-point regular on a slice. All points move to one slice for each dimension, where those of one
-component are recognised: monodromy loops find further points and join them, and the trace test says
-when a component's are complete (Sommese, Verschelde & Wampler 2002). Nothing says that all
-components were found.
+point regular on a slice. All points move to one slice for each dimension, where loops complete the
+components. Nothing says that all components were found.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,25 +17,21 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.cutting import NEARLY_SINGULAR, ON, Cut, Equations
-from nag.decomposition.fibres import Fibre, Tracker, admit, move
+from nag.decomposition.fibres import Fibre, Tracker, admit
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.frame import Frame
 from nag.decomposition.gauss_newton import CLOSE, descend, polish
 from nag.decomposition.irreducible import Class
 from nag.decomposition.membership import Membership, is_member
 from nag.decomposition.monodromy import carried
+from nag.decomposition.pool import MOST_LOOPS, Pool, completed
 from nag.decomposition.slices import complex_normal, random_rows, rows_through, unit_complex
 from nag.decomposition.superset import Progress, forbidden
 from nag.decomposition.symmetric_images import in_orbits
-from nag.decomposition.trace import is_linear, second_differences
 from nag.decomposition.witness import Decomposition, PathCounts, Status, WitnessSet
 
 STARTS = 100
 ATTEMPTS = 3
-# Loops after which a fibre that is not full is left undecided: 23 was the worst that was needed.
-MOST_LOOPS = 60
-# Points of a fibre nearer than this, relative to their size, are one.
-SAME = 1e-8
 # Residuals to which points of non-reduced components are brought before they are deflated.
 DEEP = 1e-14
 # Points that no deflation made regular, after which no more are tried: each costs seconds.
@@ -46,76 +39,12 @@ MOST_REFUSALS = 3
 UNFINISHED = f"its trace is not linear after {MOST_LOOPS} loops: points are missing"
 
 
-@dataclass(frozen=True, eq=False)
-class _Pool:
-    """Points of one dimension on a common slice, and which of them are known to belong together.
-
-    Attributes:
-        cuts: square systems that cut them.
-        which: for each point, the index of its cut.
-        points: with the unknowns that deflation added.
-        labels: for each point, the smallest index of a point of the same component.
-        hits: for each point, the number of starting points that led to it.
-    """
-
-    cuts: tuple[Cut, ...] = ()
-    which: tuple[int, ...] = ()
-    points: tuple[np.ndarray, ...] = ()
-    labels: tuple[int, ...] = ()
-    hits: tuple[int, ...] = ()
-
-    def place(self, x: np.ndarray) -> int | None:
-        """The index of the point at ``x``."""
-        if not self.points:
-            return None
-        known = np.array([z[: len(x)] for z in self.points])
-        distances = np.linalg.norm(known - x, axis=1)
-        nearest = int(distances.argmin())
-        return nearest if distances[nearest] < SAME * (1 + np.linalg.norm(x)) else None
-
-    def arrived(self, cut: Cut, z: np.ndarray) -> _Pool:
-        """The pool after a starting point led to ``z``."""
-        place = self.place(z[: cut.n])
-        if place is not None:
-            hits = [h + (i == place) for i, h in enumerate(self.hits)]
-            return replace(self, hits=tuple(hits))
-        cuts = self.cuts if cut in self.cuts else (*self.cuts, cut)
-        return self.extended(cuts, cuts.index(cut), z, len(self.points), 1)
-
-    def extended(
-        self, cuts: tuple[Cut, ...], which: int, z: np.ndarray, label: int, hits: int
-    ) -> _Pool:
-        """The pool with one more point."""
-        return _Pool(
-            cuts,
-            (*self.which, which),
-            (*self.points, z),
-            (*self.labels, label),
-            (*self.hits, hits),
-        )
-
-    def joined(self, i: int, j: int) -> _Pool:
-        """The pool with the classes of two points made one."""
-        low, high = sorted((self.labels[i], self.labels[j]))
-        return replace(self, labels=tuple(low if k == high else k for k in self.labels))
-
-    def fibres(self, indices: Sequence[int], d: int) -> tuple[list[Fibre], np.ndarray]:
-        """The points of given indices by their cuts, and the indices in that order."""
-        found, order = [], []
-        for k, cut in enumerate(self.cuts):
-            own = [i for i in indices if self.which[i] == k]
-            if own:
-                found.append(Fibre(cut, d, np.array([self.points[i] for i in own])))
-                order += own
-        return found, np.array(order, dtype=int)
-
-
 def _local(
     x: np.ndarray,
     dimensions: Iterable[int],
     accuracy: float,
     deflate: bool,
-    pools: Mapping[int, _Pool],
+    pools: Mapping[int, Pool],
     equations: Equations,
     rng: np.random.Generator,
 ) -> tuple[Fibre, np.ndarray] | None:
@@ -144,92 +73,6 @@ def _on_rows(
         if there is not None:
             return there[0].points[0], counts
     return None, counts
-
-
-def _looped(
-    pool: _Pool,
-    active: Sequence[int],
-    rows: np.ndarray,
-    rng: np.random.Generator,
-    tracker: Tracker,
-) -> tuple[_Pool, PathCounts]:
-    """The pool after a random loop: ends are new points, or join two classes."""
-    counts = PathCounts()
-    middle = random_rows(rng, len(rows), rows.shape[1] - 1)
-    out, back = unit_complex(rng, 2)
-    fibres, order = pool.fibres(active, len(rows))
-    first = 0
-    for fibre in fibres:
-        own, first = order[first : first + len(fibre)], first + len(fibre)
-        there = move(fibre, rows, middle, complex(out), tracker)
-        half = Fibre(fibre.cut, fibre.dimension, there.points[there.regular])
-        again = move(half, middle, rows, complex(back), tracker)
-        counts += there.counts.repeatable + again.counts.repeatable
-        origins = own[there.regular][again.regular]
-        for i, z in zip(origins, again.points[again.regular], strict=True):
-            place = pool.place(z[: fibre.cut.n])
-            if place is None:
-                pool = pool.extended(pool.cuts, pool.which[i], z, pool.labels[i], 0)
-            else:
-                pool = pool.joined(i, place)
-    return pool, counts
-
-
-def _linear_classes(
-    pool: _Pool, active: Sequence[int], rows: np.ndarray, rng: np.random.Generator, tracker: Tracker
-) -> tuple[set[int], PathCounts]:
-    """Labels of the classes among ``active`` whose trace is linear, here and elsewhere."""
-    fibres, order = pool.fibres(active, len(rows))
-    labels = np.array(pool.labels)[order]
-    passed = set(labels.tolist())
-    counts = PathCounts()
-    for elsewhere in (False, True):
-        here, at = fibres, rows
-        if elsewhere:
-            at = random_rows(rng, len(rows), rows.shape[1] - 1)
-            here, spent = carried(fibres, rows, at, complex(unit_complex(rng)), tracker)
-            counts += spent
-            if here is None:
-                return set(), counts
-        differences, spent = second_differences(here, at, rng, tracker)
-        counts += spent
-        if differences is None:
-            return set(), counts
-        passed = {label for label in passed if is_linear(differences[labels == label])}
-        if not passed:
-            break
-    return passed, counts
-
-
-def _completed(
-    pool: _Pool,
-    rows: np.ndarray,
-    rng: np.random.Generator,
-    tracker: Tracker,
-    progress: Progress | None,
-) -> tuple[_Pool, set[int], PathCounts]:
-    """The pool with all points of its components, and the labels of those that are complete."""
-    counts, complete = PathCounts(), set[int]()
-    if len(rows) == 0:
-        return pool, set(pool.labels), counts
-    for k in range(MOST_LOOPS):
-        if progress is not None:
-            progress("completing", len(complete), len(set(pool.labels)))
-        used = Tracker("careful" if k % 4 == 3 else tracker.settings, tracker.threads)
-        active = [i for i, label in enumerate(pool.labels) if label not in complete]
-        if not active:
-            break
-        before = pool
-        pool, spent = _looped(pool, active, rows, rng, used)
-        counts += spent
-        changed = set(pool.labels[len(before.labels) :])
-        changed |= {new for old, new in zip(before.labels, pool.labels, strict=False) if old != new}
-        idle = [i for i in active if pool.labels[i] not in changed]
-        if idle:
-            passed, spent = _linear_classes(pool, idle, rows, rng, used)
-            counts += spent
-            complete |= passed
-    return pool, complete, counts
 
 
 def by_sampling(
@@ -266,7 +109,7 @@ def by_sampling(
     equations = Equations(reduced.polynomials, reduced.n)
     avoid = Evaluator.of(reduced.nonzero, reduced.n)
     flag = random_rows(rng, reduced.n, reduced.n)
-    pools: dict[int, _Pool] = {}
+    pools: dict[int, Pool] = {}
     counts, arrived, refused = PathCounts(), 0, 0
     for k in range(starts):
         if progress is not None:
@@ -284,13 +127,13 @@ def by_sampling(
         if found is not None:
             d, cut, z = found
             arrived += 1
-            pools[d] = pools.get(d, _Pool()).arrived(cut, z)
+            pools[d] = pools.get(d, Pool()).arrived(cut, z)
     everything = Evaluator.of(system.polynomials, system.n)
     components: list[WitnessSet] = []
     above: list[Fibre] = []
     once = 0
     for d in sorted(pools, reverse=True):
-        pool, complete, spent = _completed(pools[d], flag[:d], rng, tracker, progress)
+        pool, complete, spent = completed(pools[d], flag[:d], rng, tracker, progress)
         counts += spent
         sets, here = [], []
         for label in sorted(set(pool.labels)):
@@ -353,7 +196,7 @@ def by_sampling(
 
 def _simple_point(
     x: np.ndarray,
-    pools: Mapping[int, _Pool],
+    pools: Mapping[int, Pool],
     equations: Equations,
     flag: np.ndarray,
     rng: np.random.Generator,
@@ -372,7 +215,7 @@ def _simple_point(
 
 def _multiple_point(
     x: np.ndarray,
-    pools: Mapping[int, _Pool],
+    pools: Mapping[int, Pool],
     equations: Equations,
     flag: np.ndarray,
     rng: np.random.Generator,
@@ -393,7 +236,7 @@ def _found(
     dimensions: Iterable[int],
     accuracy: float,
     deflate: bool,
-    pools: Mapping[int, _Pool],
+    pools: Mapping[int, Pool],
     equations: Equations,
     flag: np.ndarray,
     rng: np.random.Generator,
