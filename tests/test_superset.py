@@ -9,6 +9,8 @@ import pytest
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition import decompose
 from nag.decomposition.confirm import vanishing
 from nag.decomposition.cutting import Cut
 from nag.decomposition.fibres import Tracker, moved
@@ -51,3 +53,37 @@ def test_an_end_at_infinity_that_is_not_known_well_counts_as_failed() -> None:
     ends = moved(Paths(**blank | {"points": points, "status": status, "accuracy": accuracy}))
     assert ends.failed.tolist() == [False, True, False]
     assert (ends.counts.failed, ends.counts.at_infinity) == (1, 1)
+
+
+SADDLE, CONE, DOUBLE = "(x*y - z)", "(x*y - z^2)", "(x*y - z)^2"
+
+
+# What deflation makes regular may lie on larger components, or on others of the same dimension:
+# seeds that took such points for components of their own.
+@pytest.mark.parametrize(
+    ("factors", "seed", "expected"),
+    [
+        ((DOUBLE, CONE), 1, {(2, 2, 2): 1, (2, 2, 1): 1, (1, 1, 3): 1}),
+        ((SADDLE, CONE), 2, {(2, 2, 1): 2, (1, 1, 3): 1}),
+        (("(x - 1)", "(y - 2)"), 5, {(2, 1, 1): 2, (1, 1, 3): 1}),
+    ],
+)
+def test_a_triple_line_beside_surfaces_adds_nothing_but_itself(
+    factors: tuple[str, ...], seed: int, expected: dict[tuple[int, int, int], int]
+) -> None:
+    common = "*".join(factors)
+    equations = polynomials("x y z", *(f"{common}*{q}" for q in ("x^2", "x*y", "y^2")))
+    answer = decompose(PolynomialSystem(("x", "y", "z"), equations), seed=seed)
+    assert answer.complete
+    assert Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components) == expected
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_an_isolated_end_of_a_deflated_surface_may_lie_on_a_curve(seed: int) -> None:
+    curve = ("(y^2 - x^3 - x^2)", "(z + 1)")
+    texts = [f"{DOUBLE}*{q}*{c}" for q in ("x^2", "x*y", "y^2") for c in curve]
+    system = PolynomialSystem(("x", "y", "z"), polynomials("x y z", *texts))
+    answer = decompose(system, seed=seed)
+    assert answer.complete
+    found = Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components)
+    assert found == {(2, 2, 2): 1, (1, 3, 1): 1, (1, 1, 3): 1}

@@ -163,7 +163,7 @@ def admit(
     """Put a singular end into the fibre whose cut makes it regular; find a cut if there is none."""
     n = len(x)
     for i, fibre in enumerate(fibres):
-        if (fibre.cut.aux > 0) != deflate:
+        if bool(fibre.cut.levels) != deflate:
             continue
         sharpened = sharpen(fibre.cut.evaluator, rows, fibre.cut.lift(x))
         end, scale = sharpened.z[:n], 1 + np.linalg.norm(x)

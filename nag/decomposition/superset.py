@@ -6,7 +6,7 @@ carries the equations that cut it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -26,6 +26,8 @@ from nag.decomposition.hypersurface import (
 from nag.decomposition.membership import Membership, is_member
 from nag.decomposition.witness import PathCounts
 
+# Relative error of regular ends of paths.
+REGULAR = 1e-13
 # Other flags on which a doubtful intersection is tried again.
 ELSEWHERE = 1
 
@@ -166,6 +168,31 @@ class _Stage:
         more = [g for g, vanishes in zip(self.after, later, strict=True) if vanishes]
         return Equations((*so_far.polynomials, *more), self.n) if more else so_far
 
+    def own(
+        self, fibre: Fibre, kept: Mapping[int, Sequence[Fibre]], flag: np.ndarray
+    ) -> tuple[Fibre, list[str], PathCounts]:
+        """The points of a deflated fibre that lie on no other set.
+
+        Deflation of one component takes others out of the zeros of its equations, so that a point
+        may be a regular one where it lies on another component of all equations.
+        """
+        counts, notes, d = PathCounts(), [], fibre.dimension
+        same = np.vstack([other.x for other in kept.get(d, ())] or [fibre.x[:0]])
+        mask = np.ones(len(fibre), dtype=bool)
+        for i, x in enumerate(fibre.x):
+            answer = Membership.FOREIGN
+            if (np.linalg.norm(same - x, axis=1) < SAME * (1 + np.linalg.norm(x))).any():
+                answer = Membership.MEMBER
+            for higher in sorted((e for e in kept if e > d), reverse=True):
+                if answer is not Membership.FOREIGN:
+                    break
+                answer, used = is_member(x, REGULAR, kept[higher], flag, self.rng, self.tracker)
+                counts += used
+            if answer is Membership.UNDECIDED:
+                notes.append(f"a point of dimension {d} could not be told from a larger set")
+            mask[i] = answer is Membership.FOREIGN
+        return fibre.only(mask), notes, counts
+
     def settled(
         self, f: Polynomial, crossed: Crossing, deflate: bool
     ) -> tuple[Superset | None, PathCounts]:
@@ -180,7 +207,13 @@ class _Stage:
         counts, notes = PathCounts(), []
         for d in sorted(crossed.ends, reverse=True):
             candidates = _collect(crossed.ends[d], self.n, d, self.avoid)
-            kept.setdefault(d, []).extend(candidates.fibres)
+            for fibre in candidates.fibres:
+                if fibre.cut.levels:
+                    fibre, doubts, used = self.own(fibre, kept, flag)
+                    counts += used
+                    notes += doubts
+                kept.setdefault(d, []).append(fibre)
+            kept.setdefault(d, [])
             for cluster in candidates.singular:
                 x, accuracy = cluster[0]
                 if admit(x, accuracy, kept[d], so_far, flag[:d], rng, deflate=False):

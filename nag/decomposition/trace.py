@@ -13,9 +13,9 @@ from nag.decomposition.monodromy import carried
 from nag.decomposition.slices import complex_normal, unit_complex
 from nag.decomposition.witness import PathCounts
 
-# True traces lay below 2e-14 and false ones above 2e-4 in all shipped cases; near-degenerate
+# True traces lay below 2e-14 and false ones above 6e-5 in all shipped cases; near-degenerate
 # components come closer, and are then undecided rather than split.
-LINEAR = 1e-11
+LINEAR = 2e-13
 # Subsets of more classes than this are not searched.
 MOST_CLASSES = 12
 
