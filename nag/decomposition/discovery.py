@@ -67,7 +67,7 @@ def _on_rows(
     if fibre.dimension == 0:
         return fibre.points[0], counts
     for attempt in range(ATTEMPTS):
-        used = Tracker("careful" if attempt else tracker.settings, tracker.threads)
+        used = tracker.again(attempt)
         there, spent = carried([fibre], rows, target, complex(unit_complex(rng)), used)
         counts += spent
         if there is not None:

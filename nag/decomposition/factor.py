@@ -96,7 +96,7 @@ def on_flag(
     if len(rows) == 0:
         return fibres, counts
     for attempt in range(ATTEMPTS):
-        used = Tracker("careful" if attempt else tracker.settings, tracker.threads)
+        used = tracker.again(attempt)
         gamma = complex(unit_complex(rng))
         there, spent = carried(fibres, rows, flag[: len(rows)], gamma, used)
         counts += spent

@@ -158,7 +158,7 @@ def completed(
     for k in range(MOST_LOOPS):
         if progress is not None:
             progress("completing", len(complete), len(set(pool.labels)))
-        used = Tracker("careful" if k % 4 == 3 else tracker.settings, tracker.threads)
+        used = tracker.again(2 if k % 4 == 3 else 0)
         active = [i for i, label in enumerate(pool.labels) if label not in complete]
         if not active:
             break
