@@ -202,3 +202,48 @@ def test_rational_solutions_are_found_to_rounding() -> None:
     points = sorted_points(solve(PolynomialSystem(("x", "y"), f)))
     wanted = {(0.5, -0.5), (0.5, 0.5), (3.0, -0.5), (3.0, 3.0)}
     assert {tuple(np.round(p.real, 12)) for p in points} == wanted
+
+
+@pytest.mark.parametrize("gap", ["1/10^5", "1/10^6", "1/10^12", "1/10^20"])
+def test_zeros_close_together_are_not_taken_for_a_double_one(gap: str) -> None:
+    result = solve(system("x y", f"(x - 1)*(x - 1 - {gap})*(x + 2)", "(y - x)*(y + 3)"))
+    assert all(s.multiplicity == 1 for s in result.solutions)
+    assert not result.complete or len(result.solutions) == 6
+
+
+@pytest.mark.parametrize("power", [8, 12, 20])
+def test_close_roots_of_one_polynomial_are_not_taken_for_a_double_one(power: int) -> None:
+    result = solve(system("x", f"x^{power} - (10*x - 1)^2"))
+    assert all(s.multiplicity == 1 for s in result.solutions)
+    assert not result.complete or len(result.solutions) == power
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_end_points_that_are_no_zeros_are_not_passed_over(seed: int) -> None:
+    first = "(x - 10^6)*(x - 1)*(x - 1/10^6)*(x + 3)"
+    second = "(y - 10^6)*(y + 1/10^6)*(y - 2)*(x + y + 5)"
+    result = solve(system("x y", first, second), seed=seed)
+    assert not result.complete or len(result.solutions) == 16
+
+
+@pytest.mark.parametrize("power", [9, 12, 15])
+def test_solutions_far_out_are_not_called_infinite(power: int) -> None:
+    result = solve(system("x y", f"x^3/10^{power} + x^2 - y - 1", "y^2 - x + 2"))
+    assert not result.complete or len(result.solutions) == 6
+
+
+@pytest.mark.parametrize("power", [6, 10, 14, 18])
+def test_more_equations_than_unknowns_are_checked_exactly(power: int) -> None:
+    result = solve(system("x y", "x^2 - 1", "y^2 - 1", f"x + y - 2 + 1/10^{power}"))
+    assert result.complete
+    assert len(result.solutions) == 0
+    assert len(solve(system("x y", "x^2 - 1", "y^2 - 1", "x + y - 2")).solutions) == 1
+
+
+def test_a_root_of_high_multiplicity_is_one_solution() -> None:
+    result = solve(system("x", "x^12*(x - 1)"))
+    assert result.complete
+    assert sorted((s.multiplicity, round(s.point[0].real, 9)) for s in result.solutions) == [
+        (1, 1.0),
+        (12, 0.0),
+    ]

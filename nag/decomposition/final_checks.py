@@ -107,7 +107,7 @@ def checked_witness_set(
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
     if not confirmed(chosen[0].cut, reduced.polynomials, rows, first):
-        reasons.append("a point does not satisfy all equations in 60 digits: zeros too close")
+        reasons.append("a point does not satisfy all equations in 100 digits: zeros too close")
     if len(set(coranks)) > 1:
         reasons.append("the corank of the Jacobian differs between its points")
     multiple = int(coranks[0] == d)

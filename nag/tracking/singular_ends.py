@@ -8,19 +8,21 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.high_precision import vanish
 from nag.algebra.local_ring import local_dimension
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 
 MOST_DEFLATIONS = 4
 MOST_UNKNOWNS = 60
+MOST_POLYNOMIALS = 1000
 NEWTON_STEPS = 12
 # Distances, relative to the point, at which further points of the solution set are looked for.
 NEARBY = (0.02, 0.1)
@@ -68,6 +70,7 @@ class _Newton:
     step: float
     condition: float
     regular: bool
+    polynomials: tuple[Polynomial, ...] = ()
 
 
 def _gauss_newton(evaluator: Evaluator, z: np.ndarray) -> _Newton:
@@ -84,7 +87,9 @@ def _gauss_newton(evaluator: Evaluator, z: np.ndarray) -> _Newton:
     s = np.linalg.svd(evaluator.jacobian(z), compute_uv=False)
     square = len(s) == len(z)
     residual = float(evaluator.residuals(z[None]).max(initial=0.0))
-    regular = square and step < 1e-11 and residual < 1e-12 and s[-1] > max(1e4 * step, 1e-9) * s[0]
+    # Coefficients of order one give a Jacobian such a size; a much smaller one is all rounding.
+    limit = max(1e4 * step, 1e-9) * max(s[0], 0.1)
+    regular = square and step < 1e-11 and residual < 1e-12 and s[-1] > limit
     return _Newton(z, step, float(s[0] / max(s[-1], 1e-300)), bool(regular))
 
 
@@ -120,15 +125,19 @@ def _deflated(
 def sharpened(
     polynomials: Sequence[Polynomial], x: np.ndarray, accuracy: float, rng: np.random.Generator
 ) -> _Newton | None:
-    """The zero near ``x`` as a regular zero of a deflation; None if none was found."""
+    """The zero near ``x`` with the unknowns and polynomials of a deflation that makes it regular.
+
+    None if there is none.
+    """
     n = len(x)
     polynomials, z = list(polynomials), x
-    for _ in range(MOST_DEFLATIONS + 1):
+    grown = 0
+    while grown <= MOST_DEFLATIONS and len(polynomials) <= MOST_POLYNOMIALS:
         evaluator = Evaluator.of(polynomials, len(z))
         found = _gauss_newton(evaluator, z)
         moved = np.linalg.norm(found.z[:n] - x) / (1 + np.linalg.norm(x))
         if found.regular and moved < max(1e3 * accuracy, 1e-7):
-            return _Newton(found.z[:n], found.step, found.condition, True)
+            return replace(found, polynomials=tuple(polynomials))
         jacobian = evaluator.jacobian(z)
         s = np.linalg.svd(jacobian, compute_uv=False)
         m = corank_at(s, len(z), accuracy)
@@ -138,7 +147,9 @@ def sharpened(
         q = np.rint(64 * np.linalg.qr(rng.normal(size=(len(z), len(z))))[0]) / 64
         q1, q2 = q[:, :m], q[:, m:]
         unknowns, *_ = np.linalg.lstsq(jacobian @ q2, -jacobian @ q1, rcond=None)
-        polynomials = _deflated(polynomials, len(z), q1, q2)
+        # Deflations that need no new unknowns only add derivatives.
+        grown += m < len(z)
+        polynomials = list(dict.fromkeys(_deflated(polynomials, len(z), q1, q2)))
         z = np.concatenate([z, unknowns.T.ravel()])
     return None
 
@@ -192,8 +203,21 @@ def analyse(
     found = sharpened(polynomials, x, accuracy, rng)
     if found is None:
         return SingularEnd(x, Place.UNDECIDED, 0, accuracy, np.inf)
-    known = max(1e3 * found.step, 1e-12)
-    dimension = local_dimension(evaluator, found.z, lambda s, k: corank_at(s, k, known))
-    if dimension is None:
-        return SingularEnd(found.z, Place.UNDECIDED, 0, found.step, found.condition)
-    return SingularEnd(found.z, Place.ISOLATED, dimension, max(found.step, 1e-16), found.condition)
+    point, known = found.z[: len(x)], max(1e3 * found.step, 1e-12)
+    dimension = local_dimension(evaluator, point, lambda s, k: corank_at(s, k, known))
+    # Zeros that are close together look like a multiple one in doubles.
+    if dimension is None or not _exact(polynomials, found):
+        return SingularEnd(point, Place.UNDECIDED, 0, found.step, found.condition)
+    return SingularEnd(point, Place.ISOLATED, dimension, max(found.step, 1e-16), found.condition)
+
+
+def _exact(polynomials: Sequence[Polynomial], found: _Newton) -> bool:
+    """Whether the polynomials vanish at the exact zero of a square part of their deflation."""
+    import scipy.linalg
+
+    jacobian = Evaluator.of(found.polynomials, len(found.z)).jacobian(found.z)
+    _, _, pivots = scipy.linalg.qr(jacobian.T, mode="economic", pivoting=True)
+    chosen = sorted(int(p) for p in pivots[: len(found.z)])
+    square = [found.polynomials[i] for i in chosen]
+    slices = np.zeros((0, 1 + len(found.z)))
+    return vanish(polynomials, square, slices, jacobian[chosen], found.z) is True
