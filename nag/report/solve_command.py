@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--start",
         choices=STARTS,
         default="auto",
-        help="start system (default: auto, the one with the fewest paths)",
+        help="start system (default: auto, the one with the least work)",
     )
 
 

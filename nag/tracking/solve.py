@@ -51,7 +51,7 @@ def solve(
 
     Args:
         system: what to solve; its ``groups`` are tried among the multihomogeneous structures.
-        start: ``"auto"`` (the fewest paths), ``"total"``, ``"multihomogeneous"``,
+        start: ``"auto"`` (the least work), ``"total"``, ``"multihomogeneous"``,
             ``"polyhedral"`` or ``"monodromy"``.
         seed: of the random numbers; the same seed gives the same answer for any ``threads``.
         threads: number of threads.

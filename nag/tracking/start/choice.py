@@ -1,4 +1,4 @@
-"""The start system with the fewest paths."""
+"""The start system with the least work."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def choose(
             counts.append(f"mixed volume {volume}")
             if 0 < WORK * volume <= least:
                 start = polyhedral(target, cells, rng, threads)
-                return start, f"polyhedral, the fewest paths: {', '.join(counts)}"
+                return start, f"polyhedral, the least work: {', '.join(counts)}"
             if 0 < volume < least:
                 counts.append("whose start system would take more work than it saves")
         except StartError as error:
@@ -78,8 +78,8 @@ def choose(
         counts.append("so few that the mixed volume was not computed")
     if number < total:
         start = multihomogeneous(target, groups, rng)
-        return start, f"multihomogeneous, the fewest paths: {', '.join(counts)}"
-    return total_degree(target, rng), f"total degree, the fewest paths: {', '.join(counts)}"
+        return start, f"multihomogeneous, the least work: {', '.join(counts)}"
+    return total_degree(target, rng), f"total degree, the least work: {', '.join(counts)}"
 
 
 def _usable_groups(target: Target, given: Groups) -> tuple[Groups, int]:
