@@ -145,3 +145,17 @@ def test_rows_with_the_same_monomials_become_orthogonal_and_keep_their_zeros() -
     assert np.allclose(matrix @ matrix.T, np.eye(2), atol=1e-6)
     before = np.array([[float(row[e]) for e in f[0]] for row in f])
     assert np.linalg.matrix_rank(np.vstack([before, matrix]), tol=1e-6) == 2
+
+
+def test_a_generic_start_has_its_points_as_zeros() -> None:
+    equations = "x^3 + y*z - 2", "y^2 - x - 1", "z + w + 3*x - 1", "w^2*x^2 + z"
+    system = target("x y z w", *equations)
+    start = total_degree(system, np.random.default_rng(5), generic=True)
+    assert len(start.points) == 3 * 2 * 4
+    values = start.homotopy.values(start.points, 1.0)
+    assert np.abs(values).max() < 1e-12
+    affine = start.affine(start.points)
+    distances = np.abs(affine[:, None] - affine[None]).max(axis=2) + np.eye(len(affine))
+    assert distances.min() > 1e-3
+    jacobian = start.homotopy.jacobian(start.points, 1.0)[:, :, 1:]
+    assert np.linalg.svd(jacobian, compute_uv=False).min() > 1e-3

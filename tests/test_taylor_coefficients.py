@@ -27,7 +27,9 @@ def taylor_coefficients(homotopy: Homotopy, start: np.ndarray) -> np.ndarray:
         *(1, 0, 1, np.zeros(N, dtype=complex), whole, whole.copy(), one, whole.copy()),
         *(whole.copy(), ORDER, 2, 1e-3, 1e-7, 1e-12, 1e-6, 0.4, 0.2, 0.1),
     )
-    track_lanes(system(homotopy), scratch, endgame_state(N, 1, False, False, 0.1, 8, 2, 2), batch)
+    track_lanes(
+        system(homotopy), scratch, endgame_state(N, 1, False, False, 0, 0.1, 8, 2, 2), batch
+    )
     base = scratch.base.reshape(ORDER + 1, 2, N, 8)[..., 0]
     return base[:, 0] + 1j * base[:, 1]
 

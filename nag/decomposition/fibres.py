@@ -56,12 +56,12 @@ class Tracker:
     @property
     def double_double(self) -> bool:
         """Whether paths that fail in doubles are tracked in more precise arithmetic."""
-        return named(self.settings).double_double
+        return named(self.settings).double_double_paths > 0
 
     @property
     def in_doubles(self) -> Tracker:
         """The same without arithmetic beyond doubles."""
-        settings = replace(named(self.settings), double_double=False, high_precision_paths=0)
+        settings = replace(named(self.settings), double_double_paths=0, high_precision_paths=0)
         return replace(self, settings=settings)
 
     @property

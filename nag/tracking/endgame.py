@@ -32,7 +32,8 @@ class Endgame(NamedTuple):
     ``samples``: normalised points round the current loop. ``patch``: linear forms that normalise
     them. ``best``: best estimate of the end point so far; ``saved``: the point where the current
     loop or shortcut began. ``mean, turn``: scratch. ``real`` and ``whole``: scalars, see the index
-    constants.
+    constants. ``patience``: number of radii at which loops are not made, or broken off, near branch
+    points.
     """
 
     samples: Complexes
@@ -46,6 +47,7 @@ class Endgame(NamedTuple):
     exponent: int
     active: bool
     shortcut: bool
+    patience: int
     radius: float
     per_loop: int
     max_winding: int
@@ -78,8 +80,9 @@ STRAIGHT_ON, SURELY_STRAIGHT_ON, AT_THE_END = 1.25, 1.7, 0.2
 # Radius of convergence in log t within which no other branch point is likely to lie: 8 samples
 # a loop tell 1e-6 where it is exp(1.7) times as far as the loop.
 ALONE = 2.0
-# The same where a loop has met a branch point. Radii at which loops wait for better.
+# The same where a loop has met a branch point.
 DISTURBED = 1.0
+# Radii at which loops wait for better, unless they are to be made at once.
 PATIENCE = 8
 
 
@@ -88,6 +91,7 @@ def endgame_state(
     exponent: int,
     active: bool,
     shortcut: bool,
+    patience: int,
     radius: float,
     per_loop: int,
     max_winding: int,
@@ -107,6 +111,7 @@ def endgame_state(
         exponent,
         active,
         shortcut,
+        patience,
         radius ** (1.0 / exponent),
         per_loop,
         max_winding,
@@ -289,13 +294,13 @@ def arrived(s, e, lane, x, noise, hint, radius, turned, branch, t):
             e.real[REALS * lane + NEXT_RE] = 0.0
             e.real[REALS * lane + NEXT_IM] = 0.0
             return 0
-        wait = e.shortcut and turned < ALONE and e.whole[WHOLES * lane + LEVEL] < PATIENCE
+        wait = turned < ALONE and e.whole[WHOLES * lane + LEVEL] < e.patience
         if wait and _shrink(e, lane):
             return 0
         _begin_loop(s, e, lane, x)
     _keep_sample(s, e, lane, x)
     last = e.whole[WHOLES * lane + SAMPLE] - 1
-    patient = e.shortcut and e.whole[WHOLES * lane + LEVEL] < PATIENCE
+    patient = e.whole[WHOLES * lane + LEVEL] < e.patience
     disturbed = patient and turned < DISTURBED
     if not disturbed and (last == 0 or last % e.per_loop != 0):
         return 0

@@ -24,6 +24,7 @@ from nag.tracking.endgame import (
     LOOP,
     NEXT_IM,
     NEXT_RE,
+    PATIENCE,
     PHASE,
     SAVED_IM,
     SAVED_RE,
@@ -47,7 +48,7 @@ NEWTON_STEPS = 10
 # Rounding errors of the values, and the largest that points may have with which tracking goes on.
 RESIDUAL = 1e-31
 ROUNDING = 1e-6
-MOST_STEPS = 6000
+MOST_STEPS = 12000
 _SPLITTER = 134217729.0
 
 
@@ -500,7 +501,12 @@ def _slope_in_logarithm(n, w, t):
 
 
 def _predict(n, w, z, gap, known):
-    """Point ``y`` at t + z by Hermite interpolation, or, if nothing is ``known``, the tangent."""
+    """Point ``y`` a step ``z`` on by Hermite interpolation; if nothing is ``known``, the tangent.
+
+    Returns:
+        An estimate of the radius of convergence there; 0 if nothing is known.
+    """
+    sizes = 0.0, 0.0, 0.0
     for j in range(n):
         here = complex(w.x[4 * j], w.x[4 * j + 2])
         w.here[j] = here
@@ -510,11 +516,18 @@ def _predict(n, w, z, gap, known):
             second = (slope - secant) / gap
             third = (slope - 2.0 * secant + w.old_slope[j]) / (gap * gap)
             move = z * (slope + z * (second + (z + gap) * third))
+            second = second + gap * third
+            a, b, c = sizes
+            sizes = a + abs(slope) ** 2, b + abs(second) ** 2, c + abs(third) ** 2
         else:
             move = z * slope
         re, re_low = _sum(w.x[4 * j], w.x[4 * j + 1], move.real, 0.0)
         im, im_low = _sum(w.x[4 * j + 2], w.x[4 * j + 3], move.imag, 0.0)
         _put(w.y, j, (re, re_low, im, im_low))
+    a, b, c = sizes
+    if not known:
+        return 0.0
+    return max((b / c) ** 0.5, (a / c) ** 0.25) if c > 0.0 else 1e6
 
 
 def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: ExtendedBatch) -> None:
@@ -577,7 +590,7 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
                 following = t + z
                 if turned:
                     following = t * math.exp(z.real) * complex(math.cos(z.imag), math.sin(z.imag))
-            _predict(n, w, z, gap, known)
+            radius = _predict(n, w, z, gap, known)
             _rows_at(s, w, following)
             first, last, good = _correct(s, w, w.y, following)
             if not good or first > TOLERANCE:
@@ -607,7 +620,7 @@ def track_extended_batch(s: Extended, e: Endgame, w: ExtendedWork, batch: Extend
             elif t == goal:
                 for j in range(n):
                     w.here[j] = complex(x[4 * j], x[4 * j + 2])
-                done = arrived(s, e, 0, w.here, noise, 1.0, 0.0, 1e6, 0j, t)
+                done = arrived(s, e, 0, w.here, noise, 1.0, 0.0, radius, 0j, t)
                 if done == -1:
                     done = 0
                     for j in range(n):
@@ -674,7 +687,7 @@ def track_extended(
 
     def batch(first: int) -> None:
         state = endgame_state(
-            homotopy.N, end_exponent, True, False, radius, samples, max_winding, levels
+            homotopy.N, end_exponent, True, False, PATIENCE, radius, samples, max_winding, levels
         )
         paths = ExtendedBatch(starts, P, first, batches, max_steps, *results)
         extended_kernel(arrays, state, _extended_work(homotopy), paths)

@@ -29,8 +29,8 @@ class Settings:
         levels: largest number of radii of the endgame, each a tenth of the one before.
         shortcut: whether paths may run straight to t = 0 where their Taylor series converges.
         retries: how often failed paths are tracked again with ever tighter control.
-        double_double: whether paths that fail in doubles are tracked in double-double arithmetic,
-            each of them hundreds of times as long.
+        double_double_paths: if no more paths than these fail in doubles, they are tracked in
+            double-double arithmetic, each of them hundreds of times as long.
         tightened: how often these settings were tightened.
         high_precision_paths: how many of the paths that fail at last are tracked with mpmath; each
             may take seconds to minutes.
@@ -52,7 +52,7 @@ class Settings:
     levels: int = 12
     shortcut: bool = True
     retries: int = 3
-    double_double: bool = True
+    double_double_paths: int = 100
     tightened: int = 0
     high_precision_paths: int = 0
     digits: int = 34

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -27,6 +27,8 @@ Progress = Callable[[str, int, int], None]
 
 # With new random constants if paths failed, or something else speaks against the answer.
 ATTEMPTS = 3
+# Before the last attempt no more failed paths than these are worth more digits.
+FEW = 8
 # |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
 ON = 1e-9
 # End points with larger values than this are no zeros, however badly they are known.
@@ -73,8 +75,12 @@ def solve(
     for attempt in range(ATTEMPTS):
         if progress:
             progress("solve", attempt, ATTEMPTS)
-        begin, reason = choose(problem.target, start, system.groups, rng, threads)
-        tracking = "careful" if attempt and settings == "default" else settings
+        begin, reason = choose(problem.target, start, system.groups, rng, threads, attempt > 0)
+        tracking = settings
+        if settings == "default" and attempt < ATTEMPTS - 1:
+            tracking = replace(named(settings), double_double_paths=FEW)
+        elif settings == "default":
+            tracking = "careful"
         paths = track(begin.homotopy, begin.points, tracking, threads)
         found = _result(problem, begin, reason, paths, rng, seed, name)
         if result is None or _doubts(found) < _doubts(result):

@@ -14,8 +14,8 @@ from nag.tracking.paths import Paths, PathStatus, Reason
 from nag.tracking.settings import Settings, named, tighter
 
 STRAIGHT, CAUCHY = 1, 2
-# Largest systems, and most paths at a time, that are tracked again in double-double arithmetic.
-MOST_COORDINATES, MOST_EXTENDED = 24, 100
+# Largest systems that are tracked again in double-double arithmetic.
+MOST_COORDINATES = 24
 # Smallest homogenising coordinate of a finite zero of a generic system.
 AT_INFINITY = 1e-10
 # Least ratio of a singular value to a Newton step that proves a regular zero.
@@ -58,7 +58,7 @@ def track(
     starts = homotopy.normalized(starts)
     paths = _attempt(homotopy, starts, chosen, threads, endgame, end_exponent)
     for attempt in range(chosen.retries):
-        if attempt == 1 and chosen.double_double:
+        if attempt == 1:
             paths = _in_double_double(homotopy, starts, paths, chosen, threads, end_exponent)
         again = set(paths.where(PathStatus.FAILED).tolist())
         if distinct:
@@ -134,7 +134,7 @@ def _run(
     weights: np.ndarray | None = None,
 ) -> _Raw:
     from nag.tracking import jets, kernel
-    from nag.tracking.endgame import endgame_state
+    from nag.tracking.endgame import PATIENCE, endgame_state
 
     P = len(starts)
     raw = _Raw(
@@ -157,6 +157,7 @@ def _run(
             end_exponent,
             endgame,
             settings.shortcut,
+            PATIENCE if settings.shortcut else 0,
             settings.endgame_radius,
             settings.samples,
             settings.max_winding,
@@ -200,7 +201,8 @@ def _in_double_double(
     failed = paths.where(PathStatus.FAILED)
     failed = failed[paths.reason[failed] != Reason.START]
     # A step costs some N^3 double-double products, a hundred times a step in doubles.
-    if not len(failed) or homotopy.N > MOST_COORDINATES or len(failed) > MOST_EXTENDED:
+    most = settings.double_double_paths if homotopy.N <= MOST_COORDINATES else 0
+    if not 0 < len(failed) <= most:
         return paths
     from nag.tracking.extended import track_extended
 

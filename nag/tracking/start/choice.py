@@ -28,8 +28,11 @@ def choose(
     given: Groups,
     rng: np.random.Generator,
     threads: int,
+    generic: bool = False,
 ) -> tuple[Start, str]:
     """A start system of the ``kind`` asked for, and why that one, in one sentence.
+
+    With ``generic`` a total degree start has powers of generic linear forms.
 
     Raises:
         StartError: if there is none, or it would have too many paths.
@@ -39,7 +42,7 @@ def choose(
         raise ValueError(f"no start system {kind!r}; there are {', '.join(KINDS)}")
     total = bezout(target)
     if kind == "total":
-        return total_degree(target, rng), f"total degree, as asked: {_paths(total)}"
+        return total_degree(target, rng, generic), f"total degree, as asked: {_paths(total)}"
     if kind == "polyhedral":
         from nag.tracking.start.mixed_cells import mixed_cells
         from nag.tracking.start.polyhedral import polyhedral
@@ -79,7 +82,8 @@ def choose(
     if number < total:
         start = multihomogeneous(target, groups, rng)
         return start, f"multihomogeneous, the least work: {', '.join(counts)}"
-    return total_degree(target, rng), f"total degree, the least work: {', '.join(counts)}"
+    start = total_degree(target, rng, generic)
+    return start, f"total degree, the least work: {', '.join(counts)}"
 
 
 def _usable_groups(target: Target, given: Groups) -> tuple[Groups, int]:
