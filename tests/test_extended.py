@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
-from nag.tracking.extended import _product, _sum, track_extended
+from nag.tracking.double_double import add, multiply
+from nag.tracking.extended import track_extended
 from nag.tracking.homotopy import Homotopy, straight_line
 
 NUMBERS = st.floats(-1e6, 1e6, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-6)
@@ -23,15 +24,15 @@ def exact(pair: tuple[float, float]) -> Fraction:
 @settings(deadline=None)
 @given(NUMBERS, NUMBERS)
 def test_sums_and_products_of_doubles_are_exact(a: float, b: float) -> None:
-    assert exact(_sum(a, 0.0, b, 0.0)) == Fraction(a) + Fraction(b)
-    assert exact(_product(a, 0.0, b, 0.0)) == Fraction(a) * Fraction(b)
+    assert exact(add(a, 0.0, b, 0.0)) == Fraction(a) + Fraction(b)
+    assert exact(multiply(a, 0.0, b, 0.0)) == Fraction(a) * Fraction(b)
 
 
 @settings(deadline=None)
 @given(NUMBERS, NUMBERS, NUMBERS)
 def test_products_of_double_doubles_have_thirty_digits(a: float, b: float, c: float) -> None:
-    first = _product(a, 0.0, b, 0.0)
-    found = exact(_product(*first, c, 0.0))
+    first = multiply(a, 0.0, b, 0.0)
+    found = exact(multiply(*first, c, 0.0))
     true = Fraction(a) * Fraction(b) * Fraction(c)
     assert abs(found - true) <= abs(true) * Fraction(1, 10**30)
 
