@@ -82,6 +82,9 @@ STRAIGHT_ON, SURELY_STRAIGHT_ON, AT_THE_END = 1.25, 1.7, 0.2
 ALONE = 2.0
 # The same where a loop has met a branch point.
 DISTURBED = 1.0
+# Growth of the part of negative modes from one radius to the next, and their size in rounding
+# errors, that give branch points within a loop away.
+GROWTH_WITHIN, CLEARLY = 2.0, 100.0
 # Radii at which loops wait for better, unless they are to be made at once.
 PATIENCE = 8
 
@@ -264,7 +267,9 @@ def arrived(s, e, lane, x, noise, hint, radius, turned, branch, t):
         else 10 plus the outcome.
     """
     phase = e.whole[WHOLES * lane + PHASE]
-    e.real[REALS * lane + NOISE] = max(noise, 1e-15)
+    # Round a loop the largest error counts: estimates of rounding errors may come out too small.
+    before = e.real[REALS * lane + NOISE] if phase == LOOP else 1e-15
+    e.real[REALS * lane + NOISE] = max(noise, before)
     if phase == MAIN and not e.active:
         _keep(s, e.best, lane, x)
         e.real[REALS * lane + BEST_ERROR] = noise
@@ -328,6 +333,11 @@ def arrived(s, e, lane, x, noise, hint, radius, turned, branch, t):
         or quiet
         or (ratio < 1e-4 and same and e.real[REALS * lane + LAST_RATIO] < 1e-4)
     )
+    # Modes of negative order that outlast a tenth of the radius come from branch points within.
+    growing = ratio > GROWTH_WITHIN * e.real[REALS * lane + LAST_RATIO]
+    if growing and negative > CLEARLY * e.real[REALS * lane + NOISE]:
+        e.real[REALS * lane + BEST_ERROR] = 1e300
+        trusted = False
     if trusted:
         known = e.real[REALS * lane + BEST_ERROR]
         if error < known:

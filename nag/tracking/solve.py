@@ -33,9 +33,9 @@ FEW = 8
 ON = 1e-9
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
-# Homogenising coordinates of ends at infinity: below 1e-12 in all systems measured, and above 8e-12
-# where a path turns back far out.
-INFINITE = 2e-12
+# Homogenising coordinates of ends at infinity are less than this, or than their errors, which are
+# less than the second number.
+INFINITE, ROUGHLY_INFINITE = 2e-12, 1e-7
 # Points evaluated at once.
 BLOCK = 2048
 
@@ -229,8 +229,10 @@ def _result(
     if counts.failed:
         causes = ", ".join(f"{k} because {why}" for why, k in paths.failures.items())
         notes.append(f"{counts.failed} of {counts.tracked} paths failed: {causes}")
-    far = paths.points[paths.where(PathStatus.AT_INFINITY)][:, list(begin.homotopy.infinity)]
-    unsure = int((np.abs(far).min(axis=1, initial=np.inf) > INFINITE).sum())
+    infinite = paths.where(PathStatus.AT_INFINITY)
+    far = np.abs(paths.points[infinite][:, list(begin.homotopy.infinity)])
+    error = np.minimum(paths.accuracy[infinite], ROUGHLY_INFINITE)
+    unsure = int((far.min(axis=1, initial=np.inf) > np.maximum(INFINITE, error)).sum())
     if unsure:
         notes.append(f"{unsure} paths to infinity may end at solutions far out")
     complete = begin.complete and not notes

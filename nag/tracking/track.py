@@ -293,7 +293,7 @@ def _classified(homotopy: Homotopy, raw: _Raw, endgame: bool) -> Paths:
         precision[ended[regular]] = 32
         sizes = np.abs(points[ended][:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
         limit = np.where(
-            regular, np.maximum(1e3 * sharp.error, 1e-13), np.maximum(100 * error, 1e-8)
+            regular, np.maximum(1e2 * sharp.error, 1e-14), np.maximum(100 * error, 1e-8)
         )
         far = (sizes <= limit) & endgame
         status[ended] = np.where(
