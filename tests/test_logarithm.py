@@ -9,7 +9,7 @@ import pytest
 
 from nag.algebra.expression import parse_polynomial
 from nag.tracking.compiled import compile_rows
-from nag.tracking.homotopy import parameter_homotopy
+from nag.tracking.homotopy import straight_line
 from nag.tracking.logarithm import composition
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
@@ -31,7 +31,7 @@ def test_steps_round_a_cycle_do_not_shorten_with_t(winding: int) -> None:
     names = ["x"]
     start = compile_rows([parse_polynomial(f"x^{winding} - 1 - x", names)])
     target = compile_rows([parse_polynomial(f"x^{winding}", names)])
-    homotopy = parameter_homotopy(start, target)
+    homotopy = straight_line(start, target, 1.0)
     roots = np.roots([1, *[0] * (winding - 2), -1, -1])
     starts = np.stack([np.ones(winding), roots], axis=1)
     paths = track(homotopy, starts, Settings(retries=0))

@@ -19,7 +19,7 @@ MAIN, SHORTCUT, LOOP, SHRINK = 0, 1, 2, 3
 # Outcomes of a path.
 FAILED, STRAIGHT, CAUCHY = 0, 1, 2
 # Reasons of failure.
-NO_REASON, STEP_SIZE, STEPS, START, ENDGAME, NOT_FINITE = 0, 1, 2, 3, 4, 5
+STEP_SIZE, STEPS, START, ENDGAME, NOT_FINITE = 1, 2, 3, 4, 5
 
 
 class Endgame(NamedTuple):

@@ -126,18 +126,6 @@ class Homotopy:
         result[:, len(self.rows) :] = self.A0 + t[:, None, None] * self.A1
         return result
 
-    def time_derivative(self, points: np.ndarray) -> np.ndarray:
-        """Derivative of polynomial and linear rows with respect to t, shape ``(P, rows)``."""
-        tape = self.rows.tape
-        slots = _slots(tape, points, tape.value_products)
-        result = np.zeros((len(points), len(self.rows) + len(self.A0)), dtype=points.dtype)
-        for b, (row, part) in enumerate(zip(tape.value_place, tape.value_part, strict=True)):
-            q = slice(tape.value_start[b], tape.value_start[b + 1])
-            total = slots[:, tape.value_slot[q]] @ tape.value_coefficient[q]
-            result[:, row] += self.factors[part][1] * total
-        result[:, len(self.rows) :] = points @ self.A1.T
-        return result
-
 
 def _slots(tape, points: np.ndarray, products: int) -> np.ndarray:
     P, N = points.shape
@@ -163,13 +151,3 @@ def straight_line(
     """
     factors = ((0.0, gamma),) * start.part_count + ((1.0, -1.0),) * target.part_count
     return Homotopy(blend(start, target), A0, A1, factors)
-
-
-def parameter_homotopy(
-    start: CompiledRows,
-    target: CompiledRows,
-    A0: np.ndarray | None = None,
-    A1: np.ndarray | None = None,
-) -> Homotopy:
-    """``t start + (1 - t) target``: coefficients move on a straight line."""
-    return straight_line(start, target, 1.0, A0, A1)

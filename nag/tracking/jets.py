@@ -30,7 +30,6 @@ class System(NamedTuple):
     products: int
     value_blocks: int
     jacobian_blocks: int
-    infinities: int
     first: Wholes
     second: Wholes
     value_place: Wholes
@@ -56,7 +55,6 @@ class System(NamedTuple):
     A1_im: Reals
     linear_moving: Wholes
     group_of: Wholes
-    infinity: Wholes
     toric: int
     weights: Reals
 
@@ -134,7 +132,6 @@ def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> System:
         len(tape.first),
         len(tape.value_place),
         len(tape.jacobian_place),
-        len(homotopy.infinity),
         tape.first,
         tape.second,
         tape.value_place,
@@ -155,7 +152,6 @@ def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> System:
         *_parts(homotopy.A1),
         homotopy.A1.any(axis=1).astype(np.int64),
         homotopy.group_of,
-        np.array(homotopy.infinity, dtype=np.int64),
         int(weights is not None),
         np.zeros(1) if weights is None else np.ascontiguousarray(weights, dtype=float).ravel(),
     )

@@ -7,7 +7,7 @@ import math
 from nag.machine_code.lanes import any_less, fma, fnma, load, select_less, splat, store
 
 # What a lane does: predict from its base point, correct there, or correct once more.
-PREDICT, CORRECT, AGAIN = 0.0, 1.0, 2.0
+PREDICT, CORRECT = 0.0, 1.0
 # Rows of the lanes' scalars.
 T_RE, T_IM, GOAL_RE, GOAL_IM, H, H_USED, FIRST, THETA, ACCURACY, GROWTH, LOGARITHMIC = range(11)
 SCALARS = 11
