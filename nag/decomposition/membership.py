@@ -53,14 +53,12 @@ def is_member(
     dimension = fibres[0].dimension
     scale = 1 + float(np.linalg.norm(point))
     hit, miss = max(HIT, 1e2 * accuracy), max(MISS, 1e4 * accuracy)
-    for attempt in range(ATTEMPTS):
+    for _ in range(ATTEMPTS):
         target = rows_through(rng, dimension, point)
         gamma = complex(unit_complex(rng))
-        # Most often one of the paths answers, and those that fail do not matter.
-        used = (tracker.brief, tracker, Tracker("careful", tracker.threads))[min(attempt, 2)]
         nearest, unclear = np.inf, False
         for fibre in fibres:
-            ends = move(fibre, flag[:dimension], target, gamma, used, endgame=True)
+            ends = move(fibre, flag[:dimension], target, gamma, tracker, endgame=True)
             counts += ends.counts.repeatable
             x = ends.points[ends.finite, : fibre.cut.n]
             distances = np.linalg.norm(x - point, axis=1) / scale

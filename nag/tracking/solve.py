@@ -25,10 +25,6 @@ from nag.tracking.track import track
 
 Progress = Callable[[str, int, int], None]
 
-# With new random constants if paths failed, or something else speaks against the answer.
-ATTEMPTS = 3
-# Before the last attempt no more failed paths than these are worth more digits.
-FEW = 8
 # |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
 ON = 1e-9
 # End points with larger values than this are no zeros, however badly they are known.
@@ -71,24 +67,11 @@ def solve(
     if any(f.degree == 0 for f in equations) or system.n == 0:
         return _nothing(system, seed, name)
     problem = _Problem.of(system, equations, rng)
-    result: SolveResult | None = None
-    for attempt in range(ATTEMPTS):
-        if progress:
-            progress("solve", attempt, ATTEMPTS)
-        begin, reason = choose(problem.target, start, system.groups, rng, threads, attempt > 0)
-        tracking = settings
-        if settings == "default" and attempt < ATTEMPTS - 1:
-            tracking = replace(named(settings), double_double_paths=FEW)
-        elif settings == "default":
-            tracking = "careful"
-        paths = track(begin.homotopy, begin.points, tracking, threads)
-        found = _result(problem, begin, reason, paths, rng, seed, name)
-        if result is None or _doubts(found) < _doubts(result):
-            result = found
-        if result.complete:
-            break
-    assert result is not None
-    return result
+    if progress:
+        progress("solve", 0, 1)
+    begin, reason = choose(problem.target, start, system.groups, rng, threads)
+    paths = track(begin.homotopy, begin.points, settings, threads)
+    return _result(problem, begin, reason, paths, rng, seed, name)
 
 
 def begin_of(
@@ -104,10 +87,6 @@ def begin_of(
     started = time.perf_counter()
     paths = track(begin.homotopy, begin.points, settings)
     return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())
-
-
-def _doubts(result: SolveResult) -> tuple[bool, int, int]:
-    return not result.complete, result.paths.failed, len(result.undecided)
 
 
 @dataclass(frozen=True, eq=False)
