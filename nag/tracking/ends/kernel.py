@@ -49,7 +49,7 @@ OPEN, REGULAR, LIMIT, LOST, TOO_LONG = range(5)
 # Relative size of coordinates that doubles do not know.
 FLOOR = 1e-9
 # Corrections of so many rounding errors may be nothing else.
-STAGNANT = 1e3
+STAGNANT = 1e2
 # Rows of the lanes' scalars.
 (
     MODE,

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 from nag.machine_code.lanes import any_less, fma, load, select_less, splat, square_root, store
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
 from nag.tracking.numbers.error_free import power_near_inverse_root
 
+PHASE = 1.9416
 # Part of a coordinate that a correction leaves where it takes it away.
 GONE = 1e-6
 
@@ -131,11 +134,11 @@ def newton_correction(s, r, floor):
     coordinates smaller than ``floor`` count as if they were of that size.
     """
     n = s.N
-    alternate = splat(number.EPSILON * 8.0)
     for i in range(n):
-        size = load(r.sizes, i) * alternate
-        alternate = splat(0.0) - alternate
-        z.write(r.noise, i, z.exact(size, splat(0.0)))
+        # Phases that grow as squares cancel no smooth vector, as signs in turn would.
+        size = load(r.sizes, i) * splat(number.EPSILON * 8.0)
+        re, im = math.cos(PHASE * (i * i)), math.sin(PHASE * (i * i))
+        z.write(r.noise, i, z.exact(size * splat(re), size * splat(im)))
     substitute(s, r, r.right)
     substitute(s, r, r.noise)
     zero = splat(0.0)
