@@ -27,7 +27,7 @@ from nag.algebra.polynomial import Polynomial
 # The largest prime modulo which Singular factors.
 PRIME = 2**29 - 3
 # Seconds by the clock for a system.
-LIMIT = 40.0
+LIMIT = 20.0
 END = "ready"
 PR_SET_PDEATHSIG = 1
 
@@ -56,7 +56,8 @@ proc describe(ideal I, poly l) {
   for (i = 1; i <= size(primes); i++) {
     P = std(primes[i]);
     if (dim(P) > 0) {
-      print("part " + string(dim(P)) + " " + string(mult(P)) + " " + string(mult(off(I, primes, i))));
+      print("part " + string(dim(P)) + " " + string(mult(P)));
+      print("whole " + string(mult(off(I, primes, i))));
     }
   }
   tables(off(I, primes, 0), l);
@@ -149,12 +150,13 @@ def standard_zero_set(n: int, equations: Sequence[Polynomial]) -> ZeroSet | None
 
 def _read(lines: Sequence[str]) -> ZeroSet:
     degrees: Counter[tuple[int, int]] = Counter()
-    rows, size = [], 0
+    rows, size, dimension, degree = [], 0, 0, 1
     for line in lines:
         kind, _, rest = line.partition(" ")
         if kind == "part":
-            dimension, degree, whole = map(int, rest.split())
-            degrees[dimension, whole // degree] += degree
+            dimension, degree = map(int, rest.split())
+        elif kind == "whole":
+            degrees[dimension, int(rest) // degree] += degree
         elif kind == "size":
             size = max(0, int(rest))
         elif kind == "row":
