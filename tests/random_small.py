@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
 import numpy as np
 from general_position import NAMES
+from numpy.random import Generator
 
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
+
+Equations = Sequence[Polynomial]
 
 UNKNOWNS, UNKNOWNS_ODDS = (2, 3, 4), (0.5, 0.3, 0.2)
 DEGREES = (2, 3, 4, 5)
@@ -50,7 +54,7 @@ def _monomials(n: int, degree: int) -> list[Exponents]:
     return [e for e in product(range(degree + 1), repeat=n) if sum(e) <= degree]
 
 
-def _coefficient(spread: int, rng: np.random.Generator) -> Fraction:
+def _coefficient(spread: int, rng: Generator) -> Fraction:
     """A number of one or two digits, or a quotient of such, times a power of ten."""
     top = int(rng.integers(1, 10) if rng.random() < 0.7 else rng.integers(1, 100))
     bottom = 1 if rng.random() < 0.8 else int(rng.integers(2, 10))
@@ -58,7 +62,7 @@ def _coefficient(spread: int, rng: np.random.Generator) -> Fraction:
     return Fraction(top * int(rng.choice([-1, 1])), bottom) * Fraction(10) ** power
 
 
-def sparse(n: int, degree: int, spread: int, rng: np.random.Generator) -> Polynomial:
+def sparse(n: int, degree: int, spread: int, rng: Generator) -> Polynomial:
     """A polynomial of this degree with two to six terms, often a constant among them."""
     monomials = _monomials(n, degree)
     leading = [e for e in monomials if sum(e) == degree]
@@ -72,18 +76,20 @@ def sparse(n: int, degree: int, spread: int, rng: np.random.Generator) -> Polyno
     return Polynomial(n, {e: _coefficient(spread, rng) for e in sorted(chosen)})
 
 
-def _linear(n: int, spread: int, rng: np.random.Generator) -> Polynomial:
+def _linear(n: int, spread: int, rng: Generator) -> Polynomial:
     x = Polynomial.variables(n)
     chosen = rng.choice(n, 2, replace=False)
     constant = Polynomial.constant(n, _coefficient(spread, rng))
     return sum((_coefficient(spread, rng) * x[i] for i in chosen), start=constant)
 
 
-def _lower(n: int, degree: int, spread: int, rng: np.random.Generator) -> Polynomial:
+def _lower(n: int, degree: int, spread: int, rng: Generator) -> Polynomial:
     return sparse(n, max(1, degree), spread, rng)
 
 
-def repeated_factor(equations, degrees, spread, rng) -> list[Polynomial]:
+def repeated_factor(
+    equations: Equations, degrees: Sequence[int], spread: int, rng: Generator
+) -> list[Polynomial]:
     """One equation has the square of a linear form as a factor."""
     n, k = len(equations), int(rng.integers(len(equations)))
     form = _linear(n, spread, rng)
@@ -91,7 +97,9 @@ def repeated_factor(equations, degrees, spread, rng) -> list[Polynomial]:
     return [*equations[:k], form * form * other, *equations[k + 1 :]]
 
 
-def common_factor(equations, degrees, spread, rng) -> list[Polynomial]:
+def common_factor(
+    equations: Equations, degrees: Sequence[int], spread: int, rng: Generator
+) -> list[Polynomial]:
     """Two equations have a linear factor in common."""
     n = len(equations)
     i, j = (int(k) for k in rng.choice(n, 2, replace=False))
@@ -101,7 +109,9 @@ def common_factor(equations, degrees, spread, rng) -> list[Polynomial]:
     return result
 
 
-def double_point(equations, degrees, spread, rng) -> list[Polynomial]:
+def double_point(
+    equations: Equations, degrees: Sequence[int], spread: int, rng: Generator
+) -> list[Polynomial]:
     """At a rational point all equations vanish and two gradients are parallel."""
     n = len(equations)
     point = [_coefficient(0, rng) for _ in range(n)]
@@ -116,7 +126,9 @@ def double_point(equations, degrees, spread, rng) -> list[Polynomial]:
     return result
 
 
-def curve_of_solutions(equations, degrees, spread, rng) -> list[Polynomial]:
+def curve_of_solutions(
+    equations: Equations, degrees: Sequence[int], spread: int, rng: Generator
+) -> list[Polynomial]:
     """All equations are combinations of one polynomial fewer than there are unknowns."""
     n = len(equations)
     generators = [_linear(n, spread, rng), *(sparse(n, 2, spread, rng) for _ in range(n - 2))]
@@ -129,12 +141,16 @@ def curve_of_solutions(equations, degrees, spread, rng) -> list[Polynomial]:
     return result
 
 
-def missing_constants(equations, degrees, spread, rng) -> list[Polynomial]:
+def missing_constants(
+    equations: Equations, degrees: Sequence[int], spread: int, rng: Generator
+) -> list[Polynomial]:
     """The origin is a zero."""
     return [f - f.constant_value for f in equations]
 
 
-def dependent_leading_forms(equations, degrees, spread, rng) -> list[Polynomial]:
+def dependent_leading_forms(
+    equations: Equations, degrees: Sequence[int], spread: int, rng: Generator
+) -> list[Polynomial]:
     """The leading form of one equation is a multiple of that of another: zeros at infinity."""
     n = len(equations)
     low, high = sorted((int(k) for k in rng.choice(n, 2, replace=False)), key=lambda k: degrees[k])
