@@ -84,7 +84,10 @@ def _serve(pipe: Connection, work: Callable[[Any], Any], first: Any, limit: floa
         except Exception as raised:
             error = f"{type(raised).__name__}: {raised}"
         signal.setitimer(signal.ITIMER_PROF, 0)
-        pipe.send((value, time.process_time() - begin, error))
+        try:
+            pipe.send((value, time.process_time() - begin, error))
+        except BrokenPipeError:
+            return
 
 
 def timed_runs(
