@@ -38,7 +38,8 @@ def circle_power(k: int, rng: np.random.Generator) -> Problem:
     """(x^2 + y^2 - 1)^k."""
     x, y = RATIONAL.gens()
     expanded = ((x**2 + y**2 - 1) ** k).to_dict()
-    circle = Polynomial(2, {e: Fraction(int(c.p), int(c.q)) for e, c in expanded.items()})
+    terms = {(int(i), int(j)): Fraction(int(c.p)) for (i, j), c in expanded.items()}
+    circle = Polynomial(2, terms)
     return Problem(plain(circle), Counter({(1, 2, k): 1}), ONLY)
 
 
@@ -137,10 +138,13 @@ def nearly_circle_and_line(k: int, rng: np.random.Generator) -> Problem:
 
 
 def nearly_circles(k: int, rng: np.random.Generator) -> Problem:
-    """A quartic at 10^-k from two circles."""
+    """A quartic at 10^-k from two circles.
+
+    A multiple of x instead of x^3 would leave both parts conics to the second order.
+    """
     x, y = Polynomial.variables(2)
     squares = x**2 + y**2
-    return Problem(plain((squares - 1) * (squares - 4) - _small(k) * x), _curves((4, 1)), ONLY)
+    return Problem(plain((squares - 1) * (squares - 4) - _small(k) * x**3), _curves((4, 1)), ONLY)
 
 
 def nearly_planes(k: int, rng: np.random.Generator) -> Problem:
