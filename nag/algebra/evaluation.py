@@ -54,6 +54,10 @@ class Evaluator:
         sizes = self._monomials(floored) @ np.abs(self.coefficients).T
         return np.where(sizes == 0, 1.0, sizes)
 
+    def absolute(self, points: np.ndarray) -> np.ndarray:
+        """Sums of the absolute values of the terms, shape ``(P, rows)``."""
+        return self._monomials(np.abs(points)) @ np.abs(self.coefficients).T
+
     def residuals(self, points: np.ndarray) -> np.ndarray:
         """Absolute values over sizes, shape ``(P, rows)``: 1e-16 is rounding at any scale."""
         return np.abs(self.values(points)) / self.sizes(points)

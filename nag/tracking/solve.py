@@ -13,6 +13,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.tracking.branch_solutions import solve_apart
 from nag.tracking.clusters import clusters, conjugates_present
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
@@ -51,6 +52,9 @@ def solve(
 ) -> SolveResult:
     """All isolated solutions of ``system``, each once, with their multiplicities.
 
+    Where equations factor over the rationals, the parts that the system falls into are solved
+    apart; what comes down to one variable is solved exactly. Paths are tracked for the rest.
+
     Args:
         system: what to solve; its ``groups`` are tried among the multihomogeneous structures.
         start: ``"auto"`` (the least work), ``"total"``, ``"multihomogeneous"``,
@@ -65,6 +69,23 @@ def solve(
         ValueError: if there is no such start system or no settings of that name.
     """
     named(settings)
+    name = settings if isinstance(settings, str) else "custom"
+
+    def tracked(part: PolynomialSystem) -> SolveResult:
+        return _solve_whole(part, start, seed, threads, settings, progress)
+
+    return solve_apart(system, tracked, seed, name) or tracked(system)
+
+
+def _solve_whole(
+    system: PolynomialSystem,
+    start: str,
+    seed: int,
+    threads: int,
+    settings: Settings | str,
+    progress: Progress | None,
+) -> SolveResult:
+    """The isolated solutions of a system that is tracked as a whole."""
     name = settings if isinstance(settings, str) else "custom"
     rng = np.random.default_rng(seed)
     equations = [f for f in system.polynomials if f]

@@ -1,0 +1,191 @@
+"""Zeros of systems that come down to polynomials in one variable, isolated by FLINT.
+
+Every zero is exact: its coordinates are polynomials in a root of an irreducible polynomial, and a
+root is one of the certified balls that FLINT's complex root isolation gives.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.elimination import linear_variables
+from nag.algebra.factoring import Ring, ring
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+
+# Eliminated systems of higher degree, or of more terms, are left to other methods.
+MOST_DEGREE = 300
+MOST_TERMS = 5000
+# Bits in which coordinates are computed, doubled until they are known to those of a double.
+LEAST_BITS, MOST_BITS = 64, 1 << 14
+DOUBLE_BITS = 54
+
+
+@dataclass(frozen=True, eq=False)
+class AlgebraicZero:
+    """A zero whose coordinates are polynomials in one algebraic number.
+
+    Attributes:
+        minimal: irreducible polynomial of that number, a FLINT ``fmpq_poly``.
+        root: a ball that holds this one of its roots and no other.
+        coordinates: one for each variable, ``fmpq_poly`` of lower degree than ``minimal``.
+        multiplicity: dimension of the local ring of the system there.
+    """
+
+    minimal: Any
+    root: Any
+    coordinates: tuple[Any, ...]
+    multiplicity: int
+
+    @cached_property
+    def point(self) -> np.ndarray:
+        """The zero to the precision of doubles in every coordinate, shape ``(n,)``."""
+        bits = LEAST_BITS
+        while True:
+            balls = self.balls(bits)
+            if bits >= MOST_BITS or all(
+                c.is_zero() or c.rel_accuracy_bits() >= DOUBLE_BITS for c in balls
+            ):
+                return np.array([complex(c) for c in balls], dtype=complex)
+            bits *= 2
+
+    def balls(self, bits: int) -> list[Any]:
+        """Balls (FLINT's ``acb``) that hold the coordinates, computed with so many bits."""
+        import flint
+
+        with flint.ctx.workprec(bits):
+            root = self.root
+            if self.minimal.degree() == 1:
+                root = flint.acb(-self.minimal[0] / self.minimal[1])
+            elif bits > LEAST_BITS:
+                (root,) = [r for r, _ in self.minimal.complex_roots() if r.overlaps(self.root)]
+            return [
+                flint.acb_poly([flint.acb(c[k]) for k in range(c.degree() + 1)])(root)
+                for c in self.coordinates
+            ]
+
+    @property
+    def real(self) -> bool:
+        return bool(self.root.imag.is_zero())
+
+    def vanishes(self, f: Polynomial) -> bool:
+        """Whether an exact polynomial vanishes at the zero, decided exactly."""
+        import flint
+
+        powers: dict[tuple[int, int], Any] = {}
+
+        def power(i: int, k: int) -> Any:
+            if k == 1:
+                return self.coordinates[i]
+            if (i, k) not in powers:
+                powers[i, k] = power(i, k // 2) * power(i, k - k // 2) % self.minimal
+            return powers[i, k]
+
+        total = flint.fmpq_poly([])
+        for exponents, c in f.terms.items():
+            term = flint.fmpq_poly([flint.fmpq(c.numerator, c.denominator)])
+            for i, k in enumerate(exponents):
+                if k:
+                    term = term * power(i, k) % self.minimal
+            total = total + term
+        return total.degree() < 0
+
+
+def algebraic_zeros(system: PolynomialSystem) -> tuple[AlgebraicZero, ...] | None:
+    """All zeros of a system that elimination brings down to one variable, with multiplicities.
+
+    Variables that an equation contains linearly, with a constant coefficient, are eliminated, which
+    keeps the scheme as it is. None where more than one variable is left, or the zeros are not
+    finite in number, or a coefficient is irrational.
+    """
+    equations = [f for f in system.polynomials if f]
+    if not all(f.exact for f in equations) or len(equations) < system.n:
+        return None
+    if sum(bool(linear_variables(f)) for f in equations) < system.n - 1:
+        return None
+    over = ring(system.n)
+    reduced = _eliminated(over, [over.of(f) for f in equations])
+    if reduced is None:
+        return None
+    rest, images, left = reduced
+    if not rest:
+        return None
+    if any(g.is_constant() for g in rest):
+        return ()
+    (index,) = left
+    common = _univariate(rest[0], index)
+    for g in rest[1:]:
+        common = common.gcd(_univariate(g, index))
+    return _zeros_of(common, [_univariate(g, index) for g in images])
+
+
+def _eliminated(
+    over: Ring, equations: list[Any]
+) -> tuple[list[Any], list[Any], tuple[int, ...]] | None:
+    """Equations in one variable at most, what each variable is in it, and which one it is."""
+    images, left = list(over.context.gens()), set(range(over.n))
+    while True:
+        equations = [f for f in equations if not f.is_zero()]
+        if any(f.is_constant() for f in equations):
+            return equations, images, ()
+        pivot = _pivot(equations, left)
+        if pivot is None or len(left) == 1:
+            break
+        row, index = pivot
+        f = equations.pop(row)
+        variable = over.context.gens()[index]
+        unit = tuple(int(i == index) for i in range(over.n))
+        place = list(over.context.gens())
+        place[index] = variable - f / f[unit]
+
+        def put(g: Any, place: list[Any] = place) -> Any:
+            return g.compose(*place, ctx=over.context)
+
+        if any(g.degrees()[index] * place[index].total_degree() > MOST_DEGREE for g in equations):
+            return None
+        equations, images = [put(g) for g in equations], [put(g) for g in images]
+        left.discard(index)
+        if any(g.total_degree() > MOST_DEGREE or len(g) > MOST_TERMS for g in equations + images):
+            return None
+    return (equations, images, tuple(left)) if len(left) == 1 else None
+
+
+def _pivot(equations: list[Any], left: set[int]) -> tuple[int, int] | None:
+    """An equation and a variable that it is linear in: lowest degree, fewest terms."""
+    best: tuple[Any, tuple[int, int]] | None = None
+    for row, f in enumerate(equations):
+        degrees = f.degrees()
+        for index in left:
+            if degrees[index] == 1 and f.derivative(index).is_constant():
+                key = (f.total_degree(), len(f), -index, row)
+                if best is None or key < best[0]:
+                    best = key, (row, index)
+    return None if best is None else best[1]
+
+
+def _univariate(f: Any, index: int) -> Any:
+    import flint
+
+    coefficients = {int(e[index]): c for e, c in f.to_dict().items()}
+    top = max(coefficients, default=-1)
+    return flint.fmpq_poly([coefficients.get(k, 0) for k in range(top + 1)])
+
+
+def _zeros_of(f: Any, images: list[Any]) -> tuple[AlgebraicZero, ...]:
+    import flint
+
+    found = []
+    with flint.ctx.workprec(LEAST_BITS):
+        for factor, multiplicity in f.factor()[1]:
+            p = flint.fmpq_poly(factor)
+            coordinates = tuple(c % p for c in images)
+            if p.degree() == 1:
+                roots = [flint.acb(-p[0] / p[1])]
+            else:
+                roots = [root for root, _ in p.complex_roots()]
+            found += [AlgebraicZero(p, r, coordinates, int(multiplicity)) for r in roots]
+    return tuple(found)
