@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from enum import Enum
 
 import numpy as np
 
+from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.cutting import Equations
+from nag.decomposition.cutting import ON, Equations
 from nag.decomposition.fibres import Fibre, Tracker, cut_fibres, move
 from nag.decomposition.slices import rows_through, unit_complex
 from nag.decomposition.witness import Decomposition, PathCounts, WitnessSet
@@ -85,18 +86,33 @@ def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fi
     for known, owner, fibres in _recent:
         if known is system and owner is component:
             return fibres
-    fibres = cut_fibres(
-        component.points,
-        max(component.accuracy, 1e-12),
-        Equations(system.polynomials, system.n),
-        component.slice.rows,
-        np.random.default_rng(0),
-        deflate=component.multiplicity != 1,
-    )
+    fibres = None
+    for equations in _equations_of(system, component):
+        for deflate in dict.fromkeys((False, component.multiplicity != 1)):
+            fibres = fibres or cut_fibres(
+                component.points,
+                max(component.accuracy, 1e-12),
+                equations,
+                component.slice.rows,
+                np.random.default_rng(0),
+                deflate,
+            )
     if fibres is None:
         raise ValueError("the witness points are no regular zeros of the system")
     _recent.append((system, component, fibres))
     return fibres
+
+
+def _equations_of(system: PolynomialSystem, component: WitnessSet) -> Iterator[Equations]:
+    """Those of each branch that a component may be one of, then those of the system.
+
+    A component may be multiple in the system and simple in its branch.
+    """
+    for branch in branches(system) or ():
+        equations = Equations(branch.polynomials, system.n)
+        if equations.evaluator.residuals(component.points).max(initial=0.0) < ON:
+            yield equations
+    yield Equations(system.polynomials, system.n)
 
 
 def memberships(
