@@ -138,3 +138,19 @@ class _Monomials:
         for places in self.factors[1:]:
             values *= table[:, places]
         return values
+
+
+def may_vanish(
+    systems: Sequence[Sequence[Polynomial]], points: np.ndarray, limit: float
+) -> np.ndarray:
+    """At which points all polynomials of which systems may vanish, shape ``(P, systems)``.
+
+    Args:
+        points: complex, shape ``(P, n)``.
+        limit: residuals above which a polynomial certainly does not vanish at a point.
+    """
+    place: dict[Polynomial, int] = {}
+    rows = [[place.setdefault(f, len(place)) for f in system] for system in systems]
+    small = Evaluator.of(list(place), points.shape[1]).residuals(points) < limit
+    columns = [small[:, chosen].all(axis=1) for chosen in rows]
+    return np.array(columns, dtype=bool).reshape(len(systems), len(points)).T

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branches import branches
 from nag.algebra.elimination import eliminate_linear
-from nag.algebra.evaluation import Evaluator
+from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import generic_multiplicity
 from nag.algebra.polynomial import Polynomial
@@ -89,10 +88,6 @@ class _Part:
     system: PolynomialSystem
     components: tuple[_Component, ...]
     answer: Decomposition | None
-
-    @cached_property
-    def evaluator(self) -> Evaluator:
-        return Evaluator.of(self.system.polynomials, self.system.n)
 
 
 def decompose_apart(
@@ -234,19 +229,14 @@ def _joined(
     kept: list[_Component] = []
     notes: list[str] = []
     counts = PathCounts()
+    systems = [part.system.polynomials for part in parts]
+    first = [c.witness.points[0] for part in parts for c in part.components]
+    points = np.array(first).reshape(len(first), -1)
+    near = iter(may_vanish(systems, points, NONZERO) if first else ())
     for i, part in enumerate(parts):
-        if not part.components:
-            continue
-        first = np.array([c.witness.points[0] for c in part.components])
-        # Components that may lie in each of the other branches.
-        close = {
-            j: other.evaluator.residuals(first).max(axis=1, initial=0.0) < NONZERO
-            for j, other in enumerate(parts)
-            if j != i
-        }
-        for k, component in enumerate(part.components):
+        for component, close in zip(part.components, near, strict=False):
             inside = False
-            for j in (j for j, mask in close.items() if mask[k]):
+            for j in (j for j in np.flatnonzero(close).tolist() if j != i):
                 answer, spent = _covered(component, parts[j], j < i, rng, tracker)
                 counts += spent
                 if answer is Membership.UNDECIDED:

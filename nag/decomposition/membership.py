@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from enum import Enum
 
 import numpy as np
@@ -86,10 +86,37 @@ def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fi
     for known, owner, fibres in _recent:
         if known is system and owner is component:
             return fibres
-    fibres = None
-    for equations in _equations_of(system, component):
+    _, fibres = _cut(system, component)
+    if fibres is None:
+        raise ValueError("the witness points are no regular zeros of the system")
+    _recent.append((system, component, fibres))
+    return fibres
+
+
+def component_system(system: PolynomialSystem, component: WitnessSet) -> PolynomialSystem:
+    """The branch of the system that a component is one of; the system itself if it has no branches.
+
+    A component may be multiple in the system and simple in its branch.
+    """
+    if branches(system) is None:
+        return system
+    found, _ = _cut(system, component)
+    return system if found is None else found
+
+
+def _cut(
+    system: PolynomialSystem, component: WitnessSet
+) -> tuple[PolynomialSystem | None, list[Fibre] | None]:
+    """A branch of a system, or the system, with square systems that cut a component's points."""
+    parts = [b.system(system) for b in branches(system) or ()]
+    for part in (*parts, system):
+        equations = Equations(part.polynomials, part.n)
+        if equations.evaluator.residuals(component.points).max(initial=0.0) > ON:
+            continue
         for deflate in dict.fromkeys((False, component.multiplicity != 1)):
-            fibres = fibres or cut_fibres(
+            if part is system and deflate != (component.multiplicity != 1):
+                continue
+            fibres = cut_fibres(
                 component.points,
                 max(component.accuracy, 1e-12),
                 equations,
@@ -97,22 +124,9 @@ def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fi
                 np.random.default_rng(0),
                 deflate,
             )
-    if fibres is None:
-        raise ValueError("the witness points are no regular zeros of the system")
-    _recent.append((system, component, fibres))
-    return fibres
-
-
-def _equations_of(system: PolynomialSystem, component: WitnessSet) -> Iterator[Equations]:
-    """Those of each branch that a component may be one of, then those of the system.
-
-    A component may be multiple in the system and simple in its branch.
-    """
-    for branch in branches(system) or ():
-        equations = Equations(branch.polynomials, system.n)
-        if equations.evaluator.residuals(component.points).max(initial=0.0) < ON:
-            yield equations
-    yield Equations(system.polynomials, system.n)
+            if fibres is not None:
+                return part, fibres
+    return None, None
 
 
 def memberships(

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from itertools import islice
 
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branches import branches
 from nag.algebra.elimination import Elimination, eliminate_linear
-from nag.algebra.evaluation import Evaluator
+from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import generic_multiplicity
 from nag.algebra.local_ring import local_dimension
@@ -102,10 +102,6 @@ class _Part:
         """Whether nothing says that its zero set has positive dimension."""
         return not len(self.curves)
 
-    @cached_property
-    def evaluator(self) -> Evaluator:
-        return Evaluator.of(self.system.polynomials, self.system.n)
-
 
 def solve_apart(
     system: PolynomialSystem, tracked: Tracked, seed: int, settings: str
@@ -175,8 +171,12 @@ def _joined(
     curves = [none, *(part.curves for part in parts)]
     undecided = [none, *(part.undecided for part in parts)]
     kept: list[_Found] = []
-    for i in range(len(parts)):
-        isolated, on_others, left_open = _own(i, parts)
+    systems = [part.system.polynomials for part in parts]
+    points = _points([f for part in parts for f in part.found], system.n)
+    near = iter(may_vanish(systems, points, NONZERO))
+    for i, part in enumerate(parts):
+        close = list(islice(near, len(part.found)))
+        isolated, on_others, left_open = _own(i, parts, close)
         kept += isolated
         curves.append(_points(on_others, system.n))
         undecided.append(_points(left_open, system.n))
@@ -261,24 +261,22 @@ def _points(found: Sequence[_Found], n: int) -> np.ndarray:
     return np.array([f.solution.point for f in found], dtype=complex).reshape(-1, n)
 
 
-def _own(i: int, parts: Sequence[_Part]) -> tuple[list[_Found], list[_Found], list[_Found]]:
+def _own(
+    i: int, parts: Sequence[_Part], near: Sequence[np.ndarray]
+) -> tuple[list[_Found], list[_Found], list[_Found]]:
     """The solutions of a branch that are isolated, and no ones of an earlier branch.
 
     Also those that lie on sets of positive dimension of others, and those that are left open.
+
+    Args:
+        near: for each solution in which branches it may lie, shape ``(branches,)``.
     """
-    part = parts[i]
-    points = _points(part.found, part.system.n)
-    doubtful: dict[int, list[int]] = {}
-    for j, other in enumerate(parts):
-        if j == i or not len(points):
-            continue
-        values = other.evaluator.residuals(points).max(axis=1, initial=0.0)
-        for k in np.flatnonzero(values < NONZERO).tolist():
-            doubtful.setdefault(k, []).append(j)
     isolated, on_others, left_open = [], [], []
-    for k, each in enumerate(part.found):
+    for each, close in zip(parts[i].found, near, strict=True):
         place = isolated
-        for j in doubtful.get(k, ()):
+        for j in np.flatnonzero(close).tolist():
+            if j == i:
+                continue
             there = [each.vanishes(f) for f in parts[j].system.polynomials]
             if False in there:
                 continue
