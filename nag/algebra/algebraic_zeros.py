@@ -6,12 +6,13 @@ root is one of the certified balls that FLINT's complex root isolation gives.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from nag.algebra.bivariate import zero_families
 from nag.algebra.elimination import linear_variables
 from nag.algebra.factoring import Ring, ring
 from nag.algebra.polynomial import Polynomial
@@ -34,12 +35,14 @@ class AlgebraicZero:
         root: a ball that holds this one of its roots and no other.
         coordinates: one for each variable, ``fmpq_poly`` of lower degree than ``minimal``.
         multiplicity: dimension of the local ring of the system there.
+        isolated: balls of all roots by the bits they were computed with, shared by conjugates.
     """
 
     minimal: Any
     root: Any
     coordinates: tuple[Any, ...]
     multiplicity: int
+    isolated: dict[int, list[Any]] = field(default_factory=dict)
 
     @cached_property
     def point(self) -> np.ndarray:
@@ -62,7 +65,9 @@ class AlgebraicZero:
             if self.minimal.degree() == 1:
                 root = flint.acb(-self.minimal[0] / self.minimal[1])
             elif bits > LEAST_BITS:
-                (root,) = [r for r, _ in self.minimal.complex_roots() if r.overlaps(self.root)]
+                if bits not in self.isolated:
+                    self.isolated[bits] = [r for r, _ in self.minimal.complex_roots()]
+                (root,) = [r for r in self.isolated[bits] if r.overlaps(self.root)]
             return [
                 flint.acb_poly([flint.acb(c[k]) for k in range(c.degree() + 1)])(root)
                 for c in self.coordinates
@@ -95,27 +100,34 @@ class AlgebraicZero:
         return total.degree() < 0
 
 
-def algebraic_zeros(system: PolynomialSystem) -> tuple[AlgebraicZero, ...] | None:
+def algebraic_zeros(
+    system: PolynomialSystem, two_variables: bool = True
+) -> tuple[AlgebraicZero, ...] | None:
     """All zeros of a system that elimination brings down to one variable, with multiplicities.
 
     Variables that an equation contains linearly, with a constant coefficient, are eliminated, which
-    keeps the scheme as it is. None where more than one variable is left, or the zeros are not
-    finite in number, or a coefficient is irrational.
+    keeps the scheme as it is. None where more variables are left, or the zeros are not finite in
+    number, or a coefficient is irrational.
+
+    Args:
+        two_variables: whether two equations in two variables, of few zeros, may be left.
     """
     equations = [f for f in system.polynomials if f]
     if not all(f.exact for f in equations) or len(equations) < system.n:
         return None
-    if sum(bool(linear_variables(f)) for f in equations) < system.n - 1:
+    if sum(bool(linear_variables(f)) for f in equations) < system.n - 1 - two_variables:
         return None
     over = ring(system.n)
     reduced = _eliminated(over, [over.of(f) for f in equations])
     if reduced is None:
         return None
     rest, images, left = reduced
-    if not rest:
-        return None
     if any(g.is_constant() for g in rest):
         return ()
+    if len(left) == 2:
+        return _of_two_variables(over, rest, images, left) if two_variables else None
+    if not rest or len(left) > 2:
+        return None
     (index,) = left
     common = _univariate(rest[0], index)
     for g in rest[1:]:
@@ -126,7 +138,7 @@ def algebraic_zeros(system: PolynomialSystem) -> tuple[AlgebraicZero, ...] | Non
 def _eliminated(
     over: Ring, equations: list[Any]
 ) -> tuple[list[Any], list[Any], tuple[int, ...]] | None:
-    """Equations in one variable at most, what each variable is in it, and which one it is."""
+    """What is left when variables were eliminated, what each one is then, and which are left."""
     images, left = list(over.context.gens()), set(range(over.n))
     while True:
         equations = [f for f in equations if not f.is_zero()]
@@ -151,7 +163,40 @@ def _eliminated(
         left.discard(index)
         if any(g.total_degree() > MOST_DEGREE or len(g) > MOST_TERMS for g in equations + images):
             return None
-    return (equations, images, tuple(left)) if len(left) == 1 else None
+    return equations, images, tuple(sorted(left))
+
+
+def _of_two_variables(
+    over: Ring, equations: list[Any], images: list[Any], left: tuple[int, ...]
+) -> tuple[AlgebraicZero, ...] | None:
+    if len(equations) != 2:
+        return None
+    plane = ring(2).context
+    place = [plane.constant(0)] * over.n
+    place[left[0]], place[left[1]] = plane.gens()
+    families = zero_families(*(f.compose(*place, ctx=plane) for f in equations))
+    if families is None:
+        return None
+    found: list[AlgebraicZero] = []
+    for each in families:
+        at = {left[0]: each.x, left[1]: each.y}
+        coordinates = tuple(_composed(g, at, each.minimal) for g in images)
+        found += _conjugates(each.minimal, coordinates, each.multiplicity)
+    return tuple(found)
+
+
+def _composed(f: Any, at: dict[int, Any], p: Any) -> Any:
+    """A polynomial at coordinates that are polynomials modulo p."""
+    import flint
+
+    total = flint.fmpq_poly([])
+    for exponents, c in f.to_dict().items():
+        term = flint.fmpq_poly([c])
+        for i, k in enumerate(exponents):
+            for _ in range(int(k)):
+                term = term * at[i] % p
+        total = total + term
+    return total
 
 
 def _pivot(equations: list[Any], left: set[int]) -> tuple[int, int] | None:
@@ -178,14 +223,21 @@ def _univariate(f: Any, index: int) -> Any:
 def _zeros_of(f: Any, images: list[Any]) -> tuple[AlgebraicZero, ...]:
     import flint
 
-    found = []
-    with flint.ctx.workprec(LEAST_BITS):
-        for factor, multiplicity in f.factor()[1]:
-            p = flint.fmpq_poly(factor)
-            coordinates = tuple(c % p for c in images)
-            if p.degree() == 1:
-                roots = [flint.acb(-p[0] / p[1])]
-            else:
-                roots = [root for root, _ in p.complex_roots()]
-            found += [AlgebraicZero(p, r, coordinates, int(multiplicity)) for r in roots]
+    found: list[AlgebraicZero] = []
+    for factor, multiplicity in f.factor()[1]:
+        p = flint.fmpq_poly(factor)
+        found += _conjugates(p, tuple(c % p for c in images), int(multiplicity))
     return tuple(found)
+
+
+def _conjugates(p: Any, coordinates: tuple[Any, ...], multiplicity: int) -> list[AlgebraicZero]:
+    """One zero for each root of an irreducible polynomial."""
+    import flint
+
+    with flint.ctx.workprec(LEAST_BITS):
+        if p.degree() == 1:
+            roots = [flint.acb(-p[0] / p[1])]
+        else:
+            roots = [root for root, _ in p.complex_roots()]
+    isolated: dict[int, list[Any]] = {}
+    return [AlgebraicZero(p, root, coordinates, multiplicity, isolated) for root in roots]

@@ -231,8 +231,7 @@ def _joined(
     counts = PathCounts()
     systems = [part.system.polynomials for part in parts]
     first = [c.witness.points[0] for part in parts for c in part.components]
-    points = np.array(first).reshape(len(first), -1)
-    near = iter(may_vanish(systems, points, NONZERO) if first else ())
+    near = iter(may_vanish(systems, np.array(first), NONZERO) if first else ())
     for i, part in enumerate(parts):
         for component, close in zip(part.components, near, strict=False):
             inside = False

@@ -104,12 +104,13 @@ class _Part:
 
 
 def solve_apart(
-    system: PolynomialSystem, tracked: Tracked, seed: int, settings: str
+    system: PolynomialSystem, tracked: Tracked, seed: int, settings: str, exactly: bool
 ) -> SolveResult | None:
     """The isolated solutions of a system that falls apart, or has zeros that are known exactly.
 
     Args:
         tracked: solves a system as a whole.
+        exactly: whether to solve exactly also what does not fall apart, or leaves two variables.
 
     Returns:
         None if the system neither falls apart nor comes down to one variable.
@@ -117,12 +118,12 @@ def solve_apart(
     apart = branches(replace(system, nonzero=()))
     if apart is None:
         whole = replace(system, nonzero=())
-        zeros = algebraic_zeros(whole)
+        zeros = algebraic_zeros(whole) if exactly else None
         if zeros is None:
             return None
         parts = [_algebraic(whole, zeros)]
     else:
-        parts = [_part(b.system(replace(system, nonzero=())), tracked) for b in apart]
+        parts = [_part(b.system(replace(system, nonzero=())), tracked, exactly) for b in apart]
     return _joined(system, parts, seed, settings, apart is not None)
 
 
@@ -145,8 +146,8 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
     return _Part(system, tuple(found), None, none, none)
 
 
-def _part(system: PolynomialSystem, tracked: Tracked) -> _Part:
-    zeros = algebraic_zeros(system)
+def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
+    zeros = algebraic_zeros(system, two_variables=exactly)
     if zeros is not None:
         return _algebraic(system, zeros)
     elimination = eliminate_linear(system)

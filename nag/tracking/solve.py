@@ -53,7 +53,8 @@ def solve(
     """All isolated solutions of ``system``, each once, with their multiplicities.
 
     Where equations factor over the rationals, the parts that the system falls into are solved
-    apart; what comes down to one variable is solved exactly. Paths are tracked for the rest.
+    apart; what comes down to one variable, or to two equations in two of few solutions, is solved
+    exactly. Paths are tracked for the rest, and for a system that a start system is named for.
 
     Args:
         system: what to solve; its ``groups`` are tried among the multihomogeneous structures.
@@ -74,7 +75,8 @@ def solve(
     def tracked(part: PolynomialSystem) -> SolveResult:
         return _solve_whole(part, start, seed, threads, settings, progress)
 
-    return solve_apart(system, tracked, seed, name) or tracked(system)
+    # Who names a start system wants its paths.
+    return solve_apart(system, tracked, seed, name, start == "auto") or tracked(system)
 
 
 def _solve_whole(
