@@ -128,7 +128,9 @@ class _Search:
         support = frozenset(i for i, k in enumerate(p.degrees()) if k)
         return _Irreducible(str(p), p, support, int(p.total_degree()))
 
-    def start(self, equations: Sequence[Polynomial], nonzero: Sequence[Polynomial]) -> _State | None:
+    def start(
+        self, equations: Sequence[Polynomial], nonzero: Sequence[Polynomial]
+    ) -> _State | None:
         found = []
         for f in equations:
             if f.degree == 0:
@@ -173,9 +175,7 @@ class _Search:
         for (p,) in state.equations:
             value = p.f.compose(*images, ctx=self.ring.context)
             found.add(str(value / value.leading_coefficient()))
-        return found == {
-            str(f / f.leading_coefficient()) for f in map(_product, leaf.equations)
-        }
+        return found == {str(f / f.leading_coefficient()) for f in map(_product, leaf.equations)}
 
     def _count(self, leaf: _State) -> None:
         if _in_one_variable(leaf.equations) and not self.others:
@@ -309,9 +309,7 @@ class _Search:
         excluded = {p.key for p in start.excluded}
         shared = [p for p in start.equations[0] if p.key in common - excluded]
         leaves = [_State(((p,),), (), start.excluded) for p in shared]
-        rest = [
-            tuple(p for p in e if p.key not in common | excluded) for e in start.equations
-        ]
+        rest = [tuple(p for p in e if p.key not in common | excluded) for e in start.equations]
         return [*leaves, _State(tuple(rest), (), start.excluded)] if all(rest) else leaves
 
     def irredundant(self, leaves: Sequence[_State]) -> list[_State]:

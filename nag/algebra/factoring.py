@@ -34,9 +34,7 @@ class Ring:
 
     def polynomial(self, f: Any) -> Polynomial:
         """The way back."""
-        terms = {
-            tuple(map(int, e)): Fraction(int(c.p), int(c.q)) for e, c in f.to_dict().items()
-        }
+        terms = {tuple(map(int, e)): Fraction(int(c.p), int(c.q)) for e, c in f.to_dict().items()}
         return Polynomial(self.n, terms)
 
     def factors(self, f: Any) -> list[tuple[Any, int]]:

@@ -59,9 +59,7 @@ def generic_multiplicity(
     return by_local_ring(ideal.generators) or 0
 
 
-def independent_gradients(
-    polynomials: Sequence[Polynomial], x: np.ndarray, error: float
-) -> bool:
+def independent_gradients(polynomials: Sequence[Polynomial], x: np.ndarray, error: float) -> bool:
     """Whether the gradients of polynomials are certainly independent at a point.
 
     A derivative counts where it is no rounding error of its terms, nor one that an error of the

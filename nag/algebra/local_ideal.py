@@ -62,9 +62,7 @@ class LocalIdeal:
         return standard_monomials(exponents, len(factors))
 
 
-def local_ideal(
-    equations: Sequence[Factors], vanishes: Callable[[Polynomial], bool]
-) -> LocalIdeal:
+def local_ideal(equations: Sequence[Factors], vanishes: Callable[[Polynomial], bool]) -> LocalIdeal:
     """The ideal of the equations at a generic point of a component of their zero set.
 
     A generator that is linear in a variable, with a constant coefficient, is used to eliminate it

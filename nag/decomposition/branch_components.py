@@ -280,9 +280,7 @@ def _covered(
     return result, counts
 
 
-def _in_scheme(
-    system: PolynomialSystem, components: Sequence[_Component]
-) -> list[WitnessSet]:
+def _in_scheme(system: PolynomialSystem, components: Sequence[_Component]) -> list[WitnessSet]:
     """The components with what the original equations make of them."""
     equations = [factored(f) for f in system.polynomials if f]
     factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
@@ -324,9 +322,7 @@ def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
         return multiplicity(Evaluator.of(generators, n), witness.slice.rows, x)
 
     codimension = n - witness.dimension
-    return generic_multiplicity(
-        equations, x, error, codimension, component.vanishes, by_local_ring
-    )
+    return generic_multiplicity(equations, x, error, codimension, component.vanishes, by_local_ring)
 
 
 def _orbits(

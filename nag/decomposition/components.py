@@ -62,11 +62,12 @@ def decompose(
     """Decompose the zero set of ``system`` into irreducible components over the complex numbers.
 
     Where equations factor over the rationals, the parts that the system falls into are decomposed
-    apart; zeros of polynomials in one variable are isolated exactly. Otherwise linear equations are
-    solved exactly first, and then equations are intersected one by one. Where doubts are left, slices and constants are drawn
-    anew, and the least doubtful answer is given; a finite set of simple points may be found by
-    solving the equations all at once. The same seed gives the same answer, byte for
-    byte, whatever the number of threads.
+    apart; zeros of polynomials in one variable, and of two equations in two, are isolated exactly
+    where they are few. Otherwise linear equations are solved exactly first, and then equations are
+    intersected one by one. Where doubts are left, slices and constants are drawn anew, and the
+    least doubtful answer is given; a finite set of simple points may be found by solving the
+    equations all at once. The same seed gives the same answer, byte for byte, whatever the number
+    of threads.
 
     Args:
         system: the equations; components on which a polynomial of ``system.nonzero`` vanishes
@@ -115,9 +116,7 @@ def _decompose_whole(
             break
     if not any(a.complete or a.dimension > 0 for a in answers) and tracked <= MOST_PATHS:
         rng = np.random.default_rng([seed, ATTEMPTS])
-        answer = _decompose_once(
-            system, rng, tracker, progress, symmetries, scheme, isolated=True
-        )
+        answer = _decompose_once(system, rng, tracker, progress, symmetries, scheme, isolated=True)
         tracked += answer.paths.tracked
         if answer.complete and all(contains(answer, other) for other in answers):
             answers.append(answer)
