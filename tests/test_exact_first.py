@@ -101,6 +101,13 @@ def test_powers_multiply_to_the_multiplicity(power: int) -> None:
     assert multiplicities(solve(of)) == {200 * power: 1}
 
 
+def test_powers_multiply_where_gradients_depend_on_each_other() -> None:
+    of = system("x y", "(x^2 - y^3)^3*(x + y)", "(y^2 - x^3)^4")
+    origin = 4 * 3 * 4 + 2 * 4
+    assert multiplicities(solve(of)) == {origin: 1, 12: 5, 4: 1}
+    assert kinds(decompose(of)) == {(0, 1, origin): 1, (0, 1, 12): 5, (0, 1, 4): 1}
+
+
 def test_a_power_of_a_sphere_has_the_powers_multiplicity() -> None:
     x, y, z = Polynomial.variables(3)
     of = PolynomialSystem("xyz", ((x * x + y * y + z * z - 1) ** 9 * (x - y) ** 20,))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -11,6 +13,8 @@ from nag.algebra.factoring import Factors
 from nag.algebra.local_ideal import local_ideal
 from nag.algebra.polynomial import Polynomial
 
+# Generators with more choices of a factor of each are not taken apart.
+MOST_INTERSECTIONS = 64
 # Least singular value of gradients of length one that are certainly independent.
 INDEPENDENT = 1e-6
 # Derivatives that are larger than this, beside their terms, certainly do not vanish.
@@ -27,8 +31,12 @@ def generic_multiplicity(
 ) -> int:
     """Multiplicity of the component through a generic point of it; 0 if it was not found.
 
-    It is exact where the equations' factors show it, see `LocalIdeal.multiplicity`. Else it is the
-    dimension of the local ring of what is left of them when units are taken out.
+    It is exact where the equations' factors show it, see `LocalIdeal.multiplicity`. Where the
+    generators are as many as the codimension, it is the sum of the multiplicities of all choices of
+    one factor of each, times their exponents: that many elements whose quotient is of finite length
+    are a regular sequence in any order, in a regular local ring, and for such the length is
+    additive, ``0 -> R/(f) -> R/(f g) -> R/(g) -> 0`` being exact. Else it is the dimension of the
+    local ring of all generators.
 
     Args:
         equations: those that are not zero, by their factors.
@@ -56,7 +64,17 @@ def generic_multiplicity(
     exact = ideal.multiplicity(codimension, independent)
     if exact is not None:
         return exact
-    return by_local_ring(ideal.generators) or 0
+    if ideal.intersections(codimension) > MOST_INTERSECTIONS:
+        return by_local_ring(ideal.generators) or 0
+    total = 0
+    for factors in itertools.product(*ideal.monomials):
+        chosen = [*ideal.coordinates, *(p for p, _ in factors)]
+        part = local_ideal([((p, 1),) for p in chosen], there)
+        single = part.multiplicity(codimension, independent) or by_local_ring(part.generators)
+        if not single or unknown:
+            return 0
+        total += single * math.prod(k for _, k in factors)
+    return total
 
 
 def independent_gradients(polynomials: Sequence[Polynomial], x: np.ndarray, error: float) -> bool:

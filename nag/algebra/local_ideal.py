@@ -5,6 +5,7 @@ Of each equation only the factors that vanish on the component matter: the other
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -38,6 +39,15 @@ class LocalIdeal:
     def generators(self) -> tuple[Polynomial, ...]:
         powers = [product([p**k for p, k in m], m[0][0].n) for m in self.monomials if m]
         return (*self.coordinates, *powers)
+
+    def intersections(self, codimension: int) -> float:
+        """Number of choices of a factor of each generator; infinite if these are too many or few.
+
+        As many generators as the codimension are a complete intersection there.
+        """
+        if len(self.coordinates) + len(self.monomials) != codimension:
+            return math.inf
+        return math.prod(len(m) for m in self.monomials)
 
     def multiplicity(
         self, codimension: int, independent: Callable[[Sequence[Polynomial]], bool]

@@ -106,6 +106,8 @@ def decompose_apart(
     Returns:
         None if the system neither falls apart nor comes down to one variable.
     """
+    if system.n == 0:
+        return None
     apart, rng = branches(system), np.random.default_rng([seed, 11])
     if apart is None:
         zeros = algebraic_zeros(system)

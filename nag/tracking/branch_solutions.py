@@ -115,6 +115,8 @@ def solve_apart(
     Returns:
         None if the system neither falls apart nor comes down to one variable.
     """
+    if system.n == 0:
+        return None
     apart = branches(replace(system, nonzero=()))
     if apart is None:
         whole = replace(system, nonzero=())

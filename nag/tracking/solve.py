@@ -20,7 +20,7 @@ from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings, named
 from nag.tracking.singular_ends import Place, analyse
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
-from nag.tracking.start.choice import choose
+from nag.tracking.start.choice import check_kind, choose
 from nag.tracking.start.target import Start, Target
 from nag.tracking.track import track
 
@@ -70,6 +70,7 @@ def solve(
         ValueError: if there is no such start system or no settings of that name.
     """
     named(settings)
+    check_kind(start)
     name = settings if isinstance(settings, str) else "custom"
 
     def tracked(part: PolynomialSystem) -> SolveResult:
