@@ -85,6 +85,19 @@ def test_roots_closer_than_doubles_remain_two() -> None:
     assert [first.vanishes(f), second.vanishes(f)].count(True) == 1
 
 
+def test_independence_of_gradients_is_decided_exactly() -> None:
+    of = system("x y", "x^2 - 2", "y^2 - x*y - 1")
+    touching = system("x y", "x^2 + y^2 - 4", "x - y - (x^2 - y^2)/100", "x + y", "x^2 + y^2")
+    circle, other, line, cone = touching.polynomials
+    for zero in algebraic_zeros(of):
+        assert zero.independent(of.polynomials)
+        assert zero.independent([circle]) and zero.independent([circle, other])
+        assert not zero.independent([circle, cone])
+        assert not zero.independent([circle, other, line])
+    (origin,) = algebraic_zeros(system("x y", "x", "y"))
+    assert origin.independent([line, other]) and not origin.independent([cone])
+
+
 @given(
     st.lists(st.tuples(st.integers(-3, 3), st.integers(1, 3)), min_size=1, max_size=2),
     st.lists(st.tuples(st.integers(-3, 3), st.integers(1, 2)), min_size=1, max_size=2),

@@ -57,8 +57,11 @@ def test_multiplicities_are_those_of_the_monomial_ideal(of, point, codimension, 
         assert sorted(g.degree for g in generators) == [3, 3]
         return 4
 
+    def independent(polynomials) -> bool:
+        return independent_gradients(polynomials, x, 0.0)
+
     equations = [factored(f) for f in of.polynomials]
-    found = generic_multiplicity(equations, x, 0.0, codimension, vanishes, by_local_ring)
+    found = generic_multiplicity(equations, codimension, vanishes, independent, by_local_ring)
     assert found == expected
 
 

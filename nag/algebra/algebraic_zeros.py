@@ -6,6 +6,7 @@ root is one of the certified balls that FLINT's complex root isolation gives.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -77,27 +78,31 @@ class AlgebraicZero:
     def real(self) -> bool:
         return bool(self.root.imag.is_zero())
 
+    def value(self, f: Polynomial) -> Any:
+        """An exact polynomial at the zero, as a polynomial in the algebraic number."""
+        return _composed(ring(f.n).of(f), self.coordinates, self.minimal)
+
     def vanishes(self, f: Polynomial) -> bool:
         """Whether an exact polynomial vanishes at the zero, decided exactly."""
-        import flint
+        return self.value(f).degree() < 0
 
-        powers: dict[tuple[int, int], Any] = {}
-
-        def power(i: int, k: int) -> Any:
-            if k == 1:
-                return self.coordinates[i]
-            if (i, k) not in powers:
-                powers[i, k] = power(i, k // 2) * power(i, k - k // 2) % self.minimal
-            return powers[i, k]
-
-        total = flint.fmpq_poly([])
-        for exponents, c in f.terms.items():
-            term = flint.fmpq_poly([flint.fmpq(c.numerator, c.denominator)])
-            for i, k in enumerate(exponents):
-                if k:
-                    term = term * power(i, k) % self.minimal
-            total = total + term
-        return total.degree() < 0
+    def independent(self, polynomials: Sequence[Polynomial]) -> bool:
+        """Whether the gradients of exact polynomials are independent there, decided exactly."""
+        rows = [[self.value(f.derivative(i)) for i in range(f.n)] for f in polynomials]
+        while rows:
+            row = rows.pop()
+            pivot = next((i for i, c in enumerate(row) if c.degree() >= 0), None)
+            if pivot is None:
+                return False
+            common, inverse, _ = row[pivot].xgcd(self.minimal)
+            inverse = inverse / common[0]
+            for other in rows:
+                factor = other[pivot] * inverse % self.minimal
+                if factor.degree() >= 0:
+                    other[:] = [
+                        (a - factor * b) % self.minimal for a, b in zip(other, row, strict=True)
+                    ]
+        return True
 
 
 def algebraic_zeros(
@@ -179,22 +184,31 @@ def _of_two_variables(
         return None
     found: list[AlgebraicZero] = []
     for each in families:
-        at = {left[0]: each.x, left[1]: each.y}
+        at = [each.x if i == left[0] else each.y for i in range(over.n)]
         coordinates = tuple(_composed(g, at, each.minimal) for g in images)
         found += _conjugates(each.minimal, coordinates, each.multiplicity)
     return tuple(found)
 
 
-def _composed(f: Any, at: dict[int, Any], p: Any) -> Any:
+def _composed(f: Any, at: Sequence[Any], p: Any) -> Any:
     """A polynomial at coordinates that are polynomials modulo p."""
     import flint
+
+    powers: dict[tuple[int, int], Any] = {}
+
+    def power(i: int, k: int) -> Any:
+        if k == 1:
+            return at[i]
+        if (i, k) not in powers:
+            powers[i, k] = power(i, k // 2) * power(i, k - k // 2) % p
+        return powers[i, k]
 
     total = flint.fmpq_poly([])
     for exponents, c in f.to_dict().items():
         term = flint.fmpq_poly([c])
         for i, k in enumerate(exponents):
-            for _ in range(int(k)):
-                term = term * at[i] % p
+            if k:
+                term = term * power(i, int(k)) % p
         total = total + term
     return total
 

@@ -23,10 +23,9 @@ NOT_ZERO = 1e-7
 
 def generic_multiplicity(
     equations: Sequence[Factors],
-    x: np.ndarray,
-    error: float,
     codimension: int,
     vanishes: Callable[[Polynomial], bool | None],
+    independent: Callable[[Sequence[Polynomial]], bool],
     by_local_ring: Callable[[Sequence[Polynomial]], int | None],
 ) -> int:
     """Multiplicity of the component through a generic point of it; 0 if it was not found.
@@ -40,12 +39,11 @@ def generic_multiplicity(
 
     Args:
         equations: those that are not zero, by their factors.
-        x: the point, known to rounding, shape ``(n,)``.
-        error: how far, at most, a coordinate may be from the exact one.
         codimension: of the component.
         vanishes: whether a polynomial vanishes on the component; None if that is not known.
-        by_local_ring: computes the dimension of the local ring of some generators at ``x``, on a
-            slice of complementary dimension.
+        independent: whether gradients of polynomials certainly are, at a generic point.
+        by_local_ring: computes the dimension of the local ring of some generators at a generic
+            point, on a slice of complementary dimension.
     """
     unknown = False
 
@@ -54,9 +52,6 @@ def generic_multiplicity(
         answer = vanishes(f)
         unknown |= answer is None
         return answer is not False
-
-    def independent(polynomials: Sequence[Polynomial]) -> bool:
-        return independent_gradients(polynomials, x, error)
 
     ideal = local_ideal(equations, there)
     if unknown:
@@ -82,6 +77,10 @@ def independent_gradients(polynomials: Sequence[Polynomial], x: np.ndarray, erro
 
     A derivative counts where it is no rounding error of its terms, nor one that an error of the
     coordinates explains. Rows and columns are brought to length one.
+
+    Args:
+        x: the point, shape ``(n,)``.
+        error: how far, at most, a coordinate may be from the exact one.
     """
     n = len(x)
     derivatives = [f.derivative(i) for f in polynomials for i in range(n)]

@@ -12,7 +12,7 @@ from nag.algebra.branches import branches
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
-from nag.algebra.generic_multiplicity import generic_multiplicity
+from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
@@ -317,14 +317,20 @@ def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
     witness = component.witness
     n = witness.points.shape[1]
     x = witness.points[np.linalg.norm(witness.points, axis=1).argmin()]
-    accuracy = max(1e3 * witness.accuracy, 1e-12)
-    error = 0.0 if component.zero else accuracy * (1 + float(np.abs(x).max(initial=0.0)))
+
+    def independent(polynomials: Sequence[Polynomial]) -> bool:
+        if component.zero is not None and all(f.exact for f in polynomials):
+            return component.zero.independent(polynomials)
+        error = max(1e3 * witness.accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
+        return independent_gradients(polynomials, x, error)
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int:
         return multiplicity(Evaluator.of(generators, n), witness.slice.rows, x)
 
     codimension = n - witness.dimension
-    return generic_multiplicity(equations, x, error, codimension, component.vanishes, by_local_ring)
+    return generic_multiplicity(
+        equations, codimension, component.vanishes, independent, by_local_ring
+    )
 
 
 def _orbits(

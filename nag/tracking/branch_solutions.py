@@ -17,7 +17,7 @@ from nag.algebra.branches import branches
 from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
-from nag.algebra.generic_multiplicity import generic_multiplicity
+from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
 from nag.algebra.local_ring import local_dimension
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -310,10 +310,15 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
     """The multiplicity of a solution in the scheme of all equations; 0 if it was not found."""
     x = each.solution.point
     known = max(1e3 * each.solution.accuracy, 1e-12)
-    error = 0.0 if each.zero is not None else known * (1 + float(np.abs(x).max(initial=0.0)))
+
+    def independent(polynomials: Sequence[Polynomial]) -> bool:
+        if each.zero is not None and all(f.exact for f in polynomials):
+            return each.zero.independent(polynomials)
+        error = known * (1 + float(np.abs(x).max(initial=0.0)))
+        return independent_gradients(polynomials, x, error)
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
         evaluator = Evaluator.of(generators, len(x))
         return local_dimension(evaluator, x, lambda s, k: corank_at(s, k, known))
 
-    return generic_multiplicity(equations, x, error, len(x), each.vanishes, by_local_ring)
+    return generic_multiplicity(equations, len(x), each.vanishes, independent, by_local_ring)
