@@ -85,6 +85,7 @@ def test_huge_coefficients_still_fit_into_doubles() -> None:
         (system("x y z", "(x-1)*(x*y-2)", "(x-1)*(x*z+y)"), {("x - 1",), ("x*y - 2", "x*z + y")}),
         (system("x y", "x*(x-1)", "(x-2)*(x-3)"), set()),
         (system("x y", "x", "x - 1"), set()),
+        (system("x y z", "(z - 1)*(z - 2)", "x*y + z", "x*y + 5"), set()),
         (system("x y", "x^2 - y", "y*(y-1)"), {("x", "y"), ("y - 1", "x^2 - 1")}),
         (system("x y z", "x*y", "y*z", "z*x"), {("x", "y"), ("x", "z"), ("y", "z")}),
         (system("x y z", "x*y*z", "x*y*(z-1)"), {("x",), ("y",)}),

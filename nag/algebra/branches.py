@@ -67,6 +67,7 @@ def branches(system: PolynomialSystem) -> tuple[Branch, ...] | None:
     else:
         if len(leaves) == 1 and (not search.changed or search.without_factors(exact, leaves[0])):
             return None
+    leaves = [leaf for leaf in leaves if not search.contradictory(leaf)]
     found = [search.branch(leaf, rest) for leaf in search.irredundant(leaves)]
     return tuple(sorted(found, key=lambda b: len(b.polynomials)))
 
@@ -311,6 +312,20 @@ class _Search:
         leaves = [_State(((p,),), (), start.excluded) for p in shared]
         rest = [tuple(p for p in e if p.key not in common | excluded) for e in start.equations]
         return [*leaves, _State(tuple(rest), (), start.excluded)] if all(rest) else leaves
+
+    def contradictory(self, leaf: _State) -> bool:
+        """Whether a combination of the equations, by numbers, is a constant that is not zero."""
+        if len(leaf.equations) < 2:
+            return False
+        import flint
+
+        rows = [_product(e).to_dict() for e in leaf.equations]
+        monomials = sorted({e for row in rows for e in row}, reverse=True)
+        if any(monomials[-1]) or len(rows) * len(monomials) > MOST_TERMS:
+            return False
+        entries = [row.get(e, 0) for row in rows for e in monomials]
+        reduced, rank = flint.fmpq_mat(len(rows), len(monomials), entries).rref()
+        return all(reduced[rank - 1, j] == 0 for j in range(len(monomials) - 1))
 
     def irredundant(self, leaves: Sequence[_State]) -> list[_State]:
         """The branches without those whose zero sets are seen to lie in others."""

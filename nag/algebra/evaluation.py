@@ -152,5 +152,5 @@ def may_vanish(
     place: dict[Polynomial, int] = {}
     rows = [[place.setdefault(f, len(place)) for f in system] for system in systems]
     small = Evaluator.of(list(place), points.shape[1]).residuals(points) < limit
-    columns = [small[:, chosen].all(axis=1) for chosen in rows]
+    columns = [small[:, np.array(chosen, dtype=np.int64)].all(axis=1) for chosen in rows]
     return np.array(columns, dtype=bool).reshape(len(systems), len(points)).T
