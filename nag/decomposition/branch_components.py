@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from nag.algebra.generic_multiplicity import generic_multiplicity, independent_g
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.vanishing import Vanishing, follows
 from nag.decomposition.confirm import vanishing
 from nag.decomposition.cutting import ON, numerical_corank
 from nag.decomposition.fibres import Tracker
@@ -47,38 +49,25 @@ class _Component:
     witness: WitnessSet
     system: PolynomialSystem
     zero: AlgebraicZero | None = None
-    _known: dict[Polynomial, bool | None] = field(default_factory=dict)
 
-    def vanishes(self, f: Polynomial) -> bool | None:
-        """Whether a polynomial vanishes on the component; None if that is not known."""
-        if f not in self._known:
-            self._known[f] = self._vanishes(f)
-        return self._known[f]
-
-    def know(self, nonzero: Iterable[Polynomial]) -> None:
-        """Take note of polynomials that certainly do not vanish."""
-        self._known.update(dict.fromkeys(nonzero, False))
+    @cached_property
+    def vanishes(self) -> Vanishing:
+        """Whether a polynomial vanishes on the component."""
+        return Vanishing(self._vanishes)
 
     def _vanishes(self, f: Polynomial) -> bool | None:
         if self.zero is not None and f.exact:
             return self.zero.vanishes(f)
         if (Evaluator.of([f], f.n).residuals(self.witness.points) > NONZERO).any():
             return False
-        if self._follows(f):
+        elimination = eliminate_linear(self.system, graphs=False)
+        if follows(f.compose(elimination.images), elimination):
             return True
         try:
             fibre = component_fibres(self.system, self.witness)[0]
         except ValueError:
             return None
         return bool(vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0])
-
-    def _follows(self, f: Polynomial) -> bool:
-        """Whether a factor is an equation of the branch, once linear ones have been used."""
-        elimination = eliminate_linear(self.system, graphs=False)
-        known = [factored(g) for g in elimination.system.polynomials]
-        irreducible = {factors[0][0] for factors in known if len(factors) == 1}
-        image = f.compose(elimination.images)
-        return not image or any(p in irreducible for p, _ in factored(image))
 
 
 @dataclass(frozen=True, eq=False)
@@ -292,7 +281,7 @@ def _in_scheme(system: PolynomialSystem, components: Sequence[_Component]) -> li
     for component in components:
         witness = component.witness
         far = (products.residuals(witness.points) > NONZERO).any(axis=0)
-        component.know(p for p, nonzero in zip(factors, far, strict=True) if nonzero)
+        component.vanishes.exclude(p for p, nonzero in zip(factors, far, strict=True) if nonzero)
         multiple = _multiplicity(equations, component)
         residual = float(original.residuals(witness.points).max(initial=0.0))
         reasons = [witness.note] if witness.note else []

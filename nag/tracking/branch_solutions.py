@@ -6,8 +6,9 @@ tracking paths.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import islice
 
 import numpy as np
@@ -21,9 +22,10 @@ from nag.algebra.generic_multiplicity import generic_multiplicity, independent_g
 from nag.algebra.local_ring import local_dimension
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.vanishing import Vanishing, follows
 from nag.tracking.singular_ends import corank_at
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
-from nag.tracking.vanishing import vanish_at_zero
+from nag.tracking.zero_values import vanish_at_zero
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
 NONZERO = 1e-6
@@ -45,17 +47,11 @@ class _Found:
     solution: Solution
     zero: AlgebraicZero | None = None
     elimination: Elimination | None = None
-    _known: dict[Polynomial, bool | None] = field(default_factory=dict)
 
-    def vanishes(self, f: Polynomial) -> bool | None:
-        """Whether a polynomial vanishes at the exact zero; None if that is not known."""
-        if f not in self._known:
-            self._known[f] = self._vanishes(f)
-        return self._known[f]
-
-    def know(self, nonzero: Iterable[Polynomial]) -> None:
-        """Take note of polynomials that certainly do not vanish."""
-        self._known.update(dict.fromkeys(nonzero, False))
+    @cached_property
+    def vanishes(self) -> Vanishing:
+        """Whether a polynomial vanishes at the exact zero."""
+        return Vanishing(self._vanishes)
 
     def _vanishes(self, f: Polynomial) -> bool | None:
         x = self.solution.point
@@ -68,17 +64,10 @@ class _Found:
         assert self.elimination is not None
         reduced = self.elimination
         image = f.compose(reduced.images)
-        if not image or _holds(image, reduced.system):
+        if follows(image, reduced):
             return True
         y, accuracy = reduced.project(x), self.solution.accuracy
         return vanish_at_zero(reduced.system.polynomials, y, accuracy, [image])
-
-
-def _holds(f: Polynomial, system: PolynomialSystem) -> bool:
-    """Whether a polynomial has a factor in common with an irreducible equation of a system."""
-    known = [factored(g) for g in system.polynomials]
-    irreducible = {factors[0][0] for factors in known if len(factors) == 1}
-    return any(p in irreducible for p, _ in factored(f))
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,7 +239,7 @@ def _in_scheme(
             continue
         multiplicity = each.solution.multiplicity
         if apart:
-            each.know(p for p, there in zip(factors, nonzero, strict=True) if there)
+            each.vanishes.exclude(p for p, there in zip(factors, nonzero, strict=True) if there)
             multiplicity = _multiplicity(equations, each)
         if not multiplicity or None in forbidden:
             left_open.append(each)
