@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
+from dataclasses import replace
 from enum import Enum
 
 import numpy as np
@@ -107,12 +108,20 @@ def component_system(system: PolynomialSystem, component: WitnessSet) -> Polynom
 def _cut(
     system: PolynomialSystem, component: WitnessSet
 ) -> tuple[PolynomialSystem | None, list[Fibre] | None]:
-    """A branch of a system, or the system, with square systems that cut a component's points."""
-    parts = [b.system(system) for b in branches(system) or ()]
+    """A branch of a system, or the system, with square systems that cut a component's points.
+
+    A set that lies in several branches may be one in which these meet.
+    """
+    parts = []
+    for branch in branches(system) or ():
+        residuals = Evaluator.of(branch.polynomials, system.n).residuals(component.points)
+        if residuals.max(initial=0.0) < ON:
+            parts.append(branch.system(system))
+    if len(parts) > 1:
+        together = dict.fromkeys(f for part in parts for f in part.polynomials)
+        parts.append(replace(system, polynomials=tuple(together)))
     for part in (*parts, system):
         equations = Equations(part.polynomials, part.n)
-        if equations.evaluator.residuals(component.points).max(initial=0.0) > ON:
-            continue
         for deflate in dict.fromkeys((False, component.multiplicity != 1)):
             if part is system and deflate != (component.multiplicity != 1):
                 continue

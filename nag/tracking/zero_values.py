@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import scipy.linalg
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish
@@ -24,6 +23,8 @@ def vanish_at_zero(
     The zero is made regular by deflation where it is multiple, and computed to 100 digits. None if
     that does not succeed.
     """
+    import scipy.linalg
+
     found = sharpened(equations, x, accuracy, np.random.default_rng(0))
     if found is None:
         return None
