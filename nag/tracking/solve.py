@@ -13,13 +13,14 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.tracking.branch_solutions import solve_apart
 from nag.tracking.clusters import clusters, conjugates_present
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings, named
 from nag.tracking.singular_ends import Place, analyse
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
-from nag.tracking.start.choice import choose
+from nag.tracking.start.choice import check_kind, choose
 from nag.tracking.start.target import Start, Target
 from nag.tracking.track import track
 
@@ -47,6 +48,10 @@ def solve(
 ) -> SolveResult:
     """All isolated solutions of ``system``, each once, with their multiplicities.
 
+    Where equations factor over the rationals, the parts that the system falls into are solved
+    apart; what comes down to one variable, or to two equations in two of few solutions, is solved
+    exactly. Paths are tracked for the rest, and for a system that a start system is named for.
+
     Args:
         system: what to solve; its ``groups`` are tried among the multihomogeneous structures.
         start: ``"auto"`` (the least work), ``"total"``, ``"multihomogeneous"``,
@@ -61,6 +66,25 @@ def solve(
         ValueError: if there is no such start system or no settings of that name.
     """
     named(settings)
+    check_kind(start)
+    name = settings if isinstance(settings, str) else "custom"
+
+    def tracked(part: PolynomialSystem) -> SolveResult:
+        return _solve_whole(part, start, seed, threads, settings, progress)
+
+    # Who names a start system wants its paths.
+    return solve_apart(system, tracked, seed, name, start == "auto") or tracked(system)
+
+
+def _solve_whole(
+    system: PolynomialSystem,
+    start: str,
+    seed: int,
+    threads: int,
+    settings: Settings | str,
+    progress: Progress | None,
+) -> SolveResult:
+    """The isolated solutions of a system that is tracked as a whole."""
     name = settings if isinstance(settings, str) else "custom"
     rng = np.random.default_rng(seed)
     equations = [f for f in system.polynomials if f]
