@@ -127,8 +127,6 @@ class Paths:
         return {Reason(r).text: int(k) for r, k in sorted(Counter(failed.tolist()).items())}
 
 
-def _ratio(
-    a: tuple[Fraction, Fraction], b: tuple[Fraction, Fraction]
-) -> tuple[Fraction, Fraction]:
+def _ratio(a: tuple[Fraction, Fraction], b: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
     size = b[0] ** 2 + b[1] ** 2
     return (a[0] * b[0] + a[1] * b[1]) / size, (a[1] * b[0] - a[0] * b[1]) / size

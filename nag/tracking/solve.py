@@ -22,10 +22,12 @@ from nag.tracking.singular_ends import Place, analyse
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
 from nag.tracking.start.choice import check_kind, choose
 from nag.tracking.start.target import Start, Target
-from nag.tracking.track import track
+from nag.tracking.track import merged, track
 
 Progress = Callable[[str, int, int], None]
 
+# Digits of evidence, beyond the least, of zeros that are to be told from others beside them.
+SEPARATING = 60
 # |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
 ON = 1e-9
 # End points with larger values than this are no zeros, however badly they are known.
@@ -95,7 +97,14 @@ def _solve_whole(
         progress("solve", 0, 1)
     begin, reason = choose(problem.target, start, system.groups, rng, threads)
     paths = track(begin.homotopy, begin.points, settings, threads)
-    return _result(problem, begin, reason, paths, rng, seed, name)
+    ends = _Ends.of(problem, begin, paths, rng)
+    if len(ends.close):
+        # What looks like a multiple zero and is none may be simple ones close together.
+        separating = replace(named(settings), evidence=SEPARATING)
+        more = track(begin.homotopy, begin.points[ends.close], separating, threads)
+        paths = merged(paths, more, ends.close)
+        ends = _Ends.of(problem, begin, paths, rng)
+    return _result(problem, begin, reason, paths, ends, seed, name)
 
 
 def begin_of(
@@ -169,7 +178,9 @@ def ends_of(
     target = Target(n, tuple(dict(f.terms) for f in system.polynomials))
     nonzero = Evaluator.of(system.nonzero, n)
     problem = _Problem(system, system.polynomials, nonzero, target, 0, False)
-    return _result(problem, begin, reason, paths, rng, seed, settings)
+    return _result(
+        problem, begin, reason, paths, _Ends.of(problem, begin, paths, rng), seed, settings
+    )
 
 
 def _random_linear(n: int, rng: np.random.Generator) -> Polynomial:
@@ -218,11 +229,10 @@ def _result(
     begin: Start,
     reason: str,
     paths: Paths,
-    rng: np.random.Generator,
+    ends: _Ends,
     seed: int,
     settings: str,
 ) -> SolveResult:
-    ends = _Ends.of(problem, begin, paths, rng)
     counts = PathStatistics(
         len(paths),
         *(len(paths.where(status)) for status in PathStatus),
@@ -267,13 +277,17 @@ def _result(
 
 @dataclass(frozen=True, eq=False)
 class _Ends:
-    """The end points of all paths, sorted; coordinates are those of the original variables."""
+    """The end points of all paths, sorted; coordinates are those of the original variables.
+
+    ``close``: the paths to those undecided.
+    """
 
     solutions: tuple[Solution, ...]
     on_components: np.ndarray
     undecided: np.ndarray
     excluded: int
     notes: tuple[str, ...]
+    close: np.ndarray
 
     @classmethod
     def of(cls, problem: _Problem, begin: Start, paths: Paths, rng: np.random.Generator) -> _Ends:
@@ -300,14 +314,17 @@ class _Ends:
         isolated: list[int] = []
         on_components: list[np.ndarray] = []
         undecided: list[np.ndarray] = []
-        for group in clusters(points, accuracy):
+        # Regular ends are distinct, as the tracker has seen.
+        several = np.flatnonzero(~regular)
+        groups = [np.array([i]) for i in np.flatnonzero(regular)]
+        groups += [several[g] for g in clusters(points[several], accuracy[several])]
+        close: list[int] = []
+        for group in groups:
             best = int(group[np.argmin(accuracy[group])]) if len(group) > 1 else int(group[0])
             if problem.added:
                 on_components.append(points[best])
                 continue
             if regular[best]:
-                if len(group) > 1:
-                    notes.append(f"{len(group)} paths end at one regular solution")
                 solves = problem.solves(points[best]) if problem.squared else True
                 if solves is None:
                     undecided.extend(points[group])
@@ -318,6 +335,8 @@ class _Ends:
             if end.place is not Place.ISOLATED:
                 elsewhere = on_components if end.place is Place.ON_COMPONENT else undecided
                 elsewhere.extend(points[group])
+                if end.place is Place.UNDECIDED:
+                    close.extend(finite[group].tolist())
                 continue
             isolated.append(best)
             points[best], accuracy[best] = end.point, end.accuracy
@@ -357,6 +376,7 @@ class _Ends:
             original(np.array(undecided).reshape(-1, n)),
             int((~kept).sum()),
             tuple(notes),
+            np.array(sorted(close), dtype=np.int64),
         )
 
 

@@ -6,7 +6,7 @@ The parameter of the Taylor series is h in ``t exp(h)``; ``z`` stands for
 
 from __future__ import annotations
 
-from nag.machine_code.lanes import fma, load, splat, square_root, store
+from nag.machine_code.lanes import fma, load, splat, store
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
 from nag.tracking.numbers.error_free import power_near_inverse_root

@@ -30,7 +30,7 @@ ACCURACY, CONTRACTION = 0.1, 0.3
 TAIL = 1e-9
 # Digits to which equations with coefficients of so few digits must hold at least, and the most
 # that may be asked for.
-LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 16, 6, 45
+LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 16, 6, 58
 # A coordinate is known if it exceeds its rounding error so many times.
 KNOWN = 1e3
 
@@ -210,9 +210,7 @@ def _ambiguous(homotopy: Homotopy, states: _States, path: int, need: float) -> b
     return bool(far) and float(KNOWN * states.errors[path][far].max()) > need
 
 
-def _limit(
-    states: _States, limits: Limits, path: int, series: np.ndarray, need: float
-) -> int:
+def _limit(states: _States, limits: Limits, path: int, series: np.ndarray, need: float) -> int:
     """`LIMIT` if the equations agree, `OPEN` if further in they may, `LOST` in more digits."""
     from nag.tracking.ends import kernel
 

@@ -14,8 +14,8 @@ from nag.machine_code.lanes import load, select_less, splat, store
 from nag.machine_code.records import Reals, Wholes
 from nag.tracking.ends.branch import (
     keep_series,
-    reach,
     predict,
+    reach,
     tail_at_end,
     tails,
 )

@@ -41,7 +41,12 @@ def write(data, k, a):
 
 def same(data, k):
     """Number ``k`` of an array of numbers that are the same in all lanes."""
-    return splat(data[4 * k]), splat(data[4 * k + 1]), splat(data[4 * k + 2]), splat(data[4 * k + 3])
+    return (
+        splat(data[4 * k]),
+        splat(data[4 * k + 1]),
+        splat(data[4 * k + 2]),
+        splat(data[4 * k + 3]),
+    )
 
 
 def negative(a):
@@ -90,9 +95,7 @@ def multiply(a, b):
     s2 = q2 + p5
     s1, t0 = two_sum(s1, t0)
     s2 = s2 + (t0 + t1)
-    s1 = s1 + (
-        a[0] * b[3] + a[1] * b[2] + a[2] * b[1] + a[3] * b[0] + q0 + q3 + q4 + q5
-    )
+    s1 = s1 + (a[0] * b[3] + a[1] * b[2] + a[2] * b[1] + a[3] * b[0] + q0 + q3 + q4 + q5)
     return _normalized(p0, p1, s0, s1, s2)
 
 
