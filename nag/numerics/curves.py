@@ -103,9 +103,7 @@ def curve_through(
         for attempt in range(attempts):
             begin = DISTANCES[: 2 if attempt % 2 else 1]
             plane = np.rint(64 * rng.normal(size=(2, found.corank))) / 64
-            dimension = _followed(
-                system, found, descent, begin[-1], plane[0] + 1j * plane[1], rng
-            )
+            dimension = _followed(system, found, descent, begin[-1], plane[0] + 1j * plane[1], rng)
             if dimension:
                 return dimension
     return 0
@@ -155,7 +153,9 @@ def _on_hyperplane(
     constant = -flint.acb(1) / 2**k
     for i, w in zip(free, weights, strict=True):
         constant = constant - w * found.point[i]
-    row = [(tuple(int(i == j) for j in range(system.n)), w) for i, w in zip(free, weights, strict=True)]
+    row = [
+        (tuple(int(i == j) for j in range(system.n)), w) for i, w in zip(free, weights, strict=True)
+    ]
     sliced = system.with_row([((0,) * system.n, middle(constant)), *row])
     for closer in (8.0, 5.0, 2.0):
         try:

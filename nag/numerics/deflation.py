@@ -160,8 +160,12 @@ def sharpen(
 ) -> tuple[Point, Descent] | None:
     """The zero of the rounds' equations next to ``x``, by Newton's method; None if not found."""
     rows, last, point = system.at(digits), inf, list(x)
+    # The steps converge quadratically with series of order one in the last round, and cubically,
+    # but at the price of longer series, with order two.
+    corank = len(point) - len(rounds[0].columns)
+    order = 0 if len(rounds) == 1 else 2 if corank < 3 else 1
     for step in range(NEWTON_STEPS):
-        found = descend(rows, point, rounds, 2)
+        found = descend(rows, point, rounds, order)
         if found is None or found.inverse > LARGEST_INVERSE:
             return None
         size = log_norm(found.displacement)
@@ -250,7 +254,7 @@ def deflate(
             if log_norm(a - b for a, b in zip(point, x, strict=True)) > max(reach + 1, ARRIVED):
                 raise NotDeflated("the zero found is further away than the error of the point")
             if not left:
-                return Deflated(point, tuple(rounds), 0, descent.defect, descent.inverse)
+                return _regular(system, point, rounds, descent)
             lowest = _lowest_terms(system, point, rounds, reach)
             if lowest is None:
                 return Deflated(point, tuple(rounds), left, descent.defect, descent.inverse)
@@ -258,6 +262,21 @@ def deflate(
             rounds[-1] = replace(rounds[-1], order=order)
             rows = derivatives(descent.remaining, descent.ring, order - 1)
             centre = [flint.acb(0)] * left
+
+
+def _regular(
+    system: ExactSystem, point: Point, rounds: Sequence[Round], descent: Descent
+) -> Deflated:
+    """The zero that the rounds determine, to as many digits whatever its condition."""
+    found: tuple[Point, Descent] | None = (point, descent)
+    if descent.inverse > ARRIVED + DIGITS - ROUNDING:
+        digits = DIGITS + int(descent.inverse)
+        with working(digits):
+            found = sharpen(system, point, rounds, digits)
+        if found is None:
+            raise NotDeflated("Newton's method does not converge in more digits")
+    point, descent = found
+    return Deflated(point, tuple(rounds), 0, descent.defect, descent.inverse)
 
 
 def _lowest_terms(

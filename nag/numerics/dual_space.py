@@ -74,7 +74,7 @@ def dual_space(
     ring, equations = series(min(2, highest))
     for degree in range(1, highest + 1):
         if degree > ring.order:
-            ring, equations = series(min(2 * ring.order, highest))
+            ring, equations = series(min(ring.order + max(2, ring.order // 2), highest))
         found = _next(field, ring, equations, basis)
         if not found:
             return DualSpace(tuple(hilbert), True)
@@ -123,9 +123,7 @@ def _weights(ring: SeriesRing, basis: _Basis, f: Series) -> list[Any]:
     return row
 
 
-def _extend(
-    field: Field, ring: SeriesRing, basis: _Basis, found: list[list[Any]]
-) -> None:
+def _extend(field: Field, ring: SeriesRing, basis: _Basis, found: list[list[Any]]) -> None:
     """Add the functionals with these shifts, reduced so that each has a monomial of its own."""
     s, m = len(basis.functionals), ring.m
     new: list[tuple[Series, list[Any]]] = []

@@ -14,7 +14,7 @@ from typing import Any
 import flint
 
 from nag.numerics.digits import log_norm, middle
-from nag.numerics.power_series import Series, SeriesRing, Terms, composed
+from nag.numerics.power_series import Series, SeriesRing, Terms, composed, product_of
 
 # Newton steps for the values at the centre, which may not be zero yet.
 CONSTANT_STEPS = 2
@@ -104,10 +104,7 @@ def eliminate(
         for degree in [0] * CONSTANT_STEPS + list(range(1, ring.order + 1)):
             truncated = SeriesRing(ring.m, degree, modulus)
             values = composed(chosen, images, truncated)
-            for j, weights in zip(columns, inverse, strict=True):
-                for value, weight in zip(values, weights, strict=True):
-                    ring.add(images[j], value, -weight)
-                if not modulus:
-                    images[j] = {k: middle(c) for k, c in images[j].items()}
+            for j, step in zip(columns, product_of(inverse, values, modulus), strict=True):
+                ring.add(images[j], step, -1)
     rest = composed([row for i, row in enumerate(rows) if i not in solved], images, ring)
     return Reduction(ring, images, rest, size)

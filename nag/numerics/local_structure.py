@@ -60,7 +60,11 @@ def judged(
 
 
 def _judged(
-    system: ExactSystem, y: Sequence[flint.acb], claimed: float, rng: np.random.Generator, depth: int
+    system: ExactSystem,
+    y: Sequence[flint.acb],
+    claimed: float,
+    rng: np.random.Generator,
+    depth: int,
 ) -> SingularEnd:
     reasons: list[str] = []
     tried: set[float] = set()
@@ -197,9 +201,7 @@ def _resolved(
     return result
 
 
-def _cluster(
-    system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]
-) -> SingularEnd:
+def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]) -> SingularEnd:
     total = sum(end.multiplicity for end in nearby)
     reason = f"{len(nearby)} zeros close together, of multiplicities that add up to {total}"
     end = _end(system, found, Place.CLUSTER, 0, reason)

@@ -12,9 +12,13 @@ from itertools import product
 from math import comb
 from typing import Any
 
+import flint
+
 # Bits of one exponent.
 BITS = 10
 MASK = (1 << BITS) - 1
+# Sums of up to so many terms are not worth a matrix.
+SMALL = 400
 
 Series = dict[int, Any]
 Terms = Sequence[tuple[tuple[int, ...], Any]]
@@ -89,6 +93,15 @@ def composed(rows: Sequence[Terms], images: Sequence[Series], ring: SeriesRing) 
             monomials[e] = ring.multiply(monomial(rest), factor) if any(rest) else factor
         return monomials[e]
 
+    exponents = list({e: None for row in rows for e, _ in row})
+    values = [monomial(e) for e in exponents]
+    if sum(len(row) for row in rows) * max(map(len, values), default=0) > SMALL:
+        place = {e: i for i, e in enumerate(exponents)}
+        matrix: list[list[Any]] = [[0] * len(exponents) for _ in rows]
+        for coefficients, row in zip(matrix, rows, strict=True):
+            for e, c in row:
+                coefficients[place[e]] = coefficients[place[e]] + c
+        return product_of(matrix, values, ring.modulus)
     result = []
     for row in rows:
         total: Series = {}
@@ -96,6 +109,21 @@ def composed(rows: Sequence[Terms], images: Sequence[Series], ring: SeriesRing) 
             ring.add(total, monomial(e), c)
         result.append(total)
     return result
+
+
+def product_of(matrix: list[list[Any]], column: Sequence[Series], modulus: int) -> list[Series]:
+    """A matrix times a column of series, in compiled code."""
+    keys = sorted({k for value in column for k in value})
+    if not keys:
+        return [{} for _ in matrix]
+    table = [[value.get(k, 0) for k in keys] for value in column]
+    if modulus:
+        left = flint.nmod_mat(len(matrix), len(column), sum(matrix, []), modulus)
+        found = left * flint.nmod_mat(len(column), len(keys), sum(table, []), modulus)
+        rows = [[int(c) for c in row] for row in found.tolist()]
+    else:
+        rows = (flint.acb_mat(matrix) * flint.acb_mat(table)).mid().tolist()
+    return [{k: c for k, c in zip(keys, row, strict=True) if c} for row in rows]
 
 
 def evaluate(series: Mapping[int, Any], ring: SeriesRing, v: Sequence[Any]) -> Any:
