@@ -74,6 +74,7 @@ ISOLATED = {
     "touching to order 12": Zero.of("x y", "y - x^12, y", [0, 0], 12),
     "a tangent": Zero.of("x y", "x^2 + y^2 - 1, x - 1", [1, 0], 2),
     "powers of both": Zero.of("x y", "x^5, y^5", [0, 0], 25),
+    "two curves of order 40": Zero.of("x y", "x*y, x^40 + y^40", [0, 0], 80),
     "DZ1": Zero.of("a b c d", "a^4 - b*c*d, b^4 - a*c*d, c^4 - a*b*d, d^4 - a*b*c", [0] * 4, 131),
     "DZ2": Zero.of("x y z", "x^4, x^2*y + y^4, z + z^2 - 7*x^3 - 8*x^2", [0, 0, -1], 16),
     "cbms1": Zero.of("x y z", "x^3 - y*z, y^3 - x*z, z^3 - x*y", [0] * 3, 11),

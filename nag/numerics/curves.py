@@ -32,9 +32,15 @@ MOST_MULTIPLE = 200
 NEAR = (7, 24, 48)
 STEP = 3
 # The digits that are taken at least. Values below this share of the digits are zero.
-LEAST_DIGITS, VANISHING = 150, 0.8
+LEAST_DIGITS, VANISHING = 150, 0.75
 # Binary logarithms of distances at which hyperplanes pass a singular point.
 DISTANCES = (5, 10, 20, 30, 40)
+
+
+def digits_at(system: ExactSystem, k: int) -> int:
+    """Digits in which 2^-k to the power of the largest possible multiplicity is no zero."""
+    highest = min(MOST_MULTIPLE, system.most_zeros)
+    return max(LEAST_DIGITS, int((highest * (k + 2) * LOG10_2 + 20) / VANISHING))
 
 
 def smooth_set(system: ExactSystem, point: Point, rounds: Sequence[Round]) -> float:
@@ -44,13 +50,11 @@ def smooth_set(system: ExactSystem, point: Point, rounds: Sequence[Round]) -> fl
     power of any possible multiplicity would be seen. If they do not vanish, the order to which they
     do is returned, roughly; ``inf`` where no further points were found.
     """
-    highest = min(MOST_MULTIPLE, system.most_zeros)
     for k in NEAR:
         first = _values(system, point, rounds, k, LEAST_DIGITS)
         if first is None:
             continue
-        needed = int((highest * (k + STEP) * LOG10_2 + 20) / VANISHING)
-        digits = max(LEAST_DIGITS, needed)
+        digits = digits_at(system, k + STEP)
         if first >= -VANISHING * LEAST_DIGITS:
             digits = LEAST_DIGITS
         elif digits > LEAST_DIGITS:
@@ -124,7 +128,7 @@ def _followed(
         u = scaled.newton(u / (plane @ u), plane)
         if u is None or np.abs(u).max() > 1e3:
             return 0
-        dimension = _on_hyperplane(system, found, u, k, plane, rng)
+        dimension = _on_hyperplane(system, found, u, k, plane, rng, k == begin)
         if not dimension:
             return 0
     return dimension
@@ -137,10 +141,12 @@ def _on_hyperplane(
     k: int,
     plane: np.ndarray,
     rng: np.random.Generator,
+    proof: bool,
 ) -> int:
     """Dimension of the exact zeros at ``u`` on the hyperplane at distance 2^-k; 0 if none is there.
 
-    It counts the direction away from the hyperplane.
+    It counts the direction away from the hyperplane. With ``proof``, they are zeros to so many
+    digits that an isolated zero of any possible multiplicity could not make them vanish.
     """
     first = Round(found.rounds[0].rows, found.rounds[0].columns)
     free = [i for i in range(system.n) if i not in first.columns]
@@ -163,5 +169,13 @@ def _on_hyperplane(
         except NotDeflated:
             continue
         if zero.exact:
-            return 1 + zero.free
+            certain = not proof or _vanishes(sliced, zero, digits_at(system, k))
+            return (1 + zero.free) * certain
     return 0
+
+
+def _vanishes(system: ExactSystem, zero: Deflated, digits: int) -> bool:
+    """Whether a zero is one to so many digits."""
+    with working(digits):
+        found = sharpen(system, zero.point, zero.rounds, digits)
+    return found is not None and found[1].defect < -VANISHING * digits

@@ -37,7 +37,7 @@ Point = list[flint.acb]
 # coefficients of one; Newton's method has arrived when its step is below 10^ARRIVED.
 DIGITS, ZERO, ARRIVED = 150, -100.0, -125.0
 NEWTON_STEPS = 24
-# Inverse blocks with larger entries (decimal logarithm) are rounding, or the zero is no regular one.
+# Inverse blocks with larger entries (decimal logarithm) are rounding, or the zero is not regular.
 LARGEST_INVERSE = 70.0
 # What rounding adds to a value (decimal logarithm): Newton's step cannot become smaller than this
 # times the inverse.
@@ -170,7 +170,7 @@ def sharpen(
             return None
         size = log_norm(found.displacement)
         arrived = max(ARRIVED + DIGITS, ROUNDING + found.inverse) - digits
-        if size > -0.3 or (step > 3 and size > last - 0.3 and size > arrived):
+        if size > -0.3 or (step > 3 and size > last - 1.0 and size > arrived):
             return None
         point = [middle(a + b) for a, b in zip(point, found.displacement, strict=True)]
         if size < arrived:

@@ -91,10 +91,10 @@ def _next(
     """New functionals, each as the coefficients of its shifts in the basis."""
     s, m = len(basis.functionals), ring.m
     rows: list[list[Any]] = []
-    for k, l in combinations(range(m), 2):
+    for first, second in combinations(range(m), 2):
         commute: dict[int, list[Any]] = {}
         for i in range(s):
-            for place, other, sign in ((k, l, 1), (l, k, -1)):
+            for place, other, sign in ((first, second, 1), (second, first, -1)):
                 for j, c in basis.shifts[i][other].items():
                     row = commute.setdefault(j, [0] * (s * m))
                     row[place * s + i] = row[place * s + i] + sign * c
@@ -107,7 +107,7 @@ def _next(
 
 
 def _weights(ring: SeriesRing, basis: _Basis, f: Series) -> list[Any]:
-    """What a functional with given shifts makes of ``f``, as a linear form in their coefficients."""
+    """What a functional makes of ``f``, as a linear form in the coefficients of its shifts."""
     s = len(basis.functionals)
     row: list[Any] = [0] * (s * ring.m)
     lowered: list[dict[int, Any]] = [{} for _ in range(ring.m)]
@@ -141,7 +141,6 @@ def _extend(field: Field, ring: SeriesRing, basis: _Basis, found: list[list[Any]
                     total = functional.get(raised, 0) + weight * c
                     functional[raised] = total % ring.modulus if ring.modulus else total
         new.append((functional, list(vector)))
-    start = len(basis.leading)
     for place in range(len(new)):
         functional, vector = new[place]
         keys = list(functional)
@@ -159,7 +158,6 @@ def _extend(field: Field, ring: SeriesRing, basis: _Basis, found: list[list[Any]
                 moved = zip(new[other][1], vector, strict=True)
                 reduced = [_times(1, a - factor * b, ring) for a, b in moved]
                 new[other] = new[other][0], reduced
-    assert len(basis.leading) == start + len(new)
     for functional, vector in new:
         basis.functionals.append({k: c for k, c in functional.items() if c})
         parts = [vector[k * s : (k + 1) * s] for k in range(m)]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 import flint
@@ -59,7 +60,7 @@ def jacobian(rows: Sequence[Terms], centre: Sequence[Any], modulus: int = 0) -> 
 def _inverse(block: list[list[Any]], modulus: int) -> list[list[Any]] | None:
     try:
         if modulus:
-            found = flint.nmod_mat(len(block), len(block), sum(block, []), modulus).inv()
+            found = flint.nmod_mat(len(block), len(block), list(chain(*block)), modulus).inv()
             return [[int(c) for c in row] for row in found.tolist()]
         found = flint.acb_mat([[flint.acb(c) for c in row] for row in block]).inv()
         return [[middle(c) for c in row] for row in found.tolist()]

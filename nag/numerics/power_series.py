@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import chain, product
 from math import comb
 from typing import Any
 
@@ -118,8 +118,8 @@ def product_of(matrix: list[list[Any]], column: Sequence[Series], modulus: int) 
         return [{} for _ in matrix]
     table = [[value.get(k, 0) for k in keys] for value in column]
     if modulus:
-        left = flint.nmod_mat(len(matrix), len(column), sum(matrix, []), modulus)
-        found = left * flint.nmod_mat(len(column), len(keys), sum(table, []), modulus)
+        left = flint.nmod_mat(len(matrix), len(column), list(chain(*matrix)), modulus)
+        found = left * flint.nmod_mat(len(column), len(keys), list(chain(*table)), modulus)
         rows = [[int(c) for c in row] for row in found.tolist()]
     else:
         rows = (flint.acb_mat(matrix) * flint.acb_mat(table)).mid().tolist()
