@@ -73,6 +73,9 @@ ISOLATED = {
     "touching to order 7": Zero.of("x y", "y - x^7, y", [0, 0], 7),
     "touching to order 12": Zero.of("x y", "y - x^12, y", [0, 0], 12),
     "a tangent": Zero.of("x y", "x^2 + y^2 - 1, x - 1", [1, 0], 2),
+    "powers beside a circle": Zero.of(
+        "x y", "(x^2 + y^2 - 1)*(x - 2)^5, (x^2 + y^2 - 1)*(y - 3)^4", [2, 3], 20
+    ),
     "powers of both": Zero.of("x y", "x^5, y^5", [0, 0], 25),
     "two curves of order 40": Zero.of("x y", "x*y, x^40 + y^40", [0, 0], 80),
     "DZ1": Zero.of("a b c d", "a^4 - b*c*d, b^4 - a*c*d, c^4 - a*b*d, d^4 - a*b*c", [0] * 4, 131),

@@ -138,7 +138,10 @@ def evaluate(series: Mapping[int, Any], ring: SeriesRing, v: Sequence[Any]) -> A
 
 
 def derivatives(rows: Sequence[Series], ring: SeriesRing, order: int) -> list[list[Any]]:
-    """All partial derivatives of that order, over factorials, as terms; zero ones left out."""
+    """All partial derivatives of that order, over factorials, as terms, also those that vanish.
+
+    They stand row by row, the directions of each in the same order.
+    """
     result = []
     choices = [a for a in product(range(order + 1), repeat=ring.m) if sum(a) == order]
     for row in rows:
@@ -152,6 +155,5 @@ def derivatives(rows: Sequence[Series], ring: SeriesRing, order: int) -> list[li
                 if factor:
                     lowered = tuple(k - a for k, a in zip(e, alpha, strict=True))
                     derived.append((lowered, c * factor))
-            if derived:
-                result.append(derived)
+            result.append(derived)
     return result
