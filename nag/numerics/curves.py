@@ -31,10 +31,13 @@ MOST_MULTIPLE = 200
 # smaller ones where it bends too much.
 NEAR = (7, 24, 48)
 STEP = 3
+# How many digits smaller than their distance the errors of points there may be, in this order:
+# rounding alone; what the ends of series leave; what is left of multiple zeros.
+CLOSER = (12.5, 8.0, 5.0, 2.0)
 # The digits that are taken at least. Values below this share of the digits are zero.
 LEAST_DIGITS, VANISHING = 150, 0.75
 # Binary logarithms of distances at which hyperplanes pass a singular point.
-DISTANCES = (5, 10, 20, 30, 40)
+DISTANCES = (5, 9, 13, 17)
 
 
 def digits_at(system: ExactSystem, k: int) -> int:
@@ -163,7 +166,7 @@ def _on_hyperplane(
         (tuple(int(i == j) for j in range(system.n)), w) for i, w in zip(free, weights, strict=True)
     ]
     sliced = system.with_row([((0,) * system.n, middle(constant)), *row])
-    for closer in (8.0, 5.0, 2.0):
+    for closer in CLOSER:
         try:
             zero = deflate(sliced, start, -k * LOG10_2 - closer, rng)
         except NotDeflated:
