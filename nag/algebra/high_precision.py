@@ -7,9 +7,9 @@ like none.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
-import mpmath
 import numpy as np
 
 from nag.algebra.number import Number, to_mpf
@@ -24,14 +24,27 @@ NEAR = 1e-9
 
 
 def _number(c: Number) -> Any:
-    return to_mpf(c, DIGITS)
+    from flint import arb, fmpq
+
+    if isinstance(c, Fraction):
+        return arb(fmpq(c.numerator, c.denominator))
+    sign, mantissa, exponent, _ = to_mpf(c, DIGITS)._mpf_
+    return arb(int(-mantissa if sign else mantissa)) * arb(2) ** int(exponent)
+
+
+def _middle(z: Any) -> Any:
+    from flint import acb
+
+    return acb(z.real.mid(), z.imag.mid())
 
 
 def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     """The size of ``f(z)`` beside its terms, coordinates below one counted as one."""
-    sizes = [max(abs(x), mpmath.mpf(1)) for x in z]
-    bound = f(sizes, lambda c: abs(_number(c)))
-    return abs(f(z, _number)) / bound if bound else mpmath.mpf(0)
+    from flint import arb
+
+    sizes = [max(abs(x).mid(), arb(1)) for x in z]
+    bound = abs(f(sizes, lambda c: abs(_number(c)))).mid()
+    return abs(_middle(f(z, _number))).mid() / bound if bound else arb(0)
 
 
 def vanish(
@@ -61,26 +74,33 @@ def vanish(
         inverse = np.linalg.inv(np.vstack([jacobian, slices[:, 1:]]))
     except np.linalg.LinAlgError:
         return None
-    with mpmath.workdps(DIGITS):
-        point = [mpmath.mpc(complex(x)) for x in z]
-        rows = [[mpmath.mpc(complex(c)) for c in row] for row in slices]
-        last = mpmath.inf
+    import flint
+    from flint import acb, arb
+
+    with flint.ctx.workdps(DIGITS):
+        point = [acb(complex(x)) for x in z]
+        rows = [[acb(complex(c)) for c in row] for row in slices]
+        small = arb(10) ** (12 - DIGITS)
+        last = None
         for _ in range(NEWTON_STEPS):
-            values = [f(point, _number) / s for f, s in zip(square, scales, strict=True)]
-            values += [
-                row[0] + sum(c * x for c, x in zip(row[1:], point, strict=True)) for row in rows
+            values = [
+                _middle(acb(f(point, _number)) / s) for f, s in zip(square, scales, strict=True)
             ]
-            size = max(map(abs, values), default=mpmath.mpf(0))
-            if size < mpmath.mpf(10) ** (12 - DIGITS):
+            for row in rows:
+                terms = (c * x for c, x in zip(row[1:], point, strict=True))
+                values.append(_middle(sum(terms, row[0])))
+            size = max((abs(v).mid() for v in values), default=arb(0))
+            if size < small:
                 break
             step = inverse @ np.array([complex(v / size) for v in values])
-            point = [x - size * mpmath.mpc(complex(d)) for x, d in zip(point, step, strict=True)]
-            if size > last / 2:
+            point = [_middle(x - size * acb(complex(d))) for x, d in zip(point, step, strict=True)]
+            if last is not None and size > last / 2:
                 return None
             last = size
         else:
             return None
-        moved = max((abs(x - complex(y)) for x, y in zip(point, z, strict=True)), default=0)
+        moved = max((float(abs(x - complex(y))) for x, y in zip(point, z, strict=True)), default=0)
         if moved > NEAR * (1 + float(np.linalg.norm(z))):
             return None
-        return all(_relative(f, point[: f.n]) < VANISHES for f in equations)
+        vanishing = arb(VANISHES)
+        return all(_relative(f, point[: f.n]) < vanishing for f in equations)

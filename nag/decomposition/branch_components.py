@@ -314,7 +314,7 @@ def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
         return independent_gradients(polynomials, x, error)
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int:
-        return multiplicity(Evaluator.of(generators, n), witness.slice.rows, x)
+        return multiplicity(generators, witness.slice.rows, x, np.random.default_rng(0))
 
     codimension = n - witness.dimension
     return generic_multiplicity(

@@ -113,7 +113,7 @@ def checked_witness_set(
     multiple = int(coranks[0] == d)
     if scheme and not multiple:
         nearest = y[np.linalg.norm(y, axis=1).argmin()]
-        multiple = multiplicity(reduced.evaluator, rows, nearest)
+        multiple = multiplicity(reduced.polynomials, rows, nearest, rng)
         # A simple zero would have been seen by its corank.
         multiple *= multiple > 1
     if scheme and coranks[0] != d and not chosen[0].cut.levels:

@@ -1,0 +1,6 @@
+"""Numbers of many digits and what they decide: rank, deflation, local rings.
+
+In order of reading: `digits` and `power_series` (arithmetic), `implicit_function` (the regular part
+of equations solved by series), `deflation` (a singular zero made a regular one), `dual_space` (the
+dimension of its local ring), `curves` (zeros beside it), `singular_point` (all of it together).
+"""

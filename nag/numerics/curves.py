@@ -1,0 +1,184 @@
+"""Zeros beside a zero: sets of positive dimension, shown by points that lie on them exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+
+import flint
+import numpy as np
+
+from nag.numerics.deflation import (
+    DIGITS,
+    MOST_WORK_ROUGHLY,
+    Deflated,
+    Descent,
+    NotDeflated,
+    Point,
+    Round,
+    deflate,
+    descend,
+    sharpen,
+    work,
+)
+from nag.numerics.digits import LOG10_2, log_norm, middle, working
+from nag.numerics.exact_system import ExactSystem
+from nag.numerics.series_zeros import ScaledSeries
+
+# Isolated zeros of higher multiplicity are not told from others.
+MOST_MULTIPLE = 200
+# Binary logarithms of distances at which a smooth set of zeros is followed, each taken twice; the
+# smaller ones where it bends too much.
+NEAR = (7, 24, 48)
+STEP = 3
+# How many digits smaller than their distance the errors of points there may be, in this order:
+# rounding alone; what the ends of series leave; what is left of multiple zeros.
+CLOSER = (12.5, 8.0, 5.0, 2.0)
+# The digits that are taken at least. Values below this share of the digits are zero.
+LEAST_DIGITS, VANISHING = 150, 0.75
+# Binary logarithms of distances at which hyperplanes pass a singular point.
+DISTANCES = (5, 9, 13, 17)
+
+
+def digits_at(system: ExactSystem, k: int) -> int:
+    """Digits in which 2^-k to the power of the largest possible multiplicity is no zero."""
+    highest = min(MOST_MULTIPLE, system.most_zeros)
+    return max(LEAST_DIGITS, int((highest * (k + 2) * LOG10_2 + 20) / VANISHING))
+
+
+def smooth_set(system: ExactSystem, point: Point, rounds: Sequence[Round]) -> float:
+    """Whether the equations vanish along the smooth set that the rounds leave: 0 if they do.
+
+    They are evaluated at points of the set, at two distances r and to as many digits that r to the
+    power of any possible multiplicity would be seen. If they do not vanish, the order to which they
+    do is returned, roughly; ``inf`` where no further points were found.
+    """
+    for k in NEAR:
+        first = _values(system, point, rounds, k, LEAST_DIGITS)
+        if first is None:
+            continue
+        digits = digits_at(system, k + STEP)
+        if first >= -VANISHING * LEAST_DIGITS:
+            digits = LEAST_DIGITS
+        elif digits > LEAST_DIGITS:
+            first = _values(system, point, rounds, k, digits)
+        second = _values(system, point, rounds, k + STEP, digits)
+        if first is None or second is None:
+            continue
+        if max(first, second) < -VANISHING * digits:
+            return 0.0
+        return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
+    return inf
+
+
+def _values(
+    system: ExactSystem, point: Point, rounds: Sequence[Round], k: int, digits: int
+) -> float | None:
+    """Decimal logarithm of the equations' values on the set at distance 2^-k; None if not found."""
+    with working(digits):
+        left = len(point) - sum(len(r.columns) for r in rounds)
+        along = [flint.acb(1, i + 1) / 2**k / (i + 2) for i in range(left)]
+        step = descend(system.at(digits), point, rounds, 2, along)
+        if step is None:
+            return None
+        start = [a + b for a, b in zip(point, step.displacement, strict=True)]
+        found = sharpen(system, start, rounds, digits)
+        if found is None:
+            return None
+        moved = log_norm(a - b for a, b in zip(found[0], point, strict=True))
+        if abs(moved + k * LOG10_2) > 1.5:
+            return None
+        return system.log_residual(found[0], digits)
+
+
+def curve_through(
+    system: ExactSystem, found: Deflated, rng: np.random.Generator, attempts: int
+) -> int:
+    """The dimension of a set of zeros followed to a point, or 0 if none was found.
+
+    On random hyperplanes at smaller and smaller distances from the point, zeros are looked for
+    that continue each other; each must be an exact zero there, after a deflation of its own. The
+    dimension is a lower bound, one more than that of the set on the hyperplane.
+    """
+    first = Round(found.rounds[0].rows, found.rounds[0].columns)
+    order = max(found.rounds[0].order + 2, 4)
+    while order > 2 and work(found.corank, order, [first]) > MOST_WORK_ROUGHLY:
+        order -= 1
+    with working(DIGITS):
+        descent = descend(system.at(DIGITS), found.point, [first], order)
+        assert descent is not None
+        for attempt in range(attempts):
+            begin = DISTANCES[: 2 if attempt % 2 else 1]
+            plane = np.rint(64 * rng.normal(size=(2, found.corank))) / 64
+            dimension = _followed(system, found, descent, begin[-1], plane[0] + 1j * plane[1], rng)
+            if dimension:
+                return dimension
+    return 0
+
+
+def _followed(
+    system: ExactSystem,
+    found: Deflated,
+    descent: Descent,
+    begin: int,
+    plane: np.ndarray,
+    rng: np.random.Generator,
+) -> int:
+    u = rng.normal(size=found.corank) + 1j * rng.normal(size=found.corank)
+    dimension = 0
+    for k in [k for k in DISTANCES if k >= begin]:
+        scaled = ScaledSeries.of(descent.ring, descent.remaining, -k * LOG10_2)
+        u = scaled.newton(u / (plane @ u), plane)
+        if u is None or np.abs(u).max() > 1e3:
+            return 0
+        dimension = _on_hyperplane(system, found, u, k, plane, rng, k == begin)
+        if not dimension:
+            return 0
+    return dimension
+
+
+def _on_hyperplane(
+    system: ExactSystem,
+    found: Deflated,
+    u: np.ndarray,
+    k: int,
+    plane: np.ndarray,
+    rng: np.random.Generator,
+    proof: bool,
+) -> int:
+    """Dimension of the exact zeros at ``u`` on the hyperplane at distance 2^-k; 0 if none is there.
+
+    It counts the direction away from the hyperplane. With ``proof``, they are zeros to so many
+    digits that an isolated zero of any possible multiplicity could not make them vanish.
+    """
+    first = Round(found.rounds[0].rows, found.rounds[0].columns)
+    free = [i for i in range(system.n) if i not in first.columns]
+    along = [flint.acb(complex(c)) / 2**k for c in u]
+    step = descend(system.at(DIGITS), found.point, [first], 4, along)
+    if step is None:
+        return 0
+    start = [a + b for a, b in zip(found.point, step.displacement, strict=True)]
+    weights = [flint.acb(complex(c)) for c in plane]
+    constant = -flint.acb(1) / 2**k
+    for i, w in zip(free, weights, strict=True):
+        constant = constant - w * found.point[i]
+    row = [
+        (tuple(int(i == j) for j in range(system.n)), w) for i, w in zip(free, weights, strict=True)
+    ]
+    sliced = system.with_row([((0,) * system.n, middle(constant)), *row])
+    for closer in CLOSER:
+        try:
+            zero = deflate(sliced, start, -k * LOG10_2 - closer, rng)
+        except NotDeflated:
+            continue
+        if zero.exact:
+            certain = not proof or _vanishes(sliced, zero, digits_at(system, k))
+            return (1 + zero.free) * certain
+    return 0
+
+
+def _vanishes(system: ExactSystem, zero: Deflated, digits: int) -> bool:
+    """Whether a zero is one to so many digits."""
+    with working(digits):
+        found = sharpen(system, zero.point, zero.rounds, digits)
+    return found is not None and found[1].defect < -VANISHING * digits

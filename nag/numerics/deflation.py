@@ -1,0 +1,305 @@
+"""Deflation in power series: a singular zero as a regular one of exact equations, unknowns as many.
+
+The equations that are regular at a zero are solved for as many variables. What remains, in the
+other variables, has no linear part there; if its terms of lowest order have degree d, its
+derivatives of order d - 1 have a linear part, and the same begins anew with them. Each round
+determines at least one more variable, so there are at most as many rounds as variables. No
+unknowns are added, and multiplicity costs only the order of the series.
+
+The variables and the equations are those that were given, so that the deflated equations are
+exact: at a multiple zero everything that should vanish does so to all digits, at a cluster of
+zeros it does not.
+
+References:
+    Ojika, Watanabe & Mitsui, Deflation algorithm for the multiple roots of a system of nonlinear
+    equations, 1983; Leykin, Verschelde & Zhao, Newton's method with deflation, 2006;
+    Hauenstein & Wampler, Isosingular sets and deflation, 2013.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import comb, inf, log10
+
+import flint
+import numpy as np
+
+from nag.numerics.digits import log_norm, log_size, middle, working
+from nag.numerics.exact_system import ExactSystem
+from nag.numerics.implicit_function import eliminate, jacobian
+from nag.numerics.pivots import pivots
+from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives, evaluate
+
+Point = list[flint.acb]
+
+# Digits in which singular points are judged. What vanishes there stays below 10^ZERO, relative to
+# coefficients of one; Newton's method has arrived when its step is below 10^ARRIVED.
+DIGITS, ZERO, ARRIVED = 150, -100.0, -125.0
+NEWTON_STEPS = 24
+# Inverse blocks with larger entries (decimal logarithm) are rounding, or the zero is not regular.
+LARGEST_INVERSE = 70.0
+# What rounding adds to a value (decimal logarithm): Newton's step cannot become smaller than this
+# times the inverse.
+ROUNDING = 10.0
+# Orders of the series in which the lowest terms of what remains are looked for, one after the
+# other, while they do not cost too much: where all terms so far are zero, and where they are not,
+# as at a point that is not known well.
+ORDERS = (3, 6, 12, 24, 48, 96, 192, 384)
+MOST_WORK, MOST_WORK_ROUGHLY = 1e6, 1.5e5
+
+
+@dataclass(frozen=True)
+class Round:
+    """One round: equations and variables solved for, and the order of what remains (0: unknown)."""
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+    order: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Descent:
+    """What all rounds say of a point.
+
+    Attributes:
+        displacement: Newton's step, for each variable.
+        ring, remaining: the equations that remain after the last round, in the variables that are
+            left there.
+        defect: decimal logarithm of the largest coefficient that should vanish.
+        inverse: decimal logarithm of the largest entry of an inverse block.
+    """
+
+    displacement: Point
+    ring: SeriesRing
+    remaining: list[Series]
+    defect: float
+    inverse: float
+
+
+@dataclass(frozen=True, eq=False)
+class Deflated:
+    """A point where the rounds' equations vanish, to `digits` digits.
+
+    Attributes:
+        free: number of variables that no round determined: the dimension of a smooth set of zeros
+            through the point, if not 0.
+        defect: decimal logarithm of the largest value that vanishes if the zero is exact.
+    """
+
+    point: Point
+    rounds: tuple[Round, ...]
+    free: int
+    defect: float
+    inverse: float
+
+    @property
+    def exact(self) -> bool:
+        return self.defect < ZERO
+
+    @property
+    def corank(self) -> int:
+        return len(self.point) - len(self.rounds[0].columns)
+
+
+class NotDeflated(Exception):
+    """Deflation did not succeed, for the reason that the text says."""
+
+
+def total_order(rounds: Sequence[Round], order: int) -> int:
+    """The order of the first round's series so that the last has one of that order."""
+    return order + sum(r.order - 1 for r in rounds if r.order)
+
+
+def work(m: int, order: int, rounds: Sequence[Round]) -> float:
+    """Products of coefficients that one monomial's series in ``m`` variables costs, roughly."""
+    return comb(2 * m + order, order) * (1 + order / 4 * bool(rounds[0].columns))
+
+
+def descend(
+    rows: Sequence[Terms],
+    centre: Sequence[flint.acb | int],
+    rounds: Sequence[Round],
+    order: int,
+    along: Sequence[flint.acb] | None = None,
+) -> Descent | None:
+    """Newton's step for all rounds at once, and what remains after them as series.
+
+    Args:
+        order: of the series of what remains after the last round.
+        along: displacements of the variables that the rounds do not determine; default zero.
+    """
+    this = rounds[0]
+    total = total_order(rounds, order)
+    reduction = eliminate(rows, centre, this.rows, this.columns, total)
+    if reduction is None:
+        return None
+    ring, rest = reduction.ring, reduction.rest
+    low = max(this.order, 1)
+    defect = log_norm(c for s in rest for k, c in s.items() if ring.degree(k) < low)
+    inverse = reduction.inverse
+    if len(rounds) > 1 and ring.m:
+        derived = derivatives(rest, ring, this.order - 1)
+        below = descend(derived, [0] * ring.m, rounds[1:], order, along)
+        if below is None:
+            return None
+        v, remaining, last = below.displacement, below.remaining, below.ring
+        defect, inverse = max(defect, below.defect), max(inverse, below.inverse)
+    else:
+        v = list(along) if along is not None else [flint.acb(0)] * ring.m
+        remaining, last = rest, ring
+    displacement = [
+        flint.acb(evaluate(image, ring, v)) - c
+        for image, c in zip(reduction.images, centre, strict=True)
+    ]
+    return Descent(displacement, last, remaining, defect, inverse)
+
+
+def sharpen(
+    system: ExactSystem, x: Sequence[flint.acb], rounds: Sequence[Round], digits: int = DIGITS
+) -> tuple[Point, Descent] | None:
+    """The zero of the rounds' equations next to ``x``, by Newton's method; None if not found."""
+    rows, last, point = system.at(digits), inf, list(x)
+    # The steps converge quadratically with series of order one in the last round, and cubically,
+    # but at the price of longer series, with order two.
+    corank = len(point) - len(rounds[0].columns)
+    order = 0 if len(rounds) == 1 else 2 if corank < 3 else 1
+    for step in range(NEWTON_STEPS):
+        found = descend(rows, point, rounds, order)
+        if found is None or found.inverse > LARGEST_INVERSE:
+            return None
+        size = log_norm(found.displacement)
+        arrived = max(ARRIVED + DIGITS, ROUNDING + found.inverse) - digits
+        if size > -0.3 or (step > 3 and size > last - 1.0 and size > arrived):
+            return None
+        point = [middle(a + b) for a, b in zip(point, found.displacement, strict=True)]
+        if size < arrived:
+            return point, found
+        last = size
+    return None
+
+
+def lowest_order(ring: SeriesRing, series: Sequence[Series], reach: float) -> int | None:
+    """The degree of the lowest terms at a zero no further from the origin than ``reach``.
+
+    A term of degree d at the zero makes terms of lower degrees at the origin, at most as large as
+    a shift by ``reach`` allows; the lowest that are larger are no such shadows. None if there is
+    nothing but zeros, shadows and what stands at the end of the series.
+
+    Args:
+        reach: decimal logarithm.
+    """
+    norms = [-inf] * (ring.order + 1)
+    for s in series:
+        for key, c in s.items():
+            degree = ring.degree(key)
+            norms[degree] = max(norms[degree], log_size(c))
+    for j in range(1, ring.order):
+        shadow = max(
+            norms[e] + log10(comb(e, j)) + (e - j) * reach for e in range(j + 1, len(norms))
+        )
+        if norms[j] > max(ZERO, shadow + 0.5):
+            return j
+    return None
+
+
+def _pivots(
+    rows: Sequence[Terms], centre: Point, reach: float, rng: np.random.Generator
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    n = len(centre)
+    size = flint.arb(10) ** flint.arb(reach)
+    shifts = np.exp(2j * np.pi * rng.random((2, n)))
+
+    def at(i: int) -> list[list[flint.acb]]:
+        point = centre
+        if i:
+            moves = shifts[i - 1].tolist()
+            point = [c + middle(size * flint.acb(s)) for c, s in zip(centre, moves, strict=True)]
+        return jacobian(rows, point)
+
+    solved, columns = pivots(at, n, len(shifts), ZERO)
+    return tuple(solved), tuple(columns)
+
+
+def deflate(
+    system: ExactSystem, x: Sequence[flint.acb], reach: float, rng: np.random.Generator
+) -> Deflated:
+    """Rounds that make the zero within ``reach`` of ``x`` regular, and that zero.
+
+    Where what remains after a round vanishes to all orders that were looked at, the point is left
+    as it is in the variables that remain (`Deflated.free` of them): a smooth set of zeros seems to
+    pass through it.
+
+    Args:
+        system: equations, exact.
+        x: in the system's scaled variables.
+        reach: decimal logarithm of how far the zero may be.
+
+    Raises:
+        NotDeflated: if the rounds lead nowhere, or away from ``x``.
+    """
+    with working(DIGITS):
+        rounds: list[Round] = []
+        rows: Sequence[Terms] = system.at(DIGITS)
+        point, centre = list(x), list(x)
+        while True:
+            rounds.append(Round(*_pivots(rows, centre, reach, rng)))
+            left = len(centre) - len(rounds[-1].columns)
+            if len(rounds) > 1 and left == len(centre):
+                raise NotDeflated("its error is too large to see which derivatives vanish there")
+            found = sharpen(system, point, rounds)
+            if found is None:
+                raise NotDeflated("Newton's method does not converge to a zero there")
+            point, descent = found
+            if log_norm(a - b for a, b in zip(point, x, strict=True)) > max(reach + 1, ARRIVED):
+                raise NotDeflated("the zero found is further away than the error of the point")
+            if not left:
+                return _regular(system, point, rounds, descent)
+            lowest = _lowest_terms(system, point, rounds, reach)
+            if lowest is None:
+                return Deflated(point, tuple(rounds), left, descent.defect, descent.inverse)
+            order, descent = lowest
+            rounds[-1] = replace(rounds[-1], order=order)
+            rows = derivatives(descent.remaining, descent.ring, order - 1)
+            centre = [flint.acb(0)] * left
+
+
+def _regular(
+    system: ExactSystem, point: Point, rounds: Sequence[Round], descent: Descent
+) -> Deflated:
+    """The zero that the rounds determine, to as many digits whatever its condition."""
+    found: tuple[Point, Descent] | None = (point, descent)
+    if descent.inverse > ARRIVED + DIGITS - ROUNDING:
+        digits = DIGITS + int(descent.inverse)
+        with working(digits):
+            found = sharpen(system, point, rounds, digits)
+        if found is None:
+            raise NotDeflated("Newton's method does not converge in more digits")
+    point, descent = found
+    return Deflated(point, tuple(rounds), 0, descent.defect, descent.inverse)
+
+
+def _lowest_terms(
+    system: ExactSystem, point: Point, rounds: Sequence[Round], reach: float
+) -> tuple[int, Descent] | None:
+    from nag.numerics.curves import smooth_set
+
+    left = len(point) - sum(len(r.columns) for r in rounds)
+    least, most = 0.0, MOST_WORK
+    for order in ORDERS:
+        if order < min(least, ORDERS[-1]):
+            continue
+        if work(len(point) - len(rounds[0].columns), total_order(rounds, order), rounds) > most:
+            raise NotDeflated(f"its series in {left} variables are too long at order {order}")
+        descent = descend(system.at(DIGITS), point, rounds, order)
+        assert descent is not None
+        found = lowest_order(descent.ring, descent.remaining, reach)
+        if found is not None:
+            return found, descent
+        if log_norm(c for s in descent.remaining for c in s.values()) > ZERO:
+            most = MOST_WORK_ROUGHLY
+        elif not least:
+            least = smooth_set(system, point, rounds)
+            if least == 0:
+                return None
+    raise NotDeflated(f"nothing is seen of what remains to order {ORDERS[-1]}")

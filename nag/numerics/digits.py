@@ -1,0 +1,69 @@
+"""Complex numbers of many digits: FLINT's balls, used by their midpoints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from contextlib import AbstractContextManager
+from fractions import Fraction
+
+import flint
+import numpy as np
+
+from nag.algebra.number import Number, to_mpf
+
+LOG10_2 = 0.30102999566398120
+
+
+def working(digits: int) -> AbstractContextManager[object]:
+    """A context in which arithmetic has so many decimal digits."""
+    return flint.ctx.workdps(digits)
+
+
+def number(c: Number | complex | int | flint.acb) -> flint.acb:
+    """``c`` at the working precision; doubles are exact."""
+    if isinstance(c, flint.acb):
+        return c
+    if isinstance(c, Fraction):
+        return flint.acb(flint.arb(flint.fmpq(c.numerator, c.denominator)))
+    if isinstance(c, int | float | complex | np.number):
+        return flint.acb(complex(c)) if not isinstance(c, int) else flint.acb(c)
+    sign, mantissa, exponent, _ = to_mpf(c, flint.ctx.dps + 5)._mpf_
+    value = flint.arb(int(-mantissa if sign else mantissa))
+    return flint.acb(value * flint.arb(2) ** int(exponent))
+
+
+def point(x: Iterable[complex | str | tuple[str, str] | flint.acb]) -> list[flint.acb]:
+    """A point of exact doubles, decimal texts (real and imaginary ones in pairs) or balls."""
+    result = []
+    for v in x:
+        if isinstance(v, str):
+            v = (v, "0")
+        result.append(middle(flint.acb(*map(flint.arb, v)) if isinstance(v, tuple) else number(v)))
+    return result
+
+
+def middle(z: flint.acb) -> flint.acb:
+    """The midpoint of a ball, as an exact number."""
+    return flint.acb(z.real.mid(), z.imag.mid())
+
+
+def _log2(a: flint.arb) -> float:
+    mantissa, exponent = a.mid().man_exp()
+    return float(int(mantissa).bit_length() + int(exponent)) if mantissa else -np.inf
+
+
+def log_size(z: flint.acb | int) -> float:
+    """The decimal logarithm of ``|z|`` to within a factor of three; also beyond doubles' range."""
+    if isinstance(z, int):
+        return LOG10_2 * z.bit_length() if z else -np.inf
+    return LOG10_2 * max(_log2(z.real), _log2(z.imag))
+
+
+def log_norm(values: Iterable[flint.acb]) -> float:
+    """The decimal logarithm of the largest absolute value, roughly; ``-inf`` if there is none."""
+    return max(map(log_size, values), default=-np.inf)
+
+
+def doubles(x: Sequence[flint.acb]) -> np.ndarray:
+    """The point rounded, shape ``(n,)``."""
+    return np.array([complex(v) for v in x], dtype=complex)

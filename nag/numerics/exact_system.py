@@ -1,0 +1,129 @@
+"""Exact polynomials, scaled about a point, at any number of digits and modulo primes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from math import floor, log2, prod
+from typing import Any
+
+import flint
+import numpy as np
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.digits import log_norm, number
+from nag.numerics.power_series import Terms
+
+
+@dataclass(frozen=True, eq=False)
+class ExactSystem:
+    """Polynomials in scaled variables ``y_i = x_i / 2^scales_i``, coefficients of order one.
+
+    Attributes:
+        n: number of variables.
+        rows: exponents and exact coefficients of each polynomial.
+        scales: integers, ``n`` of them.
+    """
+
+    n: int
+    rows: tuple[tuple[tuple[tuple[int, ...], Any], ...], ...]
+    scales: tuple[int, ...]
+    _known: dict[int, list[Terms]] = field(default_factory=dict, repr=False)
+
+    @classmethod
+    def of(
+        cls,
+        polynomials: Sequence[Polynomial],
+        x: np.ndarray,
+        slices: np.ndarray | None = None,
+    ) -> ExactSystem:
+        """The polynomials and slices, rows on ``(1, x)``, scaled to coordinates of at most one."""
+        n = len(x)
+        sizes = np.maximum(np.abs(np.asarray(x, dtype=complex)), 1.0)
+        scales = tuple(int(k) for k in np.ceil(np.log2(sizes)))
+        rows = [_scaled(f.terms.items(), scales) for f in polynomials if f]
+        units = [tuple(int(i == j) for j in range(n)) for i in range(n)]
+        for a in np.zeros((0, 1 + n)) if slices is None else slices:
+            rows.append(_scaled(zip([(0,) * n, *units], map(complex, a), strict=True), scales))
+        return cls(n, tuple(rows), scales)
+
+    def with_row(self, row: Sequence[tuple[tuple[int, ...], Any]]) -> ExactSystem:
+        """The system with one more polynomial in the scaled variables."""
+        return ExactSystem(self.n, (*self.rows, tuple(row)), self.scales)
+
+    def at(self, digits: int) -> list[Terms]:
+        """The rows with coefficients of so many digits."""
+        if digits not in self._known:
+            with flint.ctx.workdps(digits):
+                self._known[digits] = [[(e, number(c)) for e, c in row] for row in self.rows]
+        return self._known[digits]
+
+    def modulo(self, p: int) -> list[Terms]:
+        """The rows modulo a prime.
+
+        Raises:
+            ZeroDivisionError: if it divides a denominator.
+        """
+        return [[(e, modular(c, p)) for e, c in row] for row in self.rows]
+
+    @property
+    def rational(self) -> bool:
+        return all(isinstance(c, Fraction) for row in self.rows for _, c in row)
+
+    @cached_property
+    def most_zeros(self) -> float:
+        """Bezout's bound of the multiplicity of an isolated zero; 0 if none is isolated."""
+        degrees = sorted((max(sum(e) for e, _ in row) for row in self.rows), reverse=True)
+        return float(prod(degrees[: self.n])) if len(degrees) >= self.n else 0.0
+
+    def log_residual(self, y: Sequence[flint.acb], digits: int) -> float:
+        """Decimal logarithm of the largest value at a point of so many digits."""
+        with flint.ctx.workdps(digits):
+            return log_norm(_value(row, y) for row in self.at(digits))
+
+    def vanishes_exactly(self, y: Sequence[Fraction]) -> bool:
+        """Whether all rows vanish at a rational point."""
+        return all(_value(row, y) == 0 for row in self.rows)
+
+
+def modular(c: Fraction, p: int) -> int:
+    """A rational number modulo a prime; `ZeroDivisionError` if that divides its denominator."""
+    if c.denominator % p == 0:
+        raise ZeroDivisionError(f"{p} divides a denominator")
+    return c.numerator * pow(c.denominator, -1, p) % p
+
+
+def _value(row: Terms, y: Sequence[Any]) -> Any:
+    total: Any = 0
+    for e, c in row:
+        for x, k in zip(y, e, strict=True):
+            if k:
+                c = c * x**k
+        total = total + c
+    return total
+
+
+def _log2(c: Number | complex) -> float:
+    if isinstance(c, Fraction):
+        return log2(abs(c.numerator)) - log2(c.denominator)
+    return float(np.log2(abs(complex(c) if isinstance(c, complex) else float(c))))
+
+
+def _scaled(
+    terms: Any, scales: tuple[int, ...]
+) -> tuple[tuple[tuple[int, ...], Number | complex], ...]:
+    """Terms in the scaled variables, over a power of two next to the largest."""
+    kept = [(e, c) for e, c in terms if not isinstance(c, complex) or c]
+    shifts = [sum(k * s for k, s in zip(e, scales, strict=True)) for e, _ in kept]
+    top = floor(max(_log2(c) + s for (_, c), s in zip(kept, shifts, strict=True)))
+    result = []
+    for (e, c), shift in zip(kept, shifts, strict=True):
+        if isinstance(c, complex):
+            c = complex(np.ldexp(c.real, shift - top), np.ldexp(c.imag, shift - top))
+        else:
+            c = c * Fraction(2) ** (shift - top)
+        result.append((e, c))
+    return tuple(result)

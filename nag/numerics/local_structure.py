@@ -1,0 +1,248 @@
+"""The judgement of a zero: deflation, the dual space of its local ring, zeros beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import log10
+from typing import Any
+
+import flint
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.clusters import close_zeros
+from nag.numerics.curves import curve_through
+from nag.numerics.deflation import DIGITS, MOST_WORK, Deflated, NotDeflated, deflate, work
+from nag.numerics.digits import doubles, log_norm, middle, point, working
+from nag.numerics.dual_space import DualSpace, dual_space
+from nag.numerics.exact_system import ExactSystem, modular
+from nag.numerics.implicit_function import eliminate
+from nag.numerics.null_space import Digits, Field, PrimeField, UnclearRank
+from nag.numerics.power_series import Series, SeriesRing
+from nag.numerics.rational_point import rational_point
+from nag.numerics.singular_point import Place, SingularEnd
+
+# Decimal logarithms of the factors by which the error may exceed what is claimed, in this order.
+REACHES = (1.0, 0.0, 2.0, 3.5)
+# Nothing is looked for further away than this.
+FURTHEST = -1.3
+PRIMES = (4611686018427387847, 4611686018427387817)
+# What is zero and what is not in 150 digits, where errors have grown through some eliminations.
+NUMBERS = Digits(DIGITS, -90.0, -45.0)
+# Degrees of the dual space from which on curves through the point are looked for, if it has not
+# become smaller for two degrees, and the highest degree.
+SEARCHES = (6, 14, 30)
+HIGHEST = 400
+# Written digits of a point.
+WRITTEN = 100
+# Clusters of clusters are not resolved further than this.
+DEEPEST = 3
+
+
+def judged(
+    polynomials: Sequence[Polynomial],
+    x: Sequence[Any] | np.ndarray,
+    accuracy: float,
+    rng: np.random.Generator,
+    slices: np.ndarray | None,
+) -> SingularEnd:
+    """See `nag.numerics.singular_point.analyse`."""
+    with working(DIGITS):
+        precise = point(x)
+        rounded = doubles(precise)
+        if not np.isfinite(rounded).all():
+            return _undecided(rounded, accuracy, "the point is not finite")
+        system = ExactSystem.of(polynomials, rounded, slices)
+        y = [middle(c / flint.arb(2) ** k) for c, k in zip(precise, system.scales, strict=True)]
+        reach = log10(max(accuracy, 1e-300))
+        return _judged(system, y, max(reach, 5.0 - DIGITS), rng, 0)
+
+
+def _judged(
+    system: ExactSystem,
+    y: Sequence[flint.acb],
+    claimed: float,
+    rng: np.random.Generator,
+    depth: int,
+) -> SingularEnd:
+    reasons: list[str] = []
+    tried: set[float] = set()
+    # Errors count relative to the whole point, the scales to each of its coordinates.
+    spread = 0.30103 * (max(system.scales, default=0) - min(system.scales, default=0))
+    for more in (*REACHES[:2], REACHES[0] + spread, *REACHES[2:]):
+        reach = min(claimed + more, max(FURTHEST, claimed))
+        if reach in tried:
+            continue
+        tried.add(reach)
+        try:
+            found = deflate(system, y, reach, rng)
+        except NotDeflated as reason:
+            reasons.append(str(reason))
+            continue
+        if found.exact:
+            return _at_zero(system, found, rng)
+        reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
+        if found.free or depth == DEEPEST:
+            continue
+        nearby = _resolved(system, found, reach, rng, depth)
+        if len(nearby) == 1 and (found.corank > 1 or nearby[0].place is Place.ON_COMPONENT):
+            return nearby[0]
+        if nearby:
+            return _cluster(system, found, nearby)
+    here = doubles(_unscaled(system, y))
+    return _undecided(here, 10**claimed, reasons[0] if reasons else "")
+
+
+def _at_zero(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> SingularEnd:
+    """The judgement of an exact zero."""
+    if found.free:
+        reason = "the equations vanish along a smooth set that was followed"
+        return _end(system, found, Place.ON_COMPONENT, 0, reason, found.free)
+    if not system.most_zeros:
+        reason = "there are fewer equations than variables"
+        missing = system.n - len(system.rows)
+        return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
+    if found.corank == 0:
+        return _end(system, found, Place.ISOLATED, 1, "the Jacobian is regular")
+    if found.corank == 1:
+        order = found.rounds[0].order
+        return _end(system, found, Place.ISOLATED, order, "the order of a power series")
+    try:
+        return _by_dual_space(system, found, rng)
+    except (UnclearRank, _TooLarge) as reason:
+        return _end(system, found, Place.UNDECIDED, 0, str(reason))
+
+
+def _by_dual_space(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> SingularEnd:
+    exact = rational_point(found.point, DIGITS) if system.rational else None
+    if exact is not None and not system.vanishes_exactly(exact):
+        raise UnclearRank("the equations vanish to all digits, but not at the rational point there")
+    search = _Search(system, found, rng)
+    spaces: list[DualSpace] = []
+    for field in [PrimeField(p) for p in PRIMES] if exact is not None else [NUMBERS]:
+        centre = found.point if exact is None else [modular(q, field.modulus) for q in exact]
+        spaces.append(_dual_space(system, field, centre, found, search.succeeds))
+        if search.dimension:
+            reason = "a curve of zeros was followed to the point"
+            return _end(system, found, Place.ON_COMPONENT, 0, reason, search.dimension)
+        if not spaces[-1].finite:
+            grown = ", ".join(map(str, spaces[-1].hilbert[:12]))
+            reason = f"its dual space grows on ({grown}, ...), but no curve through it was found"
+            return _end(system, found, Place.UNDECIDED, 0, reason)
+    # Modulo a prime a local ring may be larger than it is, but not smaller.
+    multiplicity = min(space.dimension for space in spaces)
+    reason = f"the dual space, of degree {len(spaces[0].hilbert) - 1}"
+    return _end(system, found, Place.ISOLATED, multiplicity, reason)
+
+
+@dataclass
+class _Search:
+    """Looks for a curve through a point when its dual space has grown for some degrees."""
+
+    system: ExactSystem
+    found: Deflated
+    rng: np.random.Generator
+    dimension: int = 0
+    times: int = 0
+
+    def succeeds(self, hilbert: Sequence[int]) -> bool:
+        growing = list(hilbert[-3:]) == sorted(hilbert[-3:])
+        if self.times < len(SEARCHES) and growing and len(hilbert) > SEARCHES[self.times]:
+            self.times += 1
+            self.dimension = curve_through(self.system, self.found, self.rng, 4 * self.times)
+        return self.dimension > 0
+
+
+class _TooLarge(Exception):
+    """Series would be too long."""
+
+
+def _dual_space(
+    system: ExactSystem,
+    field: Field,
+    centre: Sequence[Any],
+    found: Deflated,
+    stop: Callable[[Sequence[int]], bool],
+) -> DualSpace:
+    rows = system.modulo(field.modulus) if field.modulus else system.at(DIGITS)
+    first = found.rounds[0]
+
+    def series(order: int) -> tuple[SeriesRing, list[Series]]:
+        if work(found.corank, order, [first]) > MOST_WORK * (5 if field.modulus else 1):
+            raise _TooLarge(f"its series in {found.corank} variables are too long")
+        reduction = eliminate(rows, centre, first.rows, first.columns, order, field.modulus)
+        if reduction is None:
+            raise _TooLarge("the regular part is singular modulo a prime")
+        rest = [{k: c for k, c in s.items() if not field.is_zero(c)} for s in reduction.rest]
+        return reduction.ring, rest
+
+    return dual_space(field, found.corank, series, HIGHEST, stop)
+
+
+def _resolved(
+    system: ExactSystem, found: Deflated, reach: float, rng: np.random.Generator, depth: int
+) -> list[SingularEnd]:
+    """The zeros of a cluster about a point, each judged by itself."""
+    result: list[SingularEnd] = []
+    known: list[list[flint.acb]] = []
+    for start, size in close_zeros(system, found, reach, rng):
+        end = _judged(system, start, size - 4.0, rng, depth + 1)
+        if end.place is Place.ON_COMPONENT:
+            return [end]
+        for one in end.nearby or (end,):
+            if one.place is not Place.ISOLATED:
+                continue
+            place = point(one.digits)
+            apart = (log_norm(a - b for a, b in zip(place, p, strict=True)) for p in known)
+            if all(distance > 20.0 - WRITTEN for distance in apart):
+                known.append(place)
+                result.append(one)
+    return result
+
+
+def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]) -> SingularEnd:
+    total = sum(end.multiplicity for end in nearby)
+    reason = f"{len(nearby)} zeros close together, of multiplicities that add up to {total}"
+    end = _end(system, found, Place.CLUSTER, 0, reason)
+    spread = max(float(np.abs(one.point - end.point).max()) for one in nearby)
+    return SingularEnd(
+        end.point, end.place, 0, spread, np.inf, reason, digits=end.digits, nearby=tuple(nearby)
+    )
+
+
+def _unscaled(system: ExactSystem, y: Sequence[flint.acb]) -> list[flint.acb]:
+    return [c * flint.arb(2) ** k for c, k in zip(y, system.scales, strict=True)]
+
+
+def _end(
+    system: ExactSystem,
+    found: Deflated,
+    place: Place,
+    multiplicity: int,
+    reason: str,
+    dimension: int = 0,
+) -> SingularEnd:
+    x = _unscaled(system, found.point)
+    digits = tuple((_decimal(c.real), _decimal(c.imag)) for c in x)
+    exact = rational_point(x, DIGITS) if system.rational and not found.free else None
+    condition = 10.0 ** max(found.inverse, 0.0)
+    return SingularEnd(
+        doubles(x),
+        place,
+        multiplicity,
+        2.0**-52,
+        condition,
+        reason,
+        dimension,
+        digits,
+        tuple(exact) if exact is not None else None,
+    )
+
+
+def _decimal(a: flint.arb) -> str:
+    return a.mid().str(WRITTEN, radius=False)
+
+
+def _undecided(x: np.ndarray, accuracy: float, reason: str) -> SingularEnd:
+    return SingularEnd(x, Place.UNDECIDED, 0, accuracy, np.inf, reason)

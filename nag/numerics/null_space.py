@@ -1,0 +1,151 @@
+"""Null spaces in high precision and modulo a prime, behind one interface."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import flint
+import numpy as np
+import scipy.linalg
+
+from nag.numerics.digits import doubles, log_norm, middle
+
+Rows = Sequence[Sequence[Any]]
+
+
+class UnclearRank(Exception):
+    """A number is neither clearly zero nor clearly something else."""
+
+
+class Field(Protocol):
+    """What a computation over a field needs beside ``+`` and ``*``."""
+
+    modulus: int
+
+    def null_space(self, rows: Rows, columns: int) -> list[list[Any]]:
+        """A basis of the vectors that all rows annihilate."""
+        ...
+
+    def is_zero(self, a: Any) -> bool: ...
+
+    def inverse(self, a: Any) -> Any: ...
+
+    def largest(self, values: Sequence[Any]) -> int:
+        """The index of an entry to divide by."""
+        ...
+
+
+@dataclass(frozen=True)
+class PrimeField:
+    """Arithmetic modulo a prime."""
+
+    modulus: int
+
+    def is_zero(self, a: int) -> bool:
+        return a % self.modulus == 0
+
+    def inverse(self, a: int) -> int:
+        return pow(a, -1, self.modulus)
+
+    def largest(self, values: Sequence[int]) -> int:
+        return next(i for i, a in enumerate(values) if a % self.modulus)
+
+    def null_space(self, rows: Rows, columns: int) -> list[list[int]]:
+        if not rows:
+            return [[int(i == j) for j in range(columns)] for i in range(columns)]
+        entries = [int(c) % self.modulus for row in rows for c in row]
+        matrix = flint.nmod_mat(len(rows), columns, entries, self.modulus)
+        basis, nullity = matrix.nullspace()
+        return [[int(basis[i, j]) for i in range(columns)] for j in range(nullity)]
+
+
+@dataclass(frozen=True)
+class Digits:
+    """Complex numbers known to ``digits`` digits: what is below ``10^zero`` is zero.
+
+    What lies between that and ``10^clear``, beside entries of order one, is not decided.
+    """
+
+    digits: int
+    zero: float
+    clear: float
+    modulus: int = 0
+
+    def is_zero(self, a: flint.acb | int) -> bool:
+        return self._negligible(log_norm([a]))
+
+    def _negligible(self, size: float) -> bool:
+        if self.zero < size < self.clear:
+            raise UnclearRank(f"a number of 1e{size:.0f} may be zero or not")
+        return size <= self.zero
+
+    def inverse(self, a: flint.acb) -> flint.acb:
+        return middle(1 / flint.acb(a))
+
+    def largest(self, values: Sequence[flint.acb]) -> int:
+        return max(range(len(values)), key=lambda i: log_norm([values[i]]))
+
+    def null_space(self, rows: Rows, columns: int) -> list[list[flint.acb]]:
+        """Elimination in blocks: doubles choose a well-conditioned one, digits do the rest."""
+        matrix = [[flint.acb(c) for c in row] for row in rows]
+        left, chosen = self._echelon(matrix, columns)
+        free = [j for j in range(columns) if j not in chosen]
+        basis = []
+        solution: Any = None
+        if chosen and free:
+            block = flint.acb_mat([[matrix[i][j] for j in chosen] for i in left])
+            right = flint.acb_mat([[matrix[i][j] for j in free] for i in left])
+            solution = block.solve(right)
+        for k, j in enumerate(free):
+            vector = [flint.acb(0)] * columns
+            vector[j] = flint.acb(1)
+            for i, c in enumerate(chosen):
+                vector[c] = middle(-solution[i, k])
+            basis.append(vector)
+        return basis
+
+    def _echelon(self, matrix: list[list[flint.acb]], columns: int) -> tuple[list[int], list[int]]:
+        """Rows and columns of a regular block beside which nothing else is left."""
+        rows: list[int] = []
+        chosen: list[int] = []
+        while True:
+            others = [i for i in range(len(matrix)) if i not in rows]
+            free = [j for j in range(columns) if j not in chosen]
+            rest = _schur_complement(matrix, rows, chosen, others, free)
+            size = log_norm(c for row in rest for c in row)
+            if not others or not free or self._negligible(size):
+                return rows, chosen
+            scale = flint.arb(10) ** flint.arb(int(size))
+            block = np.array([doubles([c / scale for c in row]) for row in rest])
+            i, j = _well_conditioned(block)
+            rows += [others[k] for k in i]
+            chosen += [free[k] for k in j]
+
+
+def _schur_complement(
+    matrix: list[list[flint.acb]],
+    rows: list[int],
+    chosen: list[int],
+    others: list[int],
+    free: list[int],
+) -> list[list[flint.acb]]:
+    rest = [[matrix[i][j] for j in free] for i in others]
+    if not rows or not others or not free:
+        return rest
+    block = flint.acb_mat([[matrix[i][j] for j in chosen] for i in rows])
+    right = flint.acb_mat([[matrix[i][j] for j in free] for i in rows])
+    below = flint.acb_mat([[matrix[i][j] for j in chosen] for i in others])
+    found = flint.acb_mat(rest) - below * block.solve(right).mid()
+    return [[middle(c) for c in row] for row in found.tolist()]
+
+
+def _well_conditioned(block: np.ndarray) -> tuple[list[int], list[int]]:
+    """Rows and columns of a block that doubles see to be regular, as large as possible."""
+    r, columns = scipy.linalg.qr(block, mode="r", pivoting=True)
+    diagonal = np.abs(np.diag(r))
+    rank = max(1, int(np.sum(diagonal > 1e-8 * diagonal[0])))
+    chosen = columns[:rank]
+    _, rows = scipy.linalg.qr(block[:, chosen].T, mode="r", pivoting=True)
+    return [int(i) for i in rows[:rank]], [int(j) for j in chosen]

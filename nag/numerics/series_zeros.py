@@ -1,0 +1,96 @@
+"""Zeros of truncated power series at a small scale, in doubles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import flint
+import numpy as np
+
+from nag.numerics.power_series import Series, SeriesRing
+
+STEPS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class ScaledSeries:
+    """Series ``s(r u)`` as polynomials in ``u``, each divided by its largest coefficient.
+
+    Attributes:
+        m: number of variables.
+        exponents: int, shape ``(M, m)``.
+        rows: complex, shape ``(R, M)``.
+    """
+
+    m: int
+    exponents: np.ndarray
+    rows: np.ndarray
+
+    @classmethod
+    def of(cls, ring: SeriesRing, series: Sequence[Series], size: float) -> ScaledSeries:
+        """At the scale ``r = 10^size``, which may be far below the range of doubles' squares."""
+        keys = sorted({k for s in series for k in s}) or [0]
+        place = {k: i for i, k in enumerate(keys)}
+        scale = flint.arb(10) ** flint.arb(size)
+        rows = []
+        for s in series:
+            values = {k: flint.acb(c) * scale ** ring.degree(k) for k, c in s.items()}
+            largest = max((v.abs_upper() for v in values.values()), default=flint.arb(0))
+            if not largest > 0:
+                continue
+            row = np.zeros(len(keys), dtype=complex)
+            for k, v in values.items():
+                row[place[k]] = complex(v / largest)
+            rows.append(row)
+        exponents = np.array([ring.exponents(k) for k in keys], dtype=np.int64)
+        table = np.array(rows, dtype=complex).reshape(len(rows), len(keys))
+        return cls(ring.m, exponents.reshape(len(keys), ring.m), table)
+
+    def coefficients(self, order: int) -> np.ndarray:
+        """In one variable: the coefficients of the row with the largest one of that order."""
+        result = np.zeros((len(self.rows), order + 1), dtype=complex)
+        for column, (k,) in enumerate(self.exponents.tolist()):
+            if k <= order:
+                result[:, k] = self.rows[:, column]
+        return result[np.abs(result[:, order]).argmax()]
+
+    def _values(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        top = int(self.exponents.max(initial=0))
+        powers = np.ones((self.m, top + 1), dtype=complex)
+        for k in range(1, top + 1):
+            powers[:, k] = powers[:, k - 1] * u
+        factors = powers[np.arange(self.m), self.exponents]
+        values = self.rows @ factors.prod(axis=1)
+        jacobian = np.zeros((len(self.rows), self.m), dtype=complex)
+        for i in range(self.m):
+            lowered = factors.copy()
+            k = self.exponents[:, i]
+            lowered[:, i] = k * powers[i, np.maximum(k - 1, 0)]
+            jacobian[:, i] = self.rows @ lowered.prod(axis=1)
+        return values, jacobian
+
+    def newton(self, u: np.ndarray, plane: np.ndarray | None = None) -> np.ndarray | None:
+        """Gauss-Newton from ``u``, on the hyperplane ``plane u = 1`` if there is one.
+
+        It converges slowly to multiple zeros; None where it does not at all.
+        """
+        step = np.inf
+        for _ in range(STEPS):
+            with np.errstate(all="ignore"):
+                values, jacobian = self._values(u)
+                if plane is not None:
+                    values = np.append(values, plane @ u - 1)
+                    jacobian = np.vstack([jacobian, plane])
+                if not (np.isfinite(values).all() and np.isfinite(jacobian).all()):
+                    return None
+                delta, *_ = np.linalg.lstsq(jacobian, values, rcond=1e-12)
+            u = u - delta
+            step = float(np.abs(delta).max(initial=0.0))
+            if step > 1e3 * (1 + np.abs(u).max(initial=0.0)):
+                return None
+            if step < 1e-14 * (1 + np.abs(u).max(initial=0.0)):
+                break
+        values, _ = self._values(u)
+        small = 1e-6 * max(1.0, float(np.abs(u).max(initial=0.0))) ** 2
+        return u if step < 1e-2 and np.abs(values).max(initial=0.0) < small else None

@@ -1,0 +1,81 @@
+"""What is decided at a singular zero: the sharpened point, where it lies, its multiplicity."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+
+if TYPE_CHECKING:
+    import flint
+
+
+class Place(Enum):
+    """How a zero lies in the solution set."""
+
+    ISOLATED = "isolated"
+    ON_COMPONENT = "on a component of positive dimension"
+    CLUSTER = "one of several zeros close together"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, eq=False)
+class SingularEnd:
+    """A zero that may be singular.
+
+    Attributes:
+        point: the sharpened zero, rounded, shape ``(n,)``; where nothing was decided, as given.
+        place: where it lies.
+        multiplicity: the dimension of its local ring if isolated (1 if it is regular), else 0.
+        accuracy: relative error of ``point``.
+        condition: of the deflated equations there; ``inf`` where there are none.
+        reason: what the judgement rests on, or why there is none.
+        dimension: of a set of zeros through the point: a lower bound; 0 if isolated.
+        digits: real and imaginary parts as decimals, to 100 digits; empty if undecided.
+        rational: the exact coordinates, if they are rational.
+        nearby: the zeros of a cluster, each judged by itself.
+    """
+
+    point: np.ndarray
+    place: Place
+    multiplicity: int
+    accuracy: float
+    condition: float
+    reason: str = ""
+    dimension: int = 0
+    digits: tuple[tuple[str, str], ...] = ()
+    rational: tuple[Fraction, ...] | None = None
+    nearby: tuple[SingularEnd, ...] = ()
+
+
+def analyse(
+    polynomials: Sequence[Polynomial],
+    x: np.ndarray | Sequence[complex | str | tuple[str, str] | flint.acb],
+    accuracy: float,
+    rng: np.random.Generator,
+    slices: np.ndarray | None = None,
+) -> SingularEnd:
+    """Sharpen a zero, and decide whether it is isolated, and of which multiplicity.
+
+    That it is multiple is decided at an exact zero of exact deflated equations, known to 125
+    digits, where all that should vanish is below 1e-100; that it is isolated by the dual space of
+    its local ring (modulo two primes of 62 bits if the point is rational, in 150 digits else); that
+    it is not by following a set of zeros from it, exact in the same sense at every point.
+
+    Args:
+        polynomials: exact, in ``n`` variables.
+        x: the point: complex doubles, decimal texts (or pairs of them, real and imaginary parts),
+            or `flint.acb`.
+        accuracy: how far the zero may be, relative to the size of ``x`` or to one.
+        rng: chooses directions and hyperplanes.
+        slices: further linear equations as rows on ``(1, x)``, complex, taken as exact.
+    """
+    from nag.numerics.local_structure import judged
+
+    return judged(polynomials, x, accuracy, rng, slices)

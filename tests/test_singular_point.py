@@ -1,0 +1,147 @@
+"""What is decided at singular zeros: isolated and of which multiplicity, or on a component."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from singular_zeros import ISOLATED, ON_COMPONENTS, Zero, polynomials
+
+from nag.numerics.singular_point import Place, SingularEnd, analyse
+
+LARGE = {"DZ1", "two curves of order 40"}
+
+
+def judged(zero: Zero, error: float, seed: int) -> SingularEnd:
+    rng = np.random.default_rng(seed)
+    return analyse(zero.polynomials, zero.beside(error, rng), error, rng)
+
+
+@pytest.mark.parametrize("name", sorted(set(ISOLATED) - LARGE))
+@pytest.mark.parametrize("error", [1e-4, 1e-10])
+def test_an_isolated_zero_has_the_dimension_of_its_local_ring(name: str, error: float) -> None:
+    zero = ISOLATED[name]
+    end = judged(zero, error, seed=1)
+    assert (end.place, end.multiplicity) == (Place.ISOLATED, zero.multiplicity), end.reason
+    assert np.abs(end.point - zero.point).max() < 1e-15 * max(1, np.abs(zero.point).max())
+
+
+@pytest.mark.parametrize("name", sorted(LARGE))
+def test_a_local_ring_of_large_dimension_is_told_from_a_curve(name: str) -> None:
+    end = judged(ISOLATED[name], 1e-10, seed=0)
+    assert (end.place, end.multiplicity) == (Place.ISOLATED, ISOLATED[name].multiplicity)
+
+
+@pytest.mark.parametrize("power", [100, 200])
+def test_a_high_power_has_its_multiplicity(power: int) -> None:
+    end = judged(Zero.of("x", f"x^{power}", [0], power), 1e-4, seed=0)
+    assert (end.place, end.multiplicity) == (Place.ISOLATED, power)
+
+
+@pytest.mark.parametrize("name", sorted(set(ISOLATED) - LARGE - {"DZ2"}))
+def test_changes_of_coordinates_change_no_multiplicity(name: str) -> None:
+    for seed in range(2):
+        changed = ISOLATED[name].changed(np.random.default_rng(seed))
+        end = judged(changed, 1e-7, seed)
+        assert (end.place, end.multiplicity) == (Place.ISOLATED, changed.multiplicity), end.reason
+
+
+@pytest.mark.parametrize("name", sorted(ON_COMPONENTS))
+@pytest.mark.parametrize("error", [1e-4, 1e-10])
+def test_a_point_on_a_component_is_not_isolated(name: str, error: float) -> None:
+    end = judged(ON_COMPONENTS[name], error, seed=2)
+    assert end.place is Place.ON_COMPONENT, end.reason
+    assert end.dimension > 0
+    assert end.multiplicity == 0
+
+
+@pytest.mark.parametrize("name", sorted(ON_COMPONENTS))
+def test_changes_of_coordinates_isolate_no_point(name: str) -> None:
+    changed = ON_COMPONENTS[name].changed(np.random.default_rng(5))
+    assert judged(changed, 1e-7, seed=5).place is Place.ON_COMPONENT
+
+
+@pytest.mark.parametrize("power", [8, 20, 40])
+def test_two_zeros_close_together_are_not_one_double_zero(power: int) -> None:
+    system = polynomials("x y", f"(x - 1)^2 - y - 1/10^{2 * power}", "y")
+    end = analyse(system, np.array([1, 0]), 1e-6, np.random.default_rng(0))
+    assert end.place is Place.CLUSTER
+    assert [(z.place, z.multiplicity) for z in end.nearby] == [(Place.ISOLATED, 1)] * 2
+    apart = Fraction(1, 10**power)
+    assert {z.rational for z in end.nearby} == {(1 + apart, 0), (1 - apart, 0)}
+
+
+def test_a_double_zero_close_to_a_simple_one_is_told_from_a_triple_one() -> None:
+    system = polynomials("x y", "(x - 1)^2*(x - 1 - 1/10^20) - y", "y - y^2")
+    end = analyse(system, np.array([1, 0]), 1e-6, np.random.default_rng(0))
+    assert end.place is Place.CLUSTER
+    known = {((Fraction(1), 0), 2), ((1 + Fraction(1, 10**20), 0), 1)}
+    assert {(z.rational, z.multiplicity) for z in end.nearby} == known
+
+
+def test_four_zeros_close_together_in_two_variables_are_all_found() -> None:
+    system = polynomials("x y", "x^2 - 2/10^30", "y^2 - x*y - 1/10^30")
+    end = analyse(system, np.array([1e-9, 0]), 1e-8, np.random.default_rng(0))
+    assert end.place is Place.CLUSTER
+    assert [z.multiplicity for z in end.nearby] == [1] * 4
+    assert all(abs(abs(z.point[0]) - 2**0.5 * 1e-15) < 1e-30 for z in end.nearby)
+
+
+def test_a_hyperbola_close_to_two_lines_is_a_curve_through_its_points() -> None:
+    system = polynomials("x y z", "x*y - 1/10^20", "z", "z*(x - y)")
+    end = analyse(system, np.array([1e-9, 0, 0]), 1e-8, np.random.default_rng(0))
+    assert end.place is Place.ON_COMPONENT
+
+
+def test_equations_that_nearly_vanish_have_no_zero_there() -> None:
+    system = polynomials("x y", "x^2 - 2", "y - x", "x*y - 2 - 1/10^20")
+    end = analyse(system, np.array([2**0.5] * 2), 1e-12, np.random.default_rng(0))
+    assert end.place is Place.UNDECIDED
+    assert "1e-20" in end.reason or "1e-19" in end.reason
+
+
+def test_a_regular_zero_has_multiplicity_one() -> None:
+    system = polynomials("x y", "x^2 - 2", "y - x", "x*y - 2")
+    end = analyse(system, np.array([2**0.5] * 2), 1e-12, np.random.default_rng(0))
+    assert (end.place, end.multiplicity) == (Place.ISOLATED, 1)
+
+
+def test_irrational_coefficients_are_taken_to_all_digits() -> None:
+    system = polynomials("x y", "(x - sqrt(2))^2", "(y - x)^3")
+    end = analyse(system, np.array([2**0.5] * 2), 1e-9, np.random.default_rng(0))
+    assert (end.place, end.multiplicity) == (Place.ISOLATED, 6)
+    assert end.digits[0][0].startswith("1.41421356237309504880168872420969807856967187537694")
+
+
+def test_a_point_may_be_given_by_more_digits_than_doubles_have() -> None:
+    system = polynomials("x", "x*(x - 1/10^20)")
+    one = analyse(system, ["1e-20"], 1e-30, np.random.default_rng(0))
+    assert (one.place, one.multiplicity, one.rational) == (
+        Place.ISOLATED,
+        1,
+        (Fraction(1, 10**20),),
+    )
+    both = analyse(system, [("1e-20", "0")], 1e-19, np.random.default_rng(0))
+    assert both.place is Place.CLUSTER
+
+
+def test_slices_are_further_equations() -> None:
+    system = polynomials("x y", "(y^2 - x^3)^3*y^2")
+    rng = np.random.default_rng(0)
+    slices = np.array([[-3 - 1j, 1 + 1j, 2]])
+    assert analyse(system, np.array([1, 1]), 1e-12, rng).place is Place.ON_COMPONENT
+    assert analyse(system, np.array([1, 1]), 1e-12, rng, slices).multiplicity == 3
+
+
+@pytest.mark.parametrize("size", [1e-8, 1e6])
+def test_the_size_of_the_coordinates_does_not_matter(size: float) -> None:
+    s = Fraction(size).limit_denominator(10**9)
+    system = polynomials("x y", f"(x - {s})^2", f"(y - x)^3/({s}) - (y - x)*(x - {s})")
+    end = analyse(system, np.array([size, size]), 1e-12, np.random.default_rng(0))
+    assert (end.place, end.multiplicity) == (Place.ISOLATED, 6)
+
+
+def test_the_same_seed_gives_the_same_answer() -> None:
+    first, second = (judged(ON_COMPONENTS["three lines"], 1e-6, seed=3) for _ in range(2))
+    assert first.digits == second.digits and first.reason == second.reason
