@@ -1,0 +1,184 @@
+"""Regular zeros of a family's systems, confirmed by the theorem of Newton and Kantorovich.
+
+Lengths are measured in each coordinate relative to its own size, so that a zero with coordinates of
+very different sizes is as good as any other. Let beta bound the Newton step at a point, and K the
+inverse Jacobian times the second derivatives nearby. If ``2 beta K <= 1`` there is exactly one zero
+within 1 / K, and it lies within 2 beta. Bounds are computed in doubles, with an allowance for the
+rounding of the residuals; where that is too much, residuals are evaluated in more digits.
+
+Reference: Ortega & Rheinboldt, Iterative Solution of Nonlinear Equations, 1970, 12.6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import mpmath
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator, PlacedDerivatives
+from nag.algebra.family import Family
+
+EPS = float(np.finfo(float).eps)
+# Newton steps in doubles at most, and with residuals in `DIGITS` digits.
+STEPS, FINE_STEPS, DIGITS = 4, 3, 50
+# Points at once; and how many are worth more digits, some 10 ms each.
+BLOCK, MOST_FINE = 512, 200
+# Second derivatives in the ball are at most so many times those at its centre, if its radius is
+# below a percent and degrees below 30.
+NEARBY = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class Confirmed:
+    """Points after Newton's method, shape ``(P, n)``, and what is known of them, shape ``(P,)``.
+
+    Attributes:
+        regular: whether there is exactly one zero within `isolation`, and none of others' balls
+            matters: the zero is regular.
+        accuracy: the zero's distance at most, in the coordinate where it is largest relative to it.
+        isolation: radius of the ball with one zero, measured in the same way.
+        condition: of the Jacobian, rows and columns scaled.
+        precision: decimal digits of the residuals.
+    """
+
+    points: np.ndarray
+    regular: np.ndarray
+    accuracy: np.ndarray
+    isolation: np.ndarray
+    condition: np.ndarray
+    precision: np.ndarray
+
+    def same(self, others: np.ndarray) -> np.ndarray:
+        """Whether the zeros near other points, shape ``(P, n)``, are those of these points."""
+        apart = np.abs(others - self.points) / _sizes(self.points)
+        return self.regular & (apart.max(axis=1) + self.accuracy <= self.isolation)
+
+
+@dataclass(frozen=True, eq=False)
+class Confirmation:
+    """Newton's method for the systems of a family with rational coefficients."""
+
+    family: Family
+
+    @cached_property
+    def _evaluator(self) -> Evaluator:
+        return Evaluator.of(self.family.polynomials, self.family.polynomials[0].n)
+
+    @cached_property
+    def _derivatives(self) -> PlacedDerivatives:
+        return self._evaluator.placed_derivatives(self.family.n)
+
+    def __call__(self, points: np.ndarray, values: np.ndarray) -> Confirmed:
+        """Newton's method from ``points``, shape ``(P, n)``, for parameters of shape ``(k,)``."""
+        blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)] or [points[:0]]
+        done = [self._block(block, values) for block in blocks]
+        fields = Confirmed.__dataclass_fields__
+        result = {f: np.concatenate([getattr(d, f) for d in done]) for f in fields}
+        for i in np.flatnonzero(~result["regular"] & np.isfinite(result["condition"]))[:MOST_FINE]:
+            fine = self._fine(result["points"][i], values)
+            if fine is not None and fine.regular[0]:
+                for f in fields:
+                    result[f][i] = getattr(fine, f)[0]
+        return Confirmed(**result)
+
+    def _scaled(self, points: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The Jacobian with columns scaled by the coordinates, and then rows; their factors."""
+        z = np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
+        matrix = self._derivatives(z) * _sizes(points)[:, None, :]
+        with np.errstate(divide="ignore"):
+            factor = 1 / np.abs(matrix).max(axis=2)
+        return matrix * factor[:, :, None], factor
+
+    def _block(self, points: np.ndarray, values: np.ndarray) -> Confirmed:
+        with np.errstate(all="ignore"):
+            finite = np.isfinite(points).all(axis=1)
+            points = np.where(finite[:, None], points, 1.0)
+            for _ in range(STEPS):
+                matrix, factor = self._scaled(points, values)
+                z = np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
+                residual = self._evaluator.values(z) * factor
+                step = _solved(matrix, residual)
+                step[~(np.abs(step).max(axis=1) < 0.5)] = 0.0
+                points = points - _sizes(points) * step
+                if np.abs(step).max(initial=0.0) < 64 * EPS:
+                    break
+            return self._judged(points, values, finite, None)
+
+    def _judged(
+        self, points: np.ndarray, values: np.ndarray, finite: np.ndarray, exact: np.ndarray | None
+    ) -> Confirmed:
+        """Kantorovich's bounds at points; ``exact`` are residuals without rounding errors."""
+        n = self.family.n
+        matrix, factor = self._scaled(points, values)
+        inverse = _inverses(matrix)
+        z = np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
+        sizes, second = self._evaluator.term_sizes(z, n)
+        if exact is None:
+            residual = np.abs(self._evaluator.values(z)) + 8 * EPS * sizes
+        else:
+            residual = np.abs(exact) + EPS * EPS * sizes
+        size = np.abs(inverse)
+        beta = (size @ (residual * factor)[:, :, None])[:, :, 0].max(axis=1)
+        K = NEARBY * (size @ (second * factor)[:, :, None])[:, :, 0].max(axis=1)
+        condition = np.linalg.norm(inverse, axis=(1, 2)) * np.linalg.norm(matrix, axis=(1, 2))
+        finite = finite & np.isfinite(condition)
+        regular = finite & (2 * beta * K <= 1) & (beta < 1e-3)
+        return Confirmed(
+            points,
+            regular,
+            np.where(regular, np.maximum(2 * beta, EPS), np.inf),
+            np.where(regular, 1 / np.maximum(K, 1e2), 0.0),
+            np.where(finite, condition, np.inf),
+            np.full(len(points), 16 if exact is None else DIGITS),
+        )
+
+    def _fine(self, point: np.ndarray, values: np.ndarray) -> Confirmed | None:
+        """The same for one point, with residuals in more digits."""
+        point = point[None]
+        with np.errstate(all="ignore"):
+            for _ in range(FINE_STEPS):
+                matrix, factor = self._scaled(point, values)
+                step = _solved(matrix, self._exact(point, values) * factor)
+                if not np.abs(step).max() < 0.5:
+                    return None
+                point = point - _sizes(point) * step
+                if np.abs(step).max() < 4 * EPS:
+                    break
+            return self._judged(point, values, np.ones(1, bool), self._exact(point, values))
+
+    def _exact(self, point: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """Values of the equations in more digits, scaled as the evaluator's, shape ``(1, n)``."""
+        with mpmath.workdps(DIGITS):
+            z = [mpmath.mpc(complex(x)) for x in (*point[0], *values)]
+            result = [
+                f(z, lambda c: mpmath.mpf(c.numerator) / c.denominator)
+                / float(max(abs(c) for c in f.terms.values()))
+                for f in self.family.polynomials
+            ]
+            return np.array([[complex(v) for v in result]])
+
+
+def _sizes(points: np.ndarray) -> np.ndarray:
+    """Sizes of the coordinates, none of them zero."""
+    return np.maximum(np.abs(points), 1e-30)
+
+
+def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Solutions of linear systems; not a number where a matrix is singular."""
+    try:
+        return np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
+    except np.linalg.LinAlgError:
+        return (_inverses(matrix) @ right[:, :, None])[:, :, 0]
+
+
+def _inverses(matrix: np.ndarray) -> np.ndarray:
+    try:
+        return np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        result = np.full_like(matrix, np.nan)
+        for i, m in enumerate(matrix):
+            if np.isfinite(m).all() and np.linalg.matrix_rank(m) == len(m):
+                result[i] = np.linalg.inv(m)
+        return result

@@ -1,0 +1,47 @@
+"""Scalings of unknowns and parameters that keep the equations of a family.
+
+The length unit of a mechanism is the simplest one; where all coefficients of an equation are
+parameters, they may be multiplied by a number.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nag.algebra.family import Family
+
+# Singular values of the matrix of differences of exponents, whole numbers, that are zero.
+ZERO = 1e-9
+
+
+def scaling_weights(family: Family) -> np.ndarray:
+    """Weights of unknowns and parameters for which all equations are homogeneous.
+
+    Returns:
+        A basis of them, shape ``(m, n + k)``, each largest weight one in absolute value. Those that
+        keep all parameters are left out.
+    """
+    n = family.n
+    size = n + len(family.parameters)
+    rows = [np.zeros((1, size))]
+    for f in family.polynomials:
+        exponents = np.array(list(f.terms), dtype=float).reshape(-1, size)
+        rows.append(exponents[1:] - exponents[:1])
+    _, singular, basis = np.linalg.svd(np.concatenate(rows), full_matrices=True)
+    rank = int((singular > ZERO * max(1.0, singular.max(initial=0.0))).sum())
+    kernel = basis[rank:]
+    # Of the kernel that part is kept which moves parameters.
+    _, moved, directions = np.linalg.svd(kernel[:, n:], full_matrices=False)
+    count = int((moved > ZERO).sum())
+    if not count:
+        return np.zeros((0, size))
+    coordinates = np.linalg.lstsq(kernel[:, n:].T, directions[:count].T, rcond=None)[0]
+    weights = coordinates.T @ kernel
+    return weights / np.abs(weights).max(axis=1, keepdims=True)
+
+
+def random_scaling(weights: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Factors of unknowns and parameters, shape ``(n + k,)``."""
+    m = len(weights)
+    exponents = rng.normal(scale=0.5, size=m) + 2j * np.pi * rng.random(m)
+    return np.exp(exponents @ weights)
