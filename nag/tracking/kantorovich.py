@@ -22,9 +22,11 @@ from nag.algebra.family import Family
 
 EPS = float(np.finfo(float).eps)
 # Newton steps in doubles at most, and with residuals in `DIGITS` digits.
-STEPS, FINE_STEPS, DIGITS = 4, 3, 50
+STEPS, FINE_STEPS, DIGITS = 8, 4, 50
 # Points at once; and how many are worth more digits, some 10 ms each.
 BLOCK, MOST_FINE = 512, 200
+# Steps that leave nothing to be gained in doubles, and those that promise convergence.
+SMALL, PROMISING = 1e-12, 1e-3
 # Second derivatives in the ball are at most so many times those at its centre, if its radius is
 # below a percent and degrees below 30.
 NEARBY = 1.5
@@ -75,36 +77,48 @@ class Confirmation:
         blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)] or [points[:0]]
         done = [self._block(block, values) for block in blocks]
         fields = Confirmed.__dataclass_fields__
-        result = {f: np.concatenate([getattr(d, f) for d in done]) for f in fields}
-        for i in np.flatnonzero(~result["regular"] & np.isfinite(result["condition"]))[:MOST_FINE]:
+        result = {f: np.concatenate([getattr(d, f) for d, _ in done]) for f in fields}
+        promising = np.concatenate([p for _, p in done])
+        for i in np.flatnonzero(promising)[:MOST_FINE]:
             fine = self._fine(result["points"][i], values)
             if fine is not None and fine.regular[0]:
                 for f in fields:
                     result[f][i] = getattr(fine, f)[0]
         return Confirmed(**result)
 
+    def _joined(self, points: np.ndarray, values: np.ndarray) -> np.ndarray:
+        return np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
+
     def _scaled(self, points: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The Jacobian with columns scaled by the coordinates, and then rows; their factors."""
-        z = np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
-        matrix = self._derivatives(z) * _sizes(points)[:, None, :]
+        matrix = self._derivatives(self._joined(points, values)) * _sizes(points)[:, None, :]
         with np.errstate(divide="ignore"):
             factor = 1 / np.abs(matrix).max(axis=2)
         return matrix * factor[:, :, None], factor
 
-    def _block(self, points: np.ndarray, values: np.ndarray) -> Confirmed:
+    def _block(self, points: np.ndarray, values: np.ndarray) -> tuple[Confirmed, np.ndarray]:
+        """The result in doubles, and which of the others Newton's method converges at."""
         with np.errstate(all="ignore"):
             finite = np.isfinite(points).all(axis=1)
             points = np.where(finite[:, None], points, 1.0)
+            length = np.zeros(len(points))
+            going = np.flatnonzero(finite)
             for _ in range(STEPS):
-                matrix, factor = self._scaled(points, values)
-                z = np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
-                residual = self._evaluator.values(z) * factor
+                here = points[going]
+                matrix, factor = self._scaled(here, values)
+                residual = self._evaluator.values(self._joined(here, values)) * factor
                 step = _solved(matrix, residual)
-                step[~(np.abs(step).max(axis=1) < 0.5)] = 0.0
-                points = points - _sizes(points) * step
-                if np.abs(step).max(initial=0.0) < 64 * EPS:
+                moved = _sizes(here) * step
+                size = np.abs(step).max(axis=1)
+                # A small coordinate may be wrong altogether where others are large.
+                near = np.abs(moved).max(axis=1) < 0.1 * (1 + np.abs(here).max(axis=1))
+                points[going[near]] = (here - moved)[near]
+                length[going] = size
+                going = going[near & (size > SMALL)]
+                if not len(going):
                     break
-            return self._judged(points, values, finite, None)
+            judged = self._judged(points, values, finite, None)
+            return judged, finite & ~judged.regular & (length < PROMISING)
 
     def _judged(
         self, points: np.ndarray, values: np.ndarray, finite: np.ndarray, exact: np.ndarray | None
@@ -113,14 +127,14 @@ class Confirmation:
         n = self.family.n
         matrix, factor = self._scaled(points, values)
         inverse = _inverses(matrix)
-        z = np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
+        z = self._joined(points, values)
         sizes, second = self._evaluator.term_sizes(z, n)
-        if exact is None:
-            residual = np.abs(self._evaluator.values(z)) + 8 * EPS * sizes
-        else:
-            residual = np.abs(exact) + EPS * EPS * sizes
+        residual = self._evaluator.values(z) if exact is None else exact
+        # Rounding of the residual, and of its product with the inverse.
+        noise = 8 * EPS * sizes if exact is None else n * EPS * np.abs(residual)
         size = np.abs(inverse)
-        beta = (size @ (residual * factor)[:, :, None])[:, :, 0].max(axis=1)
+        step = (inverse @ (residual * factor)[:, :, None])[:, :, 0]
+        beta = (np.abs(step) + (size @ (noise * factor)[:, :, None])[:, :, 0]).max(axis=1)
         K = NEARBY * (size @ (second * factor)[:, :, None])[:, :, 0].max(axis=1)
         condition = np.linalg.norm(inverse, axis=(1, 2)) * np.linalg.norm(matrix, axis=(1, 2))
         finite = finite & np.isfinite(condition)

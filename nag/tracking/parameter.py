@@ -10,26 +10,29 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nag.algebra.family import Family
 from nag.algebra.number import Number
-from nag.algebra.polynomial import Polynomial
-from nag.algebra.system import PolynomialSystem
+from nag.algebra.symmetric_family import SymmetricFamily
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.paths import PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.solutions import SolveResult
 from nag.tracking.solve import ends_of
+from nag.tracking.solve_classes import SolvedClasses, solve_classes, solved_by_monodromy
 from nag.tracking.start.choice import choose
+from nag.tracking.start.family_monodromy import Progress
 from nag.tracking.start.target import (
     Start,
     StartError,
     Target,
-    Terms,
     group_degrees,
     homogenized,
     unit,
 )
 from nag.tracking.track import track
+
+__all__ = ["Family", "Solved", "solve_family", "solve_generic"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,29 +42,63 @@ class Solved:
     Attributes:
         values: the parameters, complex, shape ``(k,)``.
         points: the isolated solutions there, shape ``(P, n)``.
-        complete: whether all paths to them arrived, at regular solutions.
+        complete: whether these are all: all paths to them arrived, at regular solutions, or loops
+            find no more of them than the number that is known.
+        detail: how they were found.
+        classes: one solution of each class, where only these are followed.
     """
 
     family: Family
     values: np.ndarray
     points: np.ndarray
     complete: bool
+    detail: str = ""
+    classes: SolvedClasses | None = None
 
 
 def solve_generic(
     family: Family,
     *,
     start: str = "auto",
+    symmetric: SymmetricFamily | None = None,
+    count: int | None = None,
     seed: int = 0,
     threads: int = 1,
     settings: Settings | str = "default",
+    progress: Progress | None = None,
 ) -> Solved:
     """Solve a family for random complex parameters.
 
+    Args:
+        family: what to solve.
+        start: a start system as for `nag.tracking.solve.solve`, or ``"parameters"``: from one
+            solution, which Newton's method finds together with its parameters, by loops of the
+            family's own parameters. That takes a few paths for each solution there is.
+        symmetric: with ``"parameters"``, symmetries of the family: one solution of each class is
+            followed, now and in `solve_family`.
+        count: with ``"parameters"``, the known number of solutions; without it an answer is not
+            called complete, as loops prove nothing.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: number of threads.
+        settings: tracking settings, of paths from a start system.
+        progress: called with a stage, the work done and the whole work or 0.
+
     Raises:
-        StartError: if there would be too many paths.
+        StartError: if there would be too many paths, or loops have nothing to begin with.
+        nag.algebra.rational_map.MapError: if the symmetries do not fit the family.
     """
     rng = np.random.default_rng(seed)
+    if start == "parameters":
+        given = symmetric or SymmetricFamily(family)
+        classes = solved_by_monodromy(given, count, rng, threads, progress)
+        return Solved(
+            family,
+            given.outer_values(classes.values),
+            given.outer(classes.members.reshape(-1, family.n)),
+            classes.complete,
+            classes.detail,
+            classes,
+        )
     values = unit(rng, len(family.parameters)) * (0.5 + rng.random(len(family.parameters)))
     target = Target(family.n, family.terms([complex(v) for v in values]))
     begin, _ = choose(target, start, (), rng, threads)
@@ -92,6 +129,11 @@ def solve_family(
             raise StartError(
                 f"target {number + 1}: {len(values)} values for {len(family.parameters)} parameters"
             )
+        if solved.classes is not None:
+            rng = np.random.default_rng([seed, number])
+            given = (solved.classes, values, rng, threads, settings, seed, name)
+            results.append(solve_classes(*given))
+            continue
         begin = _start(solved, values)
         paths = track(begin.homotopy, begin.points, settings, threads)
         reason = f"parameter homotopy: {len(begin.points)} solutions for random parameters"

@@ -23,11 +23,12 @@ def invariants(images: np.ndarray) -> np.ndarray:
         images: of each point all members of its class, in any order, shape ``(order, P, n)``.
     """
     rng = np.random.default_rng(7)
-    n = images.shape[2]
-    weights = rng.normal(size=(2, 1 + n, INVARIANTS)) + 1j * rng.normal(size=(2, 1 + n, INVARIANTS))
-    above, below = (w[0] + images @ w[1:] for w in weights)
-    quotients = above / below
-    powers = (1, 2) if len(images) > 1 else (1,)
+    order, count, n = images.shape
+    shape = (1 + n, 2 * INVARIANTS)
+    weights = rng.normal(size=shape) + 1j * rng.normal(size=shape)
+    values = weights[0] + images.reshape(order * count, n) @ weights[1:]
+    quotients = (values[:, :INVARIANTS] / values[:, INVARIANTS:]).reshape(order, count, INVARIANTS)
+    powers = (1, 2) if order > 1 else (1,)
     return np.concatenate([(quotients**k).mean(axis=0) for k in powers], axis=1)
 
 

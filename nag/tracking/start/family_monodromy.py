@@ -178,7 +178,12 @@ class _Tally:
     lost: int = 0
 
     def moved(
-        self, family: Family, threads: int, first: np.ndarray, second: np.ndarray, points: np.ndarray
+        self,
+        family: Family,
+        threads: int,
+        first: np.ndarray,
+        second: np.ndarray,
+        points: np.ndarray,
     ) -> np.ndarray:
         """Solutions moved from the first parameters to the second; lost ones are left out."""
         if not len(points):

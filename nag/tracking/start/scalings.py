@@ -12,6 +12,8 @@ from nag.algebra.family import Family
 
 # Singular values of the matrix of differences of exponents, whole numbers, that are zero.
 ZERO = 1e-9
+# Starts and steps of the search for the nearest scaling.
+TRIALS, NEWTON_STEPS = 8, 20
 
 
 def scaling_weights(family: Family) -> np.ndarray:
@@ -45,3 +47,28 @@ def random_scaling(weights: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     m = len(weights)
     exponents = rng.normal(scale=0.5, size=m) + 2j * np.pi * rng.random(m)
     return np.exp(exponents @ weights)
+
+
+def nearest_scaling(
+    weights: np.ndarray, values: np.ndarray, target: np.ndarray, rng: np.random.Generator
+) -> np.ndarray:
+    """Factors of unknowns and parameters that bring ``values`` near to ``target``.
+
+    The squared distance of the parameters is made small by Newton's method of Gauss, from random
+    factors and from one.
+    """
+    k = len(values)
+    best, nearest = np.zeros(len(weights), dtype=np.complex128), np.inf
+    W = weights[:, weights.shape[1] - k :]
+    for trial in range(TRIALS if len(weights) else 0):
+        exponents = np.zeros(len(W), dtype=np.complex128)
+        if trial:
+            exponents += rng.normal(size=len(W)) + 2j * np.pi * rng.random(len(W))
+        for _ in range(NEWTON_STEPS):
+            moved = values * np.exp(exponents @ W)
+            step = np.linalg.lstsq((moved * W).T, target - moved, rcond=None)[0]
+            exponents = exponents + step / max(1.0, float(np.abs(step).max(initial=0.0)))
+        distance = float(np.linalg.norm(values * np.exp(exponents @ W) - target))
+        if distance < nearest:
+            best, nearest = exponents, distance
+    return np.exp(best @ weights)
