@@ -1,9 +1,9 @@
 """Families of systems with a finite group of symmetries, and plane vectors as complex numbers.
 
 A vector ``(x1, x2)`` of the plane has the isotropic coordinates ``x = x1 + i x2`` and
-``x^ = x1 - i x2``, conjugate where the vector is real and independent otherwise. Rotations, and with
-them the equations of planar linkages, are simplest in these, and over the complex numbers the two
-may be of very different sizes, which Cartesian coordinates would hide.
+``x^ = x1 - i x2``, conjugate where the vector is real and independent otherwise. Rotations, and
+with them the equations of planar linkages, are simplest in these, and over the complex numbers the
+two may be of very different sizes, which Cartesian coordinates would hide.
 
 Reference: Wampler, Isotropic coordinates, circularity, and Bezout numbers, 1996.
 """
