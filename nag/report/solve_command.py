@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from nag.tracking.solutions import Solution, SolveResult
     from nag.tracking.solve import Progress
 
-STARTS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy", "parameters")
+STARTS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy", "parameter")
 # Longer lists are left to the export.
 MOST_ROWS = 40
 
@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--start",
         choices=STARTS,
         default="auto",
-        help="start system (default: auto, the one with the least work, or parameters where the "
+        help="start system (default: auto, the one with the least work, or parameter where the "
         "case has a [family])",
     )
 
@@ -97,15 +97,15 @@ def solve_case(
     from nag.tracking.start.target import StartError
 
     family = case.family
-    if start == "parameters" and family is None:
-        raise StartError("parameters: the case has no [family]; leave out --start")
+    if start == "parameter" and family is None:
+        raise StartError("parameter: the case has no [family]; leave out --start")
     common = {"seed": seed, "threads": threads, "settings": settings}
-    if family is None or start not in ("auto", "parameters"):
+    if family is None or start not in ("auto", "parameter"):
         return solve(system, start=start, progress=progress, **common)
     try:
         solved = solve_generic(
             family.symmetric.original,
-            start="parameters",
+            start="parameter",
             symmetric=family.symmetric,
             count=family.solutions,
             progress=progress,

@@ -5,6 +5,7 @@ Reference: Morgan & Sommese, Coefficient-parameter polynomial continuation, 1989
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -13,23 +14,21 @@ import numpy as np
 from nag.algebra.family import Family
 from nag.algebra.number import Number
 from nag.algebra.symmetric_family import SymmetricFamily
-from nag.tracking.compiled import compile_rows
-from nag.tracking.homotopy import Homotopy, straight_line
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.parameter_line import parameter_line
 from nag.tracking.paths import PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.solutions import SolveResult
 from nag.tracking.solve import ends_of
-from nag.tracking.solve_classes import SolvedClasses, solve_classes, solved_by_monodromy
+from nag.tracking.solve_classes import (
+    SolvedClasses,
+    line_of_classes,
+    solve_classes,
+    solved_by_monodromy,
+)
 from nag.tracking.start.choice import choose
 from nag.tracking.start.family_monodromy import Progress
-from nag.tracking.start.target import (
-    Start,
-    StartError,
-    Target,
-    group_degrees,
-    homogenized,
-    unit,
-)
+from nag.tracking.start.target import Start, StartError, Target, unit
 from nag.tracking.track import track
 
 __all__ = ["Family", "Solved", "solve_family", "solve_generic"]
@@ -71,12 +70,12 @@ def solve_generic(
 
     Args:
         family: what to solve.
-        start: a start system as for `nag.tracking.solve.solve`, or ``"parameters"``: from one
+        start: a start system as for `nag.tracking.solve.solve`, or ``"parameter"``: from one
             solution, which Newton's method finds together with its parameters, by loops of the
             family's own parameters. That takes a few paths for each solution there is.
-        symmetric: with ``"parameters"``, symmetries of the family: one solution of each class is
+        symmetric: with ``"parameter"``, symmetries of the family: one solution of each class is
             followed, now and in `solve_family`.
-        count: with ``"parameters"``, the known number of solutions; without it an answer is not
+        count: with ``"parameter"``, the known number of solutions; without it an answer is not
             called complete, as loops prove nothing.
         seed: of the random numbers; the same seed gives the same answer for any ``threads``.
         threads: number of threads.
@@ -88,7 +87,7 @@ def solve_generic(
         nag.algebra.rational_map.MapError: if the symmetries do not fit the family.
     """
     rng = np.random.default_rng(seed)
-    if start == "parameters":
+    if start == "parameter":
         given = symmetric or SymmetricFamily(family)
         classes = solved_by_monodromy(given, count, rng, threads, progress)
         return Solved(
@@ -142,26 +141,22 @@ def solve_family(
     return results
 
 
-def _start(solved: Solved, values: Sequence[Number]) -> Start:
-    family, n = solved.family, solved.family.n
-    groups = (tuple(range(n)),)
-    ones = np.ones((len(solved.points), 1), dtype=np.complex128)
-    points = np.hstack([ones, solved.points])
-    if family.linear:
-        first = family.terms([complex(v) for v in solved.values])
-        second = family.terms([complex(v) for v in values])
-        degrees = group_degrees(first, groups)
-        homotopy = straight_line(
-            homogenized(first, n, groups, degrees), homogenized(second, n, groups, degrees), 1.0
-        )
+def begin_of_family(
+    solved: Solved, values: Sequence[Number], settings: Settings | str = "default"
+) -> tuple[Homotopy, float, int]:
+    """The homotopy to given parameters, and the seconds and steps that tracking it takes."""
+    if solved.classes is None:
+        begin = _start(solved, values)
+        homotopy, starts = begin.homotopy, begin.points
     else:
-        # The parameters become unknowns that linear equations move along a straight line.
-        rows = compile_rows(family.polynomials)
-        k = len(family.parameters)
-        there = np.array([complex(v) for v in values])
-        A0 = np.hstack([-there[:, None], np.zeros((k, n)), np.eye(k)])
-        A1 = np.zeros_like(A0)
-        A1[:, 0] = there - solved.values
-        homotopy = Homotopy(rows, A0, A1)
-        points = np.hstack([points, np.repeat(solved.values[None], len(points), axis=0)])
-    return Start("parameter", homotopy, points, groups, solved.complete)
+        line, starts = line_of_classes(solved.classes, values)
+        homotopy = line.homotopy
+    started = time.perf_counter()
+    paths = track(homotopy, starts, settings, endgame=solved.classes is None)
+    return homotopy, time.perf_counter() - started, int(paths.steps.sum())
+
+
+def _start(solved: Solved, values: Sequence[Number]) -> Start:
+    line = parameter_line(solved.family, solved.values, values)
+    groups = (tuple(range(solved.family.n)),)
+    return Start("parameter", line.homotopy, line.starts(solved.points), groups, solved.complete)

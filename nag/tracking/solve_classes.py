@@ -17,7 +17,7 @@ from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.tracking.kantorovich import Confirmation, Confirmed
-from nag.tracking.parameter_line import parameter_line
+from nag.tracking.parameter_line import ParameterLine, parameter_line
 from nag.tracking.paths import PathStatus
 from nag.tracking.settings import Settings, named
 from nag.tracking.solution_classes import equal_pairs, invariants
@@ -123,6 +123,15 @@ def solve_classes(
     near = replace(solved, values=solved.values * p, members=solved.members * x)
     found = track_classes(near, goal, threads, settings)
     return _result(symmetric, target, found, solved.complete, solved.detail, seed, name)
+
+
+def line_of_classes(
+    solved: SolvedClasses, target: Sequence[Number]
+) -> tuple[ParameterLine, np.ndarray]:
+    """The homotopy to given parameters, not scaled, and one start for each class."""
+    goal = solved.symmetric.inner_values([complex(v) for v in target])
+    line = parameter_line(solved.symmetric.family, solved.values, goal)
+    return line, line.starts(solved.members[0])
 
 
 def smallest_members(
@@ -231,7 +240,7 @@ def _result(
         undecided=undecided,
         excluded=0,
         paths=counts,
-        start="parameters",
+        start="parameter",
         reason=f"parameter homotopy: {detail}",
         seed=seed,
         settings=settings,

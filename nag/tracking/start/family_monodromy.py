@@ -90,7 +90,7 @@ def first_solution(family: Family, rng: np.random.Generator) -> tuple[np.ndarray
         singular = np.linalg.svd(evaluator.jacobian(z)[:, :n], compute_uv=False)
         if singular[0] <= WORST * singular[-1]:
             return z[n:], z[:n]
-    raise StartError("parameters: no regular solution was found by Newton's method")
+    raise StartError("parameter: no regular solution was found by Newton's method")
 
 
 def family_monodromy(
@@ -130,7 +130,7 @@ def family_monodromy(
         gained += here.add(backward(left, partial(tally.moved, family, threads)))
         tally.loops += 1
         if len(here.points) * len(symmetric) > MOST_PATHS:
-            raise StartError(f"parameters: more than {MOST_PATHS} solutions")
+            raise StartError(f"parameter: more than {MOST_PATHS} solutions")
         idle = 0 if gained else idle + 1
         known = count is not None and len(here.points) == len(there.points) == count
         if idle >= (CONFIRMING if known else IDLE):
