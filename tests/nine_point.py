@@ -25,7 +25,7 @@ CLASSES, ORDER = 1442, 6
 
 
 def random_points(rng: np.random.Generator) -> list[Fraction]:
-    """Displacements of eight random points of a square from a ninth one, first coordinates first."""
+    """Displacements of eight random points of a square from a ninth; first coordinates first."""
     points = rng.integers(-1000, 1001, size=(9, 2))
     moved = (points[1:] - points[0]).T.ravel()
     return [Fraction(int(v), 1000) for v in moved]

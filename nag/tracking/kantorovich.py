@@ -11,6 +11,7 @@ Reference: Ortega & Rheinboldt, Iterative Solution of Nonlinear Equations, 1970,
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,7 +25,7 @@ EPS = float(np.finfo(float).eps)
 # Newton steps in doubles at most, and with residuals in `DIGITS` digits.
 STEPS, FINE_STEPS, DIGITS = 8, 4, 50
 # Points at once; and how many are worth more digits, some 10 ms each.
-BLOCK, MOST_FINE = 512, 200
+BLOCK, MOST_FINE = 256, 200
 # Steps that leave nothing to be gained in doubles, and those that promise convergence.
 SMALL, PROMISING = 1e-12, 1e-3
 # Second derivatives in the ball are at most so many times those at its centre, if its radius is
@@ -72,10 +73,15 @@ class Confirmation:
     def _derivatives(self) -> PlacedDerivatives:
         return self._evaluator.placed_derivatives(self.family.n)
 
-    def __call__(self, points: np.ndarray, values: np.ndarray) -> Confirmed:
+    def __call__(self, points: np.ndarray, values: np.ndarray, threads: int = 1) -> Confirmed:
         """Newton's method from ``points``, shape ``(P, n)``, for parameters of shape ``(k,)``."""
         blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)] or [points[:0]]
-        done = [self._block(block, values) for block in blocks]
+        if len(blocks) > 1 and threads > 1:
+            self._block(points[:1], values)  # What is cached is made once.
+            with ThreadPoolExecutor(threads) as pool:
+                done = list(pool.map(lambda block: self._block(block, values), blocks))
+        else:
+            done = [self._block(block, values) for block in blocks]
         fields = Confirmed.__dataclass_fields__
         result = {f: np.concatenate([getattr(d, f) for d, _ in done]) for f in fields}
         promising = np.concatenate([p for _, p in done])

@@ -22,7 +22,7 @@ from nag.tracking.paths import PathStatus
 from nag.tracking.settings import Settings, named
 from nag.tracking.solution_classes import equal_pairs, invariants
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
-from nag.tracking.start.family_monodromy import CONFIRMING, Progress, family_monodromy
+from nag.tracking.start.family_monodromy import CONFIRMING, SHARP, Progress, family_monodromy
 from nag.tracking.start.scalings import nearest_scaling, scaling_weights
 from nag.tracking.track import track
 
@@ -92,7 +92,7 @@ def solved_by_monodromy(
     values = np.broadcast_to(found.values, (members[:, 0].shape[0], len(found.values)))
     if evaluator.residuals(np.hstack([members[:, 0], values])).max() > ROUGHLY_ZERO:
         raise MapError("the maps do not carry solutions to solutions")
-    sharp = Confirmation(symmetric.family)(members[0], found.values)
+    sharp = Confirmation(symmetric.family)(members[0], found.values, threads)
     regular = sharp.regular & ~_repeated(symmetric, sharp, found.values)
     points = sharp.points[regular]
     complete = bool(regular.all()) and wanted == len(points) and found.idle >= CONFIRMING
@@ -151,7 +151,8 @@ def track_classes(
     """Follow one solution of each class to the parameters ``goal``, in inner coordinates."""
     # Jumps show, as every end must be confirmed and of another class.
     chosen = named("fast" if settings == "default" else settings)
-    chosen = replace(chosen, retries=0, max_steps=MOST_STEPS)
+    sharp = min(SHARP, chosen.newton)
+    chosen = replace(chosen, retries=0, max_steps=MOST_STEPS, newton=sharp)
     symmetric = solved.symmetric
     line = parameter_line(symmetric.family, solved.values, goal)
     confirm = Confirmation(symmetric.family)
@@ -165,7 +166,7 @@ def track_classes(
         starts = line.starts(member[left])
         paths = track(line.homotopy, starts, chosen, threads, endgame=False, distinct=False)
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
-        ends = _replaced(ends, confirm(line.affine(paths.points), goal), left)
+        ends = _replaced(ends, confirm(line.affine(paths.points), goal, threads), left)
         arrived = ends.regular & ~_repeated(symmetric, ends, goal)
     left = np.flatnonzero(~arrived)
     infinite, singular = np.zeros_like(arrived), np.zeros_like(arrived)
@@ -174,7 +175,7 @@ def track_classes(
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
         points = line.affine(paths.points)
         points[paths.status == PathStatus.AT_INFINITY] = np.nan
-        ends = _replaced(ends, confirm(points, goal), left)
+        ends = _replaced(ends, confirm(points, goal, threads), left)
         arrived = ends.regular & ~_repeated(symmetric, ends, goal)
         infinite[left] = (paths.status == PathStatus.AT_INFINITY) & ~arrived[left]
         singular[left] = (paths.status == PathStatus.SINGULAR) & ~arrived[left]
