@@ -89,6 +89,15 @@ def test_the_answer_does_not_depend_on_threads() -> None:
     assert np.array_equal(one.points, two.points) and np.array_equal(one.values, two.values)
 
 
+def test_units_do_not_matter() -> None:
+    lengths = family("x y", "a b c", "x^2 + y^2 - a", "x*y - b + c*x")
+    solved = solve_generic(lengths, start="parameter", count=4, seed=1)
+    for unit in (Fraction(1), Fraction(1, 10**8), Fraction(10**8)):
+        (result,) = solve_family(solved, [(25 * unit**2, 12 * unit**2 + 3 * unit**2, unit)])
+        assert result.complete and len(result.solutions) == 4
+        assert np.abs(result.points / float(unit) - [3, 4]).max(axis=1).min() < 1e-12
+
+
 def test_solutions_that_meet_or_leave_are_not_counted() -> None:
     roots = family("x", "a b", "a*x^2 + x + b")
     solved = solve_generic(roots, start="parameter", count=2, seed=1)

@@ -26,6 +26,9 @@ from nag.tracking.start.family_monodromy import CONFIRMING, SHARP, Progress, fam
 from nag.tracking.start.scalings import nearest_scaling, scaling_weights
 from nag.tracking.track import track
 
+# The part of the classes that may be lost by chance; if more are, the parameters are special, and
+# their ends need an endgame.
+FEW = 0.1
 # Steps of a path from a member of a class other than the last that is tried.
 MOST_STEPS = 1500
 # Largest residual of an image of a solution under a symmetry.
@@ -93,7 +96,8 @@ def solved_by_monodromy(
     if evaluator.residuals(np.hstack([members[:, 0], values])).max() > ROUGHLY_ZERO:
         raise MapError("the maps do not carry solutions to solutions")
     sharp = Confirmation(symmetric.family)(members[0], found.values, threads)
-    regular = sharp.regular & ~_repeated(symmetric, sharp, found.values)
+    repeated = _repeated(symmetric, sharp.points, sharp.regular, found.values)
+    regular = sharp.regular & ~repeated
     points = sharp.points[regular]
     complete = bool(regular.all()) and wanted == len(points) and found.idle >= CONFIRMING
     detail = f"{len(points)} solutions" if order == 1 else f"{len(points)} classes of {order}"
@@ -119,9 +123,7 @@ def solve_classes(
     goal = symmetric.inner_values([complex(v) for v in target])
     # The nearer the parameters, the shorter the paths.
     factors = nearest_scaling(scaling_weights(symmetric.family), solved.values, goal, rng)
-    x, p = np.split(factors, [symmetric.family.n])
-    near = replace(solved, values=solved.values * p, members=solved.members * x)
-    found = track_classes(near, goal, threads, settings)
+    found = track_classes(solved, goal, factors, threads, settings)
     return _result(symmetric, target, found, solved.complete, solved.detail, seed, name)
 
 
@@ -146,28 +148,37 @@ def smallest_members(
 
 
 def track_classes(
-    solved: SolvedClasses, goal: np.ndarray, threads: int, settings: Settings | str
+    solved: SolvedClasses,
+    goal: np.ndarray,
+    factors: np.ndarray,
+    threads: int,
+    settings: Settings | str,
 ) -> ClassEnds:
-    """Follow one solution of each class to the parameters ``goal``, in inner coordinates."""
+    """Follow one solution of each class to the parameters ``goal``, in inner coordinates.
+
+    The paths lead to ``goal`` scaled: ``factors``, of unknowns and parameters, undo that.
+    """
     # Jumps show, as every end must be confirmed and of another class.
     chosen = named("fast" if settings == "default" else settings)
     sharp = min(SHARP, chosen.newton)
     chosen = replace(chosen, retries=0, max_steps=MOST_STEPS, newton=sharp)
     symmetric = solved.symmetric
-    line = parameter_line(symmetric.family, solved.values, goal)
+    x, p = np.split(factors, [symmetric.family.n])
+    near = goal / p
+    line = parameter_line(symmetric.family, solved.values, near)
     confirm = Confirmation(symmetric.family)
     ends = confirm(np.full_like(solved.members[0], np.nan), goal)
     arrived = np.zeros(len(ends.points), dtype=bool)
     tracked = steps = 0
     for member in solved.members:
         left = np.flatnonzero(~arrived)
-        if not len(left):
+        if not len(left) or (tracked and len(left) > FEW * len(arrived)):
             break
         starts = line.starts(member[left])
         paths = track(line.homotopy, starts, chosen, threads, endgame=False, distinct=False)
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
-        ends = _replaced(ends, confirm(line.affine(paths.points), goal, threads), left)
-        arrived = ends.regular & ~_repeated(symmetric, ends, goal)
+        ends = _replaced(ends, confirm(line.affine(paths.points) * x, goal, threads), left)
+        arrived = ends.regular & ~_repeated(symmetric, ends.points / x, ends.regular, near)
     left = np.flatnonzero(~arrived)
     infinite, singular = np.zeros_like(arrived), np.zeros_like(arrived)
     if len(left):
@@ -175,8 +186,8 @@ def track_classes(
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
         points = line.affine(paths.points)
         points[paths.status == PathStatus.AT_INFINITY] = np.nan
-        ends = _replaced(ends, confirm(points, goal, threads), left)
-        arrived = ends.regular & ~_repeated(symmetric, ends, goal)
+        ends = _replaced(ends, confirm(points * x, goal, threads), left)
+        arrived = ends.regular & ~_repeated(symmetric, ends.points / x, ends.regular, near)
         infinite[left] = (paths.status == PathStatus.AT_INFINITY) & ~arrived[left]
         singular[left] = (paths.status == PathStatus.SINGULAR) & ~arrived[left]
     return ClassEnds(ends, arrived, infinite, singular, tracked, steps)
@@ -190,12 +201,14 @@ def _replaced(old: Confirmed, new: Confirmed, places: np.ndarray) -> Confirmed:
     return Confirmed(**fields)
 
 
-def _repeated(symmetric: SymmetricFamily, ends: Confirmed, values: np.ndarray) -> np.ndarray:
+def _repeated(
+    symmetric: SymmetricFamily, points: np.ndarray, regular: np.ndarray, values: np.ndarray
+) -> np.ndarray:
     """Which regular ends are of the class of another one: a path jumped."""
-    repeated = np.zeros(len(ends.points), dtype=bool)
-    regular = np.flatnonzero(ends.regular)
-    found = invariants(symmetric.images(ends.points[regular], values))
-    repeated[regular[equal_pairs(found).ravel()]] = True
+    repeated = np.zeros(len(points), dtype=bool)
+    places = np.flatnonzero(regular)
+    found = invariants(symmetric.images(points[places], values))
+    repeated[places[equal_pairs(found).ravel()]] = True
     return repeated
 
 
