@@ -36,9 +36,8 @@ def first_time(seed: int, threads: int) -> tuple[Solved, bool]:
     family = read_case(CASE).family
     wall, processor = time.perf_counter(), time.process_time()
     solved = solve_generic(
-        family.symmetric.original,
+        family.symmetric,
         start="parameter",
-        symmetric=family.symmetric,
         count=family.solutions,
         seed=seed,
         threads=threads,

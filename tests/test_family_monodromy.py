@@ -51,8 +51,8 @@ def test_loops_of_parameters_find_what_a_start_system_finds() -> None:
     count = len(expected.points)
     assert expected.complete and count > 8
     (reference,) = solve_family(expected, [TARGET])
-    for given in (None, symmetric(EVEN)):
-        solved = solve_generic(EVEN, start="parameter", symmetric=given, count=count, seed=4)
+    for given in (EVEN, symmetric(EVEN)):
+        solved = solve_generic(given, start="parameter", count=count, seed=4)
         assert solved.complete and len(solved.points) == count
         (result,) = solve_family(solved, [TARGET])
         assert result.complete
@@ -61,7 +61,7 @@ def test_loops_of_parameters_find_what_a_start_system_finds() -> None:
 
 
 def test_only_one_of_each_class_is_tracked() -> None:
-    solved = solve_generic(EVEN, start="parameter", symmetric=symmetric(EVEN), seed=2)
+    solved = solve_generic(symmetric(EVEN), seed=2)
     classes = len(solved.points) // 4
     (result,) = solve_family(solved, [TARGET])
     assert solved.classes.members.shape == (4, classes, 2)
@@ -69,23 +69,20 @@ def test_only_one_of_each_class_is_tracked() -> None:
 
 
 def test_without_a_known_number_loops_prove_nothing() -> None:
-    solved = solve_generic(EVEN, start="parameter", symmetric=symmetric(EVEN), seed=2)
+    solved = solve_generic(symmetric(EVEN), seed=2)
     assert not solved.complete
     (result,) = solve_family(solved, [TARGET])
     assert not result.complete and "not known whether all" in result.notes[0]
 
 
 def test_a_wrong_number_of_solutions_is_not_reached() -> None:
-    solved = solve_generic(EVEN, start="parameter", symmetric=symmetric(EVEN), count=40, seed=2)
+    solved = solve_generic(symmetric(EVEN), count=40, seed=2)
     assert not solved.complete
 
 
 def test_the_answer_does_not_depend_on_threads() -> None:
     given = symmetric(EVEN)
-    one, two = (
-        solve_generic(EVEN, start="parameter", symmetric=given, seed=3, threads=threads)
-        for threads in (1, 2)
-    )
+    one, two = (solve_generic(given, seed=3, threads=threads) for threads in (1, 2))
     assert np.array_equal(one.points, two.points) and np.array_equal(one.values, two.values)
 
 

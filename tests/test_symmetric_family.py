@@ -141,7 +141,7 @@ def test_maps_that_are_no_symmetries_are_found_out() -> None:
     negation = MapGroup.generated([RationalMap((-x, y), (one, one))])
     wrong = family("x^2 + x - p", "y^2 - q*x - 1")
     with pytest.raises(MapError, match="do not carry solutions to solutions"):
-        solve_generic(wrong, start="parameter", symmetric=SymmetricFamily(wrong, negation))
+        solve_generic(SymmetricFamily(wrong, negation))
 
 
 CASE = """

@@ -141,9 +141,8 @@ def _best(solver: Solver, threads: int) -> tuple[float, Any]:
 
 def _generic(family: CaseFamily, seed: int, threads: int) -> Solved:
     return solve_generic(
-        family.symmetric.original,
+        family.symmetric,
         start="parameter",
-        symmetric=family.symmetric,
         count=family.solutions,
         seed=seed,
         threads=threads,
@@ -170,7 +169,6 @@ def measure(
     expected: int | None,
     seed: int,
     rate: float,
-    start: str = "auto",
     family: CaseFamily | None = None,
 ) -> Measured:
     """Solve ``system`` warm with one and with two threads, and in a process of its own.
@@ -181,7 +179,7 @@ def measure(
 
     def solver(threads: int) -> SolveResult:
         if family is None:
-            return solve(system, seed=seed, start=start, threads=threads)
+            return solve(system, seed=seed, threads=threads)
         return solve_family(_generic(family, seed, threads), [family.values], threads=threads)[0]
 
     if family is None:
@@ -189,7 +187,7 @@ def measure(
     seconds, result = _best(solver, 1)
     two, _ = _best(solver, 2)
     if family is None:
-        homotopy, tracking, steps = begin_of(system, seed, start)
+        homotopy, tracking, steps = begin_of(system, seed)
     else:
         homotopy, tracking, steps = begin_of_family(_generic(family, seed, 2), family.values)
     flops = step_flops(homotopy)

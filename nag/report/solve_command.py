@@ -104,9 +104,8 @@ def solve_case(
         return solve(system, start=start, progress=progress, **common)
     try:
         solved = solve_generic(
-            family.symmetric.original,
+            family.symmetric,
             start="parameter",
-            symmetric=family.symmetric,
             count=family.solutions,
             progress=progress,
             **common,

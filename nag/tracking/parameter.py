@@ -56,10 +56,9 @@ class Solved:
 
 
 def solve_generic(
-    family: Family,
+    family: Family | SymmetricFamily,
     *,
     start: str = "auto",
-    symmetric: SymmetricFamily | None = None,
     count: int | None = None,
     seed: int = 0,
     threads: int = 1,
@@ -69,12 +68,12 @@ def solve_generic(
     """Solve a family for random complex parameters.
 
     Args:
-        family: what to solve.
+        family: what to solve; of a symmetric one, one solution of each class is followed, now and
+            in `solve_family`.
         start: a start system as for `nag.tracking.solve.solve`, or ``"parameter"``: from one
             solution, which Newton's method finds together with its parameters, by loops of the
-            family's own parameters. That takes a few paths for each solution there is.
-        symmetric: with ``"parameter"``, symmetries of the family: one solution of each class is
-            followed, now and in `solve_family`.
+            family's own parameters. That takes a few paths for each solution there is, and is what
+            ``"auto"`` means for a symmetric family.
         count: with ``"parameter"``, the known number of solutions; without it an answer is not
             called complete, as loops prove nothing.
         seed: of the random numbers; the same seed gives the same answer for any ``threads``.
@@ -87,8 +86,9 @@ def solve_generic(
         nag.algebra.rational_map.MapError: if the symmetries do not fit the family.
     """
     rng = np.random.default_rng(seed)
-    if start == "parameter":
-        given = symmetric or SymmetricFamily(family)
+    given = family if isinstance(family, SymmetricFamily) else SymmetricFamily(family)
+    family = given.original
+    if start == "parameter" or (start == "auto" and len(given) > 1):
         classes = solved_by_monodromy(given, count, rng, threads, progress)
         return Solved(
             family,

@@ -35,9 +35,10 @@ class ParameterLine:
         return np.hstack([ones, points, *[ones] * (self.homotopy.N - 1 - self.n)])
 
     def affine(self, points: np.ndarray) -> np.ndarray:
-        """The unknowns, shape ``(P, n)``; not finite at infinity."""
+        """The unknowns, shape ``(P, n)``; not numbers at infinity."""
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            return points[:, 1 : 1 + self.n] / points[:, :1]
+            result = points[:, 1 : 1 + self.n] / points[:, :1]
+        return np.where(np.isfinite(result), result, np.nan)
 
 
 def parameter_line(
