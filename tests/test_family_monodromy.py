@@ -181,6 +181,15 @@ def test_zeros_with_coordinates_of_all_sizes_are_confirmed(size: float) -> None:
     assert abs(found.points[0, 0] / x - 1) < 1e-12 > abs(found.points[0, 1] / y - 1)
 
 
+def test_zeros_with_vanishing_coordinates_are_confirmed() -> None:
+    circle = family("x y", "a b", "x^2 + y^2 - a", "x*y - b")
+    found = confirmed(circle, [2.0, 0.0], [[1.4142, 1e-9], [1e-5, -1.4142]])
+    assert found.regular.all()
+    assert np.abs(found.points - [[2**0.5, 0], [0, -(2**0.5)]]).max() < 1e-15
+    assert not found.same(found.points[::-1]).any()
+    assert not confirmed(circle, [0.0, 0.0], [[1e-9, 1e-9], [0.0, 0.0]]).regular.any()
+
+
 def test_ill_conditioned_zeros_are_confirmed_in_more_digits() -> None:
     near = family("x y", "a b", "x + y - 2 + a*(x - 1)^2", "x + (1 + b)*y - 2 - b")
     found = confirmed(near, [1.0, 2.0**-30], [[1 + 1e-12, 1 - 1e-12]])

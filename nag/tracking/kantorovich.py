@@ -1,7 +1,8 @@
 """Regular zeros of a family's systems, confirmed by the theorem of Newton and Kantorovich.
 
 Lengths are measured in each coordinate relative to its own size, so that a zero with coordinates of
-very different sizes is as good as any other. Let beta bound the Newton step at a point, and K the
+very different sizes is as good as any other; if that fails, as it does where a coordinate vanishes,
+relative to the largest one. Let beta bound the Newton step at a point, and K the
 inverse Jacobian times the second derivatives nearby. If ``2 beta K <= 1`` there is exactly one zero
 within 1 / K, and it lies within 2 beta. Bounds are computed in doubles, with an allowance for the
 rounding of the residuals; where that is too much, residuals are evaluated in more digits.
@@ -38,16 +39,17 @@ class Confirmed:
     """Points after Newton's method, shape ``(P, n)``, and what is known of them, shape ``(P,)``.
 
     Attributes:
-        regular: whether there is exactly one zero within `isolation`, and none of others' balls
-            matters: the zero is regular.
-        accuracy: the zero's distance at most, in the coordinate where it is largest relative to it.
-        isolation: radius of the ball with one zero, measured in the same way.
+        regular: whether there is exactly one zero within `isolation`; it is regular.
+        sizes: of the coordinates, in which distances are measured, shape ``(P, n)``.
+        accuracy: the zero's distance at most, in the coordinate where it is largest.
+        isolation: radius of the ball with one zero.
         condition: of the Jacobian, rows and columns scaled.
         precision: decimal digits of the residuals.
     """
 
     points: np.ndarray
     regular: np.ndarray
+    sizes: np.ndarray
     accuracy: np.ndarray
     isolation: np.ndarray
     condition: np.ndarray
@@ -55,7 +57,7 @@ class Confirmed:
 
     def same(self, others: np.ndarray) -> np.ndarray:
         """Whether the zeros near other points, shape ``(P, n)``, are those of these points."""
-        apart = np.abs(others - self.points) / _sizes(self.points)
+        apart = np.abs(others - self.points) / self.sizes
         return self.regular & (apart.max(axis=1) + self.accuracy <= self.isolation)
 
 
@@ -95,9 +97,11 @@ class Confirmation:
     def _joined(self, points: np.ndarray, values: np.ndarray) -> np.ndarray:
         return np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
 
-    def _scaled(self, points: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The Jacobian with columns scaled by the coordinates, and then rows; their factors."""
-        matrix = self._derivatives(self._joined(points, values)) * _sizes(points)[:, None, :]
+    def _scaled(
+        self, points: np.ndarray, values: np.ndarray, sizes: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The Jacobian with columns scaled by the sizes, and then rows; the rows' factors."""
+        matrix = self._derivatives(self._joined(points, values)) * sizes[:, None, :]
         with np.errstate(divide="ignore"):
             factor = 1 / np.abs(matrix).max(axis=2)
         return matrix * factor[:, :, None], factor
@@ -111,7 +115,7 @@ class Confirmation:
             going = np.flatnonzero(finite)
             for _ in range(STEPS):
                 here = points[going]
-                matrix, factor = self._scaled(here, values)
+                matrix, factor = self._scaled(here, values, _sizes(here))
                 residual = self._evaluator.values(self._joined(here, values)) * factor
                 step = _solved(matrix, residual)
                 moved = _sizes(here) * step
@@ -123,18 +127,31 @@ class Confirmation:
                 going = going[near & (size > SMALL)]
                 if not len(going):
                     break
-            judged = self._judged(points, values, finite, None)
+            judged = self._judged(points, values, finite, _sizes(points), None)
+            left = np.flatnonzero(finite & ~judged.regular)
+            if len(left):
+                largest = np.abs(points[left]).max(axis=1, keepdims=True)
+                sizes = np.repeat(np.where(largest > 0, largest, 1.0), points.shape[1], axis=1)
+                again = self._judged(points[left], values, finite[left], sizes, None)
+                _replace(judged, left[again.regular], again, again.regular)
             return judged, finite & ~judged.regular & (length < PROMISING)
 
     def _judged(
-        self, points: np.ndarray, values: np.ndarray, finite: np.ndarray, exact: np.ndarray | None
+        self,
+        points: np.ndarray,
+        values: np.ndarray,
+        finite: np.ndarray,
+        lengths: np.ndarray,
+        exact: np.ndarray | None,
     ) -> Confirmed:
         """Kantorovich's bounds at points; ``exact`` are residuals without rounding errors."""
         n = self.family.n
-        matrix, factor = self._scaled(points, values)
+        matrix, factor = self._scaled(points, values, lengths)
         inverse = _inverses(matrix)
         z = self._joined(points, values)
-        sizes, second = self._evaluator.term_sizes(z, n)
+        # Derivatives in directions of these lengths are at most those where coordinates have them.
+        reach = np.maximum(np.abs(points), lengths)
+        sizes, second = self._evaluator.term_sizes(self._joined(reach, values), n)
         residual = self._evaluator.values(z) if exact is None else exact
         # Rounding of the residual, and of its product with the inverse.
         noise = 8 * EPS * sizes if exact is None else n * EPS * np.abs(residual)
@@ -148,6 +165,7 @@ class Confirmation:
         return Confirmed(
             points,
             regular,
+            lengths,
             np.where(regular, np.maximum(2 * beta, EPS), np.inf),
             np.where(regular, 1 / np.maximum(K, 1e2), 0.0),
             np.where(finite, condition, np.inf),
@@ -159,14 +177,15 @@ class Confirmation:
         point = point[None]
         with np.errstate(all="ignore"):
             for _ in range(FINE_STEPS):
-                matrix, factor = self._scaled(point, values)
+                matrix, factor = self._scaled(point, values, _sizes(point))
                 step = _solved(matrix, self._exact(point, values) * factor)
                 if not np.abs(step).max() < 0.5:
                     return None
                 point = point - _sizes(point) * step
                 if np.abs(step).max() < 4 * EPS:
                     break
-            return self._judged(point, values, np.ones(1, bool), self._exact(point, values))
+            exact = self._exact(point, values)
+            return self._judged(point, values, np.ones(1, bool), _sizes(point), exact)
 
     def _exact(self, point: np.ndarray, values: np.ndarray) -> np.ndarray:
         """Values of the equations in more digits, scaled as the evaluator's, shape ``(1, n)``."""
@@ -178,6 +197,11 @@ class Confirmation:
                 for f in self.family.polynomials
             ]
             return np.array([[complex(v) for v in result]])
+
+
+def _replace(old: Confirmed, places: np.ndarray, new: Confirmed, kept: np.ndarray) -> None:
+    for name in Confirmed.__dataclass_fields__:
+        getattr(old, name)[places] = getattr(new, name)[kept]
 
 
 def _sizes(points: np.ndarray) -> np.ndarray:
