@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -14,9 +15,11 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.cli import main
+from nag.tracking import solve_classes
 from nag.tracking.kantorovich import Confirmation
 from nag.tracking.parameter import solve_family, solve_generic
 from nag.tracking.parameter_line import parameter_line
+from nag.tracking.solve_classes import ClassEnds, track_classes
 from nag.tracking.start.scalings import nearest_scaling, random_scaling, scaling_weights
 
 
@@ -84,6 +87,30 @@ def test_the_answer_does_not_depend_on_threads() -> None:
     given = symmetric(EVEN)
     one, two = (solve_generic(given, seed=3, threads=threads) for threads in (1, 2))
     assert np.array_equal(one.points, two.points) and np.array_equal(one.values, two.values)
+
+
+def test_what_is_lost_on_one_way_is_found_on_another(monkeypatch: pytest.MonkeyPatch) -> None:
+    scaled = family(
+        "x y", "a b c d", "x^4 + y^4 + a*x*y + b", "x^3*y + x*y^3 + c*(x^2 + y^2) + d*x*y + b"
+    )
+    solved = solve_generic(scaled, start="parameter", count=16, seed=1)
+    assert solved.complete
+    (expected,) = solve_family(solved, [TARGET])
+    ways = []
+
+    def losing(*arguments: object) -> ClassEnds:
+        ends = track_classes(*arguments)
+        ways.append(ends)
+        if len(ways) > 1:
+            return ends
+        arrived = ends.arrived.copy()
+        arrived[5] = False
+        return replace(ends, arrived=arrived)
+
+    monkeypatch.setattr(solve_classes, "track_classes", losing)
+    (result,) = solve_family(solved, [TARGET])
+    assert len(ways) == 2 and result.complete
+    assert sets_agree(result.points, expected.points)
 
 
 def test_units_do_not_matter() -> None:

@@ -23,7 +23,7 @@ from nag.tracking.settings import Settings, named
 from nag.tracking.solution_classes import equal_pairs, invariants
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
 from nag.tracking.start.family_monodromy import CONFIRMING, SHARP, Progress, family_monodromy
-from nag.tracking.start.scalings import nearest_scaling, scaling_weights
+from nag.tracking.start.scalings import nearest_scaling, random_scaling, scaling_weights
 from nag.tracking.track import track
 
 # The part of the classes that may be lost by chance; if more are, the parameters are special, and
@@ -122,9 +122,47 @@ def solve_classes(
     symmetric = solved.symmetric
     goal = symmetric.inner_values([complex(v) for v in target])
     # The nearer the parameters, the shorter the paths.
-    factors = nearest_scaling(scaling_weights(symmetric.family), solved.values, goal, rng)
+    weights = scaling_weights(symmetric.family)
+    factors = nearest_scaling(weights, solved.values, goal, rng)
     found = track_classes(solved, goal, factors, threads, settings)
+    lost = int((~found.arrived & ~found.at_infinity).sum())
+    if len(weights) and 0 < lost <= FEW * len(found.arrived):
+        # Another way leads to the same solutions, each from another one.
+        turned = factors * random_scaling(weights, rng)
+        other = track_classes(solved, goal, turned, threads, settings)
+        found = _joined(symmetric, goal, factors, found, other)
     return _result(symmetric, target, found, solved.complete, solved.detail, seed, name)
+
+
+def _joined(
+    symmetric: SymmetricFamily,
+    goal: np.ndarray,
+    factors: np.ndarray,
+    found: ClassEnds,
+    other: ClassEnds,
+) -> ClassEnds:
+    """The classes that were found on one way and those that another one adds."""
+    x, p = np.split(factors, [symmetric.family.n])
+    both = [np.flatnonzero(each.arrived) for each in (found, other)]
+    points = [each.ends.points[i] / x for each, i in zip((found, other), both, strict=True)]
+    values = invariants(symmetric.images(np.concatenate(points), goal / p))
+    repeated = equal_pairs(values)[:, 1] - len(both[0])
+    new = both[1][np.setdiff1d(np.arange(len(both[1])), repeated)]
+    # Lost paths give their places first.
+    free = np.flatnonzero(~found.arrived)
+    free = free[np.argsort(found.at_infinity[free] + found.singular[free], kind="stable")]
+    new = new[: len(free)]
+    places = free[: len(new)]
+    ends = _replaced(found.ends, _chosen(other.ends, new), places)
+    flags = [f.copy() for f in (found.arrived, found.at_infinity, found.singular)]
+    for flag, value in zip(flags, (True, False, False), strict=True):
+        flag[places] = value
+    tracked, steps = found.tracked + other.tracked, found.steps + other.steps
+    return ClassEnds(ends, *flags, tracked, steps)
+
+
+def _chosen(ends: Confirmed, indices: np.ndarray) -> Confirmed:
+    return Confirmed(*(getattr(ends, name)[indices] for name in Confirmed.__dataclass_fields__))
 
 
 def line_of_classes(
