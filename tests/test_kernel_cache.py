@@ -113,7 +113,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.tracking.solve import solve
 x, y = Polynomial.variables(2)
 from nag.algebra.system import PolynomialSystem
-result = solve(PolynomialSystem(("x", "y"), (x**2 + y**2 - 5, x * y - 2)))
+result = solve(PolynomialSystem(("x", "y"), (x**2 + y**2 - 5, x * y - 2)), start="total")
 print(len(result.solutions))
 print(*sorted({"numba", "scipy", "nag.machine_code.functions"} & set(sys.modules)))
 """

@@ -86,7 +86,7 @@ def test_every_folder_of_modules_is_a_package() -> None:
 def test_every_core_dependency_is_imported_somewhere() -> None:
     source = "\n".join(file.read_text("utf-8") for file in (ROOT / "nag").rglob("*.py"))
     for requirement in PROJECT["project"]["dependencies"]:
-        name = requirement.split(">=")[0]
+        name = requirement.split(">=")[0].removeprefix("python-")
         assert f"import {name}" in source or f"from {name}" in source, name
 
 

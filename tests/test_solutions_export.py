@@ -97,7 +97,7 @@ def test_the_command_prints_a_table_and_writes_the_same_bytes_for_any_number_of_
     assert texts[0] == texts[1]
     out = capsys.readouterr().out
     assert "6 isolated solutions" in out
-    assert "least work" in out
+    assert "solved exactly" in out
     value = json.loads(texts[0])
     jsonschema.validate(value, schema())
     points = np.array(value["solutions"][0]["point"]).view(float)

@@ -7,7 +7,6 @@ import pytest
 
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
-from nag.tracking.endgame import endgame_state
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.jets import system, work
 from nag.tracking.kernel import Batch, track_lanes
@@ -19,17 +18,17 @@ SAMPLES = 64
 
 def taylor_coefficients(homotopy: Homotopy, start: np.ndarray) -> np.ndarray:
     """Coefficients of orders 0 to ORDER of the path at t = 1, shape ``(ORDER + 1, N)``."""
-    N, one = homotopy.N, np.zeros(1)
-    scratch, whole = work(homotopy, ORDER), np.zeros(1, dtype=np.int64)
+    N = homotopy.N
+    scratch = work(homotopy, ORDER)
+    reals = [np.zeros(1) for _ in range(2)]
+    wholes = [np.zeros(1, dtype=np.int64) for _ in range(2)]
     # The first step of a path corrects its start; the second one fails, as no more are allowed.
     batch = Batch(
         np.ascontiguousarray(start, dtype=complex),
-        *(1, 0, 1, np.zeros(N, dtype=complex), whole, whole.copy(), one, whole.copy()),
-        *(whole.copy(), ORDER, 2, 1e-3, 1e-7, 1e-12, 1e-6, 0.4, 0.2, 0.1),
+        *(1, 0, 1, np.zeros(N, dtype=complex), np.zeros(N, dtype=complex), *reals, *wholes),
+        *(ORDER, 2, 0.0, 1e-3, 1e-7, 1e-12, 1e-6, 0.4, 0.2, 0.1),
     )
-    track_lanes(
-        system(homotopy), scratch, endgame_state(N, 1, False, False, 0, 0.1, 8, 2, 2), batch
-    )
+    track_lanes(system(homotopy), scratch, batch)
     base = scratch.base.reshape(ORDER + 1, 2, N, 8)[..., 0]
     return base[:, 0] + 1j * base[:, 1]
 

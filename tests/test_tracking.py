@@ -5,12 +5,12 @@ from itertools import product
 
 import numpy as np
 import pytest
+from oracle import track_one
 
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.newton import aligned_difference, refine
-from nag.tracking.oracle import track_one
 from nag.tracking.paths import PathStatus, Reason
 from nag.tracking.settings import Settings
 from nag.tracking.track import collisions, track
@@ -110,7 +110,6 @@ def test_infinite_singular_and_regular_ends_are_told_apart():
     assert len(others) == 3
     assert np.abs(paths.points[others, 2] + paths.points[others, 0]).max() < 1e-10
     assert not (paths.status == PathStatus.FAILED).any()
-    assert paths.smallest[paths.where(PathStatus.SINGULAR)].max(initial=0) < 1e-10
 
 
 def test_distant_solutions_are_not_taken_for_points_at_infinity():
@@ -150,7 +149,7 @@ def test_paths_of_a_hypersurface_section_end_on_all_its_points(seed):
     x, y, z = Polynomial.variables(3)
     f = (x * x + y * y + z * z - 1) * (x - y) ** 2
     homotopy, starts = hypersurface_section(f, seed)
-    paths = track(homotopy, starts, end_exponent=4)
+    paths = track(homotopy, starts)
     assert len(paths.where(PathStatus.REGULAR)) == 2
     singular = paths.where(PathStatus.SINGULAR)
     assert len(singular) == 2
@@ -182,15 +181,31 @@ def test_a_start_point_off_the_path_is_refused():
     assert paths.failures == {Reason.START.text: 1}
 
 
-def test_what_fails_in_doubles_is_tracked_in_mpmath():
+def test_what_fails_in_doubles_is_followed_in_more_digits():
     (x,) = Polynomial.variables(1)
     homotopy, starts = total_degree([x**3 - 2], 0)
-    hopeless = Settings(retries=0, max_steps=3, high_precision_paths=1)
-    paths = track(homotopy, starts, hopeless)
+    paths = track(homotopy, starts, Settings(retries=0, max_steps=3))
     expected = track(homotopy, starts)
-    assert paths.status.tolist().count(PathStatus.FAILED) == len(starts) - 1
-    assert paths.precision[0] == 34
-    assert distances(homotopy, paths.points[:1], expected.points[:1]) < 1e-15
+    assert (paths.status == PathStatus.REGULAR).all()
+    assert (paths.precision == 32).all()
+    assert sorted(paths.balls) == [0, 1, 2]
+    assert distances(homotopy, paths.points, expected.points).max() < 1e-15
+
+
+def test_simple_zeros_closer_than_doubles_can_tell_are_told_apart():
+    (x,) = Polynomial.variables(1)
+    near = Fraction(1) + Fraction(1, 10**20)
+    homotopy, starts = total_degree([(x - 1) * (x - near) * (x + 2)], 1)
+    paths = track(homotopy, starts)
+    assert (paths.status == PathStatus.REGULAR).all()
+    assert len(collisions(homotopy, paths)) == 0
+    roots = []
+    for ball in paths.balls.values():
+        (zero, zero_im), (one, one_im) = ball.fractions()
+        size = zero**2 + zero_im**2
+        roots.append((one * zero + one_im * zero_im) / size)
+    close = sorted(r for r in roots if r > 0)
+    assert abs(close[1] - close[0] - Fraction(1, 10**20)) < Fraction(1, 10**30)
 
 
 def test_refined_points_are_right_to_the_last_digit():

@@ -92,11 +92,11 @@ def eliminate_linear(
         if pivot is None:
             break
         row, index = pivot
-        image = _solved(equations[row], index)
+        image = solved(equations[row], index)
         del equations[row]
-        equations = [g for g in (_substitute(f, index, image) for f in equations) if g]
-        nonzero = [_substitute(f, index, image) for f in nonzero]
-        images = [_substitute(f, index, image) for f in images]
+        equations = [g for g in (substituted(f, index, image) for f in equations) if g]
+        nonzero = [substituted(f, index, image) for f in nonzero]
+        images = [substituted(f, index, image) for f in images]
         kept.discard(index)
     order = sorted(kept)
     return Elimination(
@@ -125,7 +125,7 @@ def _pivot(
     for row, f in enumerate(equations):
         if f.degree < 1 or (f.degree > 1 and not graphs):
             continue
-        for index in _linear_variables(f) & free:
+        for index in linear_variables(f) & free:
             used_in = [i for i, support in enumerate(others) if index in support and i != row]
             fill = (len(f.terms) - 2) * len(used_in)
             key = (f.degree, fill, len(f.terms), index, row)
@@ -139,14 +139,14 @@ def _pivot(
     return None if best is None else best[1]
 
 
-def _linear_variables(f: Polynomial) -> set[int]:
+def linear_variables(f: Polynomial) -> set[int]:
     """Variables that occur in ``f`` in one term only, linearly and alone."""
     alone = {e.index(1) for e in f.terms if sum(e) == 1}
     elsewhere = {i for e in f.terms if sum(e) > 1 for i, k in enumerate(e) if k}
     return alone - elsewhere
 
 
-def _solved(f: Polynomial, index: int) -> Polynomial:
+def solved(f: Polynomial, index: int) -> Polynomial:
     """What ``f = 0`` says the variable is."""
     variable = Polynomial.variable(f.n, index)
     (exponents,) = variable.terms
@@ -154,7 +154,7 @@ def _solved(f: Polynomial, index: int) -> Polynomial:
     return variable - f / coefficient
 
 
-def _substitute(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
+def substituted(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
     """``f`` with one variable replaced, by Horner's rule in that variable."""
     by_power: dict[int, dict[Exponents, Number]] = {}
     for e, c in f.terms.items():

@@ -54,6 +54,10 @@ class Evaluator:
         sizes = self._monomials(floored) @ np.abs(self.coefficients).T
         return np.where(sizes == 0, 1.0, sizes)
 
+    def absolute(self, points: np.ndarray) -> np.ndarray:
+        """Sums of the absolute values of the terms, shape ``(P, rows)``."""
+        return self._monomials(np.abs(points)) @ np.abs(self.coefficients).T
+
     def residuals(self, points: np.ndarray) -> np.ndarray:
         """Absolute values over sizes, shape ``(P, rows)``: 1e-16 is rounding at any scale."""
         return np.abs(self.values(points)) / self.sizes(points)
@@ -178,3 +182,19 @@ class _Monomials:
         for places in self.factors[1:]:
             values *= table[:, places]
         return values
+
+
+def may_vanish(
+    systems: Sequence[Sequence[Polynomial]], points: np.ndarray, limit: float
+) -> np.ndarray:
+    """At which points all polynomials of which systems may vanish, shape ``(P, systems)``.
+
+    Args:
+        points: complex, shape ``(P, n)``.
+        limit: residuals above which a polynomial certainly does not vanish at a point.
+    """
+    place: dict[Polynomial, int] = {}
+    rows = [[place.setdefault(f, len(place)) for f in system] for system in systems]
+    small = Evaluator.of(list(place), points.shape[1]).residuals(points) < limit
+    columns = [small[:, np.array(chosen, dtype=np.int64)].all(axis=1) for chosen in rows]
+    return np.array(columns, dtype=bool).reshape(len(systems), len(points)).T

@@ -117,7 +117,11 @@ class Polynomial:
         return self.n == other.n and dict(self.terms) == dict(other.terms)
 
     def __hash__(self) -> int:
-        return hash((self.n, frozenset(self.terms.items())))
+        known = self.__dict__.get("_hash")
+        if known is None:
+            known = hash((self.n, frozenset(self.terms.items())))
+            object.__setattr__(self, "_hash", known)
+        return known
 
     def __bool__(self) -> bool:
         return bool(self.terms)

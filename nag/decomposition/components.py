@@ -12,6 +12,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.cutting import Equations
 from nag.decomposition.fibres import Tracker
 from nag.decomposition.final_checks import checked_witness_set
@@ -60,10 +61,13 @@ def decompose(
 ) -> Decomposition:
     """Decompose the zero set of ``system`` into irreducible components over the complex numbers.
 
-    Linear equations are solved exactly first. Where doubts are left, slices and constants are drawn
-    anew, and the least doubtful answer is given; a finite set of simple points may be found by
-    solving the equations all at once. The same seed gives the same answer, byte for
-    byte, whatever the number of threads.
+    Where equations factor over the rationals, the parts that the system falls into are decomposed
+    apart; zeros of polynomials in one variable, and of two equations in two, are isolated exactly
+    where they are few. Otherwise linear equations are solved exactly first, and then equations are
+    intersected one by one. Where doubts are left, slices and constants are drawn anew, and the
+    least doubtful answer is given; a finite set of simple points may be found by solving the
+    equations all at once. The same seed gives the same answer, byte for byte, whatever the number
+    of threads.
 
     Args:
         system: the equations; components on which a polynomial of ``system.nonzero`` vanishes
@@ -81,20 +85,38 @@ def decompose(
     """
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
+
+    def whole(part: PolynomialSystem, kept: Sequence[SignedPermutation]) -> Decomposition:
+        # A branch is not the scheme that was given; its multiplicities are of no interest.
+        return _decompose_whole(part, seed, threads, settings, progress, kept, part is system)
+
+    apart = decompose_apart(system, whole, symmetries, seed, threads, settings)
+    return whole(system, symmetries) if apart is None else apart
+
+
+def _decompose_whole(
+    system: PolynomialSystem,
+    seed: int,
+    threads: int,
+    settings: str,
+    progress: Progress | None,
+    symmetries: Sequence[SignedPermutation],
+    scheme: bool,
+) -> Decomposition:
+    """The components of a system as it is, by attempts with different random numbers."""
+    tracker = Tracker(settings, threads)
     answers: list[Decomposition] = []
     tracked = 0
     for attempt in range(ATTEMPTS):
         rng = np.random.default_rng([seed, attempt] if attempt else seed)
-        answer = _decompose_once(system, rng, Tracker(settings, threads), progress, symmetries)
+        answer = _decompose_once(system, rng, tracker, progress, symmetries, scheme)
         tracked += answer.paths.tracked
         answers.append(answer)
         if answer.complete or tracked > MOST_PATHS:
             break
     if not any(a.complete or a.dimension > 0 for a in answers) and tracked <= MOST_PATHS:
         rng = np.random.default_rng([seed, ATTEMPTS])
-        answer = _decompose_once(
-            system, rng, Tracker(settings, threads), progress, symmetries, isolated=True
-        )
+        answer = _decompose_once(system, rng, tracker, progress, symmetries, scheme, isolated=True)
         tracked += answer.paths.tracked
         if answer.complete and all(contains(answer, other) for other in answers):
             answers.append(answer)
@@ -113,6 +135,7 @@ def _decompose_once(
     tracker: Tracker,
     progress: Progress | None,
     symmetries: Sequence[SignedPermutation],
+    scheme: bool,
     isolated: bool = False,
 ) -> Decomposition:
     """One attempt; ``isolated``: at a finite set of simple points, all found at once."""
@@ -160,6 +183,7 @@ def _decompose_once(
                 system.groups,
                 rng,
                 tracker,
+                scheme,
             )
             counts += spent
             size = 1 + len(orbit.carriers)

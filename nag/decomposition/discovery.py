@@ -67,8 +67,7 @@ def _on_rows(
     if fibre.dimension == 0:
         return fibre.points[0], counts
     for attempt in range(ATTEMPTS):
-        used = tracker.again(attempt)
-        there, spent = carried([fibre], rows, target, complex(unit_complex(rng)), used)
+        there, spent = carried([fibre], rows, target, complex(unit_complex(rng)), tracker)
         counts += spent
         if there is not None:
             return there[0].points[0], counts

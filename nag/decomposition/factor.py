@@ -96,9 +96,8 @@ def on_flag(
     if len(rows) == 0:
         return fibres, counts
     for attempt in range(ATTEMPTS):
-        used = tracker.again(attempt)
         gamma = complex(unit_complex(rng))
-        there, spent = carried(fibres, rows, flag[: len(rows)], gamma, used)
+        there, spent = carried(fibres, rows, flag[: len(rows)], gamma, tracker)
         counts += spent
         if there is not None:
             return there, counts

@@ -11,14 +11,11 @@ from nag.decomposition.slices import padded
 from nag.decomposition.witness import PathCounts
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
-from nag.tracking.settings import Settings, named
+from nag.tracking.settings import Settings
 from nag.tracking.track import track
 
 # Two ends are one point when they differ by less than this, or than their errors explain.
 SAME = 1e-9
-# Ends at infinity were known to 2e-9 in all systems measured; those that seemed to be, but were
-# far out, to 3e-6.
-INFINITE = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,29 +49,6 @@ class Tracker:
 
     settings: Settings | str = "default"
     threads: int = 1
-
-    @property
-    def double_double(self) -> bool:
-        """Whether paths that fail in doubles are tracked in more precise arithmetic."""
-        return named(self.settings).double_double_paths > 0
-
-    @property
-    def in_doubles(self) -> Tracker:
-        """The same without arithmetic beyond doubles."""
-        settings = replace(named(self.settings), double_double_paths=0, high_precision_paths=0)
-        return replace(self, settings=settings)
-
-    @property
-    def brief(self) -> Tracker:
-        """The same in doubles, where paths that fail twice can be replaced by others."""
-        used = self.in_doubles
-        return replace(used, settings=replace(used.settings, retries=1))
-
-    def again(self, attempt: int) -> Tracker:
-        """The tracker for the attempts at what other slices may make easier, 0 the first one."""
-        careful = replace(named("careful"), high_precision_paths=0)
-        precise = replace(self, settings=careful)
-        return (self.in_doubles, precise.in_doubles, precise)[min(attempt, 2)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,8 +86,7 @@ def moved(paths: Paths, keep: int | None = None) -> Moved:
     """The ends of ``paths`` as affine points, the first ``keep`` coordinates of them."""
     finite = (paths.status == PathStatus.REGULAR) | (paths.status == PathStatus.SINGULAR)
     accuracy = np.asarray(paths.accuracy)
-    # A path that turns back far out looks like one to infinity, but for the error of its end.
-    infinite = (paths.status == PathStatus.AT_INFINITY) & (accuracy < INFINITE)
+    infinite = paths.status == PathStatus.AT_INFINITY
     failed = ~finite & ~infinite
     points = affine(paths.points)
     return Moved(

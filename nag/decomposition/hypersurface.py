@@ -16,7 +16,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.confirm import vanishing
 from nag.decomposition.cutting import Cut, leading_power
-from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, homogeneous, moved
+from nag.decomposition.fibres import Fibre, Moved, Tracker, homogeneous, moved
 from nag.decomposition.monodromy import carried
 from nag.decomposition.slices import padded, random_rows, unit_complex
 from nag.decomposition.witness import PathCounts
@@ -24,12 +24,6 @@ from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.track import track
 
-# Flags on which an intersection is tried in doubles before more precise arithmetic helps out, and
-# fewer where not even that did before.
-MOST_FLAGS, FEW_FLAGS = 8, 2
-# Flags on which that arithmetic is tried, and what a path costs in it, in units of those before:
-# another flag comes cheaper than more failed paths than one of so many.
-EXTENDED, DEAR = 2, 75
 # Slices to which points may have to be moved to get to another flag.
 ATTEMPTS = 8
 # Offsets of the flags tried later, as part of those of the first: slices nearer to the origin.
@@ -99,30 +93,8 @@ def intersect(
         [np.repeat(fibre.points, degree, axis=0), u_start.reshape(-1, 1)], axis=1
     )
     homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
-    for settings in (tracker.settings, *(("careful",) if tracker.double_double else ())):
-        paths = track(
-            homotopy, points, settings=settings, threads=tracker.threads, end_exponent=degree
-        )
-        ends = moved(paths, keep=total)
-        twice = _coinciding(ends)
-        if not twice.any():
-            return ends
-    failed = ends.failed | twice
-    counts = replace(ends.counts, failed=int(failed.sum()))
-    return replace(ends, finite=ends.finite & ~twice, failed=failed, counts=counts)
-
-
-def _coinciding(ends: Moved) -> np.ndarray:
-    """Which regular ends are not alone: distinct paths never end at one regular point."""
-    twice = np.zeros(len(ends.points), dtype=bool)
-    regular = np.flatnonzero(ends.regular)
-    points = ends.points[regular]
-    for i, j in enumerate(regular):
-        distances = np.linalg.norm(points[:i] - points[i], axis=1)
-        same = distances < SAME * (1 + np.linalg.norm(points[i]))
-        twice[regular[:i][same]] = True
-        twice[j] |= bool(same.any())
-    return twice
+    paths = track(homotopy, points, settings=tracker.settings, threads=tracker.threads)
+    return moved(paths, keep=total)
 
 
 def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracker) -> Crossing:
@@ -167,42 +139,18 @@ def crossing(
     f: Polynomial,
     rng: np.random.Generator,
     tracker: Tracker,
-    flags: int = MOST_FLAGS,
     elsewhere: bool = False,
 ) -> Crossing:
     """All points of the sets where ``f`` vanishes, and how many paths led there.
 
-    A path to infinity may come near it long before its end can be told from others in double
-    precision. On which paths that happens depends on the slices: where a path fails, all sets are
-    moved to another flag, ``flags`` of them at most, until few do. Those that fail on
-    the best of these flags are tracked in more precise arithmetic.
-
     Args:
-        elsewhere: whether to begin with another flag already.
+        elsewhere: whether the sets are moved to another flag first.
     """
     tracked = 0
-    found: list[tuple[complex, Crossing]] = []
-    for attempt in range(flags):
-        if attempt or elsewhere:
-            there, spent = _elsewhere(sections, rng, tracker.in_doubles)
-            tracked += spent.tracked
-            sections = sections if there is None else there
-        gamma = complex(unit_complex(rng))
-        crossed = _crossing(sections, f, gamma, tracker.brief)
-        tracked += crossed.counts.tracked
-        if not crossed.counts.failed:
-            return replace(crossed, counts=replace(crossed.counts, tracked=tracked))
-        found.append((gamma, crossed))
-        # Ends that are singular on some flags only are regular ones that are badly conditioned.
-        found.sort(key=lambda each: (each[1].singular, each[1].counts.failed))
-        best = found[0][1]
-        if DEAR * best.counts.failed < best.counts.tracked:
-            break
-    for gamma, crossed in found[:EXTENDED]:
-        again = _crossing(crossed.before, f, gamma, tracker)
-        tracked += again.counts.tracked
-        if again.counts.failed < best.counts.failed:
-            best = again
-        if not best.counts.failed:
-            break
-    return replace(best, counts=replace(best.counts, tracked=tracked))
+    if elsewhere:
+        there, spent = _elsewhere(sections, rng, tracker)
+        tracked += spent.tracked
+        sections = sections if there is None else there
+    crossed = _crossing(sections, f, complex(unit_complex(rng)), tracker)
+    tracked += crossed.counts.tracked
+    return replace(crossed, counts=replace(crossed.counts, tracked=tracked))

@@ -21,6 +21,7 @@ from nag.decomposition.fibres import Fibre, Tracker, admit
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.frame import Frame
 from nag.decomposition.irreducible import irreducible_classes
+from nag.decomposition.membership import component_system
 from nag.decomposition.moving import orthonormal_rows
 from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
@@ -90,6 +91,7 @@ def intersect_components(
     """
     other = system if other is None else other
     _check_variables(system, other)
+    system, other = component_system(system, first), component_system(other, second)
     factors = Factor.of(system, first), Factor.of(other, second)
     tracker = Tracker(settings, threads)
     union, common = _shared(_union(system, other))
@@ -128,6 +130,7 @@ def intersect_equations(
         IntersectionError: if the variables differ, or witness points are none.
     """
     _check_variables(system, equations)
+    system = component_system(system, component)
     factor = Factor.of(system, component)
     further = [f.compose(factor.images) for f in equations.polynomials]
     further = [f for f in dict.fromkeys(further) if f]

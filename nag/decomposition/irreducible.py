@@ -36,8 +36,7 @@ def _differences(
 ) -> tuple[np.ndarray | None, PathCounts]:
     counts = PathCounts()
     for attempt in range(ATTEMPTS):
-        used = tracker.again(attempt)
-        differences, spent = second_differences(fibres, rows, rng, used)
+        differences, spent = second_differences(fibres, rows, rng, tracker)
         counts += spent
         if differences is not None:
             return differences, counts
@@ -50,12 +49,11 @@ def _elsewhere(
     """Second differences of the same points carried to another generic slice."""
     counts = PathCounts()
     for attempt in range(ATTEMPTS):
-        used = tracker.again(attempt)
         target = random_rows(rng, len(rows), rows.shape[1] - 1)
-        there, spent = carried(fibres, rows, target, complex(unit_complex(rng)), used)
+        there, spent = carried(fibres, rows, target, complex(unit_complex(rng)), tracker)
         counts += spent
         if there is not None:
-            differences, spent = second_differences(there, target, rng, used)
+            differences, spent = second_differences(there, target, rng, tracker)
             counts += spent
             if differences is not None:
                 return differences, counts

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
+from dataclasses import replace
 from enum import Enum
 
 import numpy as np
 
+from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.cutting import Equations
+from nag.decomposition.cutting import ON, Equations
 from nag.decomposition.fibres import Fibre, Tracker, cut_fibres, move
 from nag.decomposition.slices import rows_through, unit_complex
 from nag.decomposition.witness import Decomposition, PathCounts, WitnessSet
@@ -53,14 +55,12 @@ def is_member(
     dimension = fibres[0].dimension
     scale = 1 + float(np.linalg.norm(point))
     hit, miss = max(HIT, 1e2 * accuracy), max(MISS, 1e4 * accuracy)
-    for attempt in range(ATTEMPTS):
+    for _ in range(ATTEMPTS):
         target = rows_through(rng, dimension, point)
         gamma = complex(unit_complex(rng))
-        # Most often one of the paths answers, and those that fail do not matter.
-        used = (tracker.brief, tracker, Tracker("careful", tracker.threads))[min(attempt, 2)]
         nearest, unclear = np.inf, False
         for fibre in fibres:
-            ends = move(fibre, flag[:dimension], target, gamma, used, endgame=True)
+            ends = move(fibre, flag[:dimension], target, gamma, tracker, endgame=True)
             counts += ends.counts.repeatable
             x = ends.points[ends.finite, : fibre.cut.n]
             distances = np.linalg.norm(x - point, axis=1) / scale
@@ -85,18 +85,55 @@ def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fi
     for known, owner, fibres in _recent:
         if known is system and owner is component:
             return fibres
-    fibres = cut_fibres(
-        component.points,
-        max(component.accuracy, 1e-12),
-        Equations(system.polynomials, system.n),
-        component.slice.rows,
-        np.random.default_rng(0),
-        deflate=component.multiplicity != 1,
-    )
+    _, fibres = _cut(system, component)
     if fibres is None:
         raise ValueError("the witness points are no regular zeros of the system")
     _recent.append((system, component, fibres))
     return fibres
+
+
+def component_system(system: PolynomialSystem, component: WitnessSet) -> PolynomialSystem:
+    """The branch of the system that a component is one of; the system itself if it has no branches.
+
+    A component may be multiple in the system and simple in its branch.
+    """
+    if branches(system) is None:
+        return system
+    found, _ = _cut(system, component)
+    return system if found is None else found
+
+
+def _cut(
+    system: PolynomialSystem, component: WitnessSet
+) -> tuple[PolynomialSystem | None, list[Fibre] | None]:
+    """A branch of a system, or the system, with square systems that cut a component's points.
+
+    A set that lies in several branches may be one in which these meet.
+    """
+    parts = []
+    for branch in branches(system) or ():
+        residuals = Evaluator.of(branch.polynomials, system.n).residuals(component.points)
+        if residuals.max(initial=0.0) < ON:
+            parts.append(branch.system(system))
+    if len(parts) > 1:
+        together = dict.fromkeys(f for part in parts for f in part.polynomials)
+        parts.append(replace(system, polynomials=tuple(together)))
+    for part in (*parts, system):
+        equations = Equations(part.polynomials, part.n)
+        for deflate in dict.fromkeys((False, component.multiplicity != 1)):
+            if part is system and deflate != (component.multiplicity != 1):
+                continue
+            fibres = cut_fibres(
+                component.points,
+                max(component.accuracy, 1e-12),
+                equations,
+                component.slice.rows,
+                np.random.default_rng(0),
+                deflate,
+            )
+            if fibres is not None:
+                return part, fibres
+    return None, None
 
 
 def memberships(

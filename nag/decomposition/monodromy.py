@@ -71,14 +71,13 @@ def loop(
     counts = PathCounts()
     points = np.vstack([fibre.x for fibre in fibres])
     for attempt in range(ATTEMPTS):
-        used = tracker.again(attempt)
         middle = random_rows(rng, len(rows), rows.shape[1] - 1)
         out, back = unit_complex(rng, 2)
-        there, spent = carried(fibres, rows, middle, complex(out), used)
+        there, spent = carried(fibres, rows, middle, complex(out), tracker)
         counts += spent
         if there is None:
             continue
-        again, spent = carried(there, middle, rows, complex(back), used)
+        again, spent = carried(there, middle, rows, complex(back), tracker)
         counts += spent
         if again is None:
             continue

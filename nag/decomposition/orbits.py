@@ -156,7 +156,7 @@ def _permutation(points: _Points, action: Action) -> tuple[np.ndarray | None, Pa
         there: Sequence[Fibre] | None = points.fibres
         if len(points.rows):
             there, spent = carried(
-                points.fibres, points.rows, target, points.gamma(), points.tracker.again(attempt)
+                points.fibres, points.rows, target, points.gamma(), points.tracker
             )
             counts += spent
         if there is None:
@@ -277,14 +277,13 @@ def _around(
     counts, rows = PathCounts(), points.rows
     fibres, start = points.chosen(start)
     for attempt in range(ATTEMPTS):
-        used = points.tracker.again(attempt)
         middle = random_rows(points.rng, len(rows), rows.shape[1] - 1)
         out, back = points.gamma(), points.gamma()
-        there, spent = carried(fibres, rows, middle, out, used)
+        there, spent = carried(fibres, rows, middle, out, points.tracker)
         counts += spent
         if there is None:
             continue
-        again, spent = carried(there, middle, rows, back, used)
+        again, spent = carried(there, middle, rows, back, points.tracker)
         counts += spent
         if again is not None:
             ends = located(np.vstack([fibre.x for fibre in again]), x)
@@ -298,19 +297,18 @@ def _linear_on_two_slices(points: _Points, indices: np.ndarray) -> tuple[bool, P
     counts, rows = PathCounts(), points.rows
     fibres, _ = points.chosen(indices)
     for attempt in range(ATTEMPTS):
-        used = points.tracker.again(attempt)
-        differences, spent = second_differences(fibres, rows, points.rng, used)
+        differences, spent = second_differences(fibres, rows, points.rng, points.tracker)
         counts += spent
         if differences is None:
             continue
         if not is_linear(differences):
             return False, counts
         target = random_rows(points.rng, len(rows), rows.shape[1] - 1)
-        there, spent = carried(fibres, rows, target, points.gamma(), used)
+        there, spent = carried(fibres, rows, target, points.gamma(), points.tracker)
         counts += spent
         if there is None:
             continue
-        differences, spent = second_differences(there, target, points.rng, used)
+        differences, spent = second_differences(there, target, points.rng, points.tracker)
         counts += spent
         if differences is not None:
             return is_linear(differences), counts

@@ -158,18 +158,17 @@ def completed(
     for k in range(MOST_LOOPS):
         if progress is not None:
             progress("completing", len(complete), len(set(pool.labels)))
-        used = tracker.again(2 if k % 4 == 3 else 0)
         active = [i for i, label in enumerate(pool.labels) if label not in complete]
         if not active:
             break
         before = pool
-        pool, spent = _looped(pool, active, rows, rng, used)
+        pool, spent = _looped(pool, active, rows, rng, tracker)
         counts += spent
         changed = set(pool.labels[len(before.labels) :])
         changed |= {new for old, new in zip(before.labels, pool.labels, strict=False) if old != new}
         idle = [i for i in active if pool.labels[i] not in changed]
         if idle:
-            passed, spent = _linear_classes(pool, idle, rows, rng, used)
+            passed, spent = _linear_classes(pool, idle, rows, rng, tracker)
             counts += spent
             complete |= passed
     return pool, complete, counts

@@ -17,8 +17,6 @@ from nag.algebra.polynomial import Polynomial
 from nag.decomposition.cutting import ON, Cut, Equations, dyadic, leading_power
 from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, admit
 from nag.decomposition.hypersurface import (
-    FEW_FLAGS,
-    MOST_FLAGS,
     Crossing,
     Sections,
     crossing,
@@ -148,13 +146,12 @@ class _Stage:
     avoid: Evaluator
     rng: np.random.Generator
     tracker: Tracker
-    flags: int
 
     def meeting(
         self, found: Superset, f: Polynomial, deflate: bool, elsewhere: bool = False
     ) -> tuple[_Meeting, PathCounts]:
         sections = Sections(found.fibres, found.flag)
-        crossed = crossing(sections, f, self.rng, self.tracker, self.flags, elsewhere)
+        crossed = crossing(sections, f, self.rng, self.tracker, elsewhere)
         settled, spent = self.settled(f, crossed, deflate)
         return _Meeting(f, crossed, settled), PathCounts(crossed.counts.tracked) + spent
 
@@ -282,13 +279,13 @@ def witness_superset(
     counts, notes = PathCounts(), []
     found = Superset(fibres, flag, counts, ())
     avoid = Evaluator.of(nonzero, n)
-    mixing, flags = False, MOST_FLAGS
+    mixing = False
     for k, f in enumerate(equations):
         if progress is not None:
             progress("intersecting", k, len(equations))
         later = [g for g in equations[k + 1 :] if g.degree == f.degree]
         before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, n, avoid, rng, tracker, flags)
+        stage = _Stage(before, after, n, avoid, rng, tracker)
         first = _mixed(f, later, rng) if mixing else f
         best, spent = stage.meeting(found, first, deflate=mixing or not later)
         counts += spent
@@ -313,6 +310,4 @@ def witness_superset(
         equations[k] = best.polynomial
         notes += found.notes
         counts += PathCounts(0, best.crossed.counts.failed, best.crossed.counts.at_infinity)
-        if best.crossed.counts.failed:
-            flags = FEW_FLAGS
     return Superset(found.fibres, found.flag, counts, tuple(notes))

@@ -159,7 +159,8 @@ class Decomposition:
         seed: seed of the random numbers.
         settings: name of the tracking settings.
         order: indices of the equations in the order in which they were intersected, among those
-            that are left when linear equations have been solved.
+            that are left when linear equations have been solved; empty where they were not, or
+            where branches of the system were decomposed apart.
         complete: whether every component is confirmed and no path was left undecided.
         notes: what a reader must know of an incomplete answer.
     """

@@ -117,6 +117,8 @@ class Expressions:
     def _static(self, node: ast.expr) -> Any:
         """What a name outside the function stands for; None for anything else."""
         if isinstance(node, ast.Name) and node.id not in self.local:
+            if node.id in self.module.modules:
+                return self.module.modules[node.id]
             known = self.python.__globals__
             return known[node.id] if node.id in known else getattr(builtins, node.id, None)
         if isinstance(node, ast.Attribute):

@@ -12,7 +12,8 @@ from __future__ import annotations
 import ast
 import inspect
 import textwrap
-from types import FunctionType
+from collections.abc import Mapping
+from types import FunctionType, ModuleType
 from typing import Any, get_type_hints
 
 from llvmlite import ir
@@ -41,7 +42,10 @@ class LocatedError(KernelError):
 class Module:
     """An LLVM module with one function to be called from C and all those that it needs."""
 
-    def __init__(self, function: FunctionType) -> None:
+    def __init__(
+        self, function: FunctionType, modules: Mapping[str, ModuleType] | None = None
+    ) -> None:
+        self.modules = dict(modules or {})
         self.ir = ir.Module(function.__name__)
         self.ir.triple = ""
         self.constant_memory = self.ir.add_metadata([])

@@ -10,12 +10,12 @@ import contextlib
 import ctypes
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
 from threading import RLock
-from types import FunctionType
+from types import FunctionType, ModuleType
 from typing import Any
 
 from nag.machine_code.records import table
@@ -70,11 +70,19 @@ class Kernel:
         function: the Python function; its arguments are annotated with records.
         package: the package below ``nag`` that all it is made of comes from, besides this one; the
             object code is kept on disk until a file of either changes. None: it is not kept.
+        modules: what module is meant where the function, or one that it calls, refers to a module
+            by one of these names: so one source serves several arithmetics.
     """
 
-    def __init__(self, function: FunctionType, package: str | None) -> None:
+    def __init__(
+        self,
+        function: FunctionType,
+        package: str | None,
+        modules: Mapping[str, ModuleType] | None = None,
+    ) -> None:
         self.function = function
         self.package = package
+        self.modules = dict(modules or {})
         self._call: Any = None
         self._loaded: Any = None
 
@@ -117,7 +125,7 @@ class Kernel:
         from nag.machine_code.functions import Module
         from nag.machine_code.target import object_code
 
-        return object_code(str(Module(self.function).ir))
+        return object_code(str(Module(self.function, self.modules).ir))
 
     @property
     def _origin(self) -> bytes:
@@ -132,7 +140,8 @@ class Kernel:
         from nag.machine_code.target import processor
 
         kind = blake2b(repr(processor()).encode(), digest_size=4).hexdigest()
-        return f"{self.function.__module__}.{self.function.__name__}-{kind}.kernel"
+        name = ".".join([self.function.__name__, *(m.__name__ for m in self.modules.values())])
+        return f"{self.function.__module__}.{name}-{kind}.kernel"
 
     def _read(self) -> bytes | None:
         for folder in _folders(self.function):

@@ -8,9 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from nag.machine_code.lanes import aligned, fma, fnma, load, separate, splat, square_root, store
-from nag.machine_code.records import Complexes, Reals, Wholes
+from nag.machine_code.records import Reals, Wholes
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.logarithm import composition
 
 
 class System(NamedTuple):
@@ -67,12 +66,10 @@ class Work(NamedTuple):
     ``jr, ji``: Jacobian, then its factors. ``br, bi``: right-hand side. ``pr, pi``: patch.
     ``fr, fi``: the parts' factors at t; in a toric system those, and minus the weights. ``base``:
     point and Taylor coefficients at the last accepted t, real and imaginary parts in turn.
-    ``tr, ti``: t. ``norms``: squared norms of the two Newton corrections, then those of the Taylor
-    coefficients of order 1 and up. ``mode``: 0 in the lanes that predict. ``zr, zi``: their steps
-    in t. ``accepted``: 1 in the lanes whose step is accepted. ``turned, turned_norms``: Taylor
-    coefficients in the logarithm of t, laid out as ``base`` and ``norms`` are from order 1 on.
-    ``scalars, counters``: see `nag.tracking.kernel`. ``composition``: see
-    `nag.tracking.logarithm`. ``x``: one point.
+    ``tr``: t. ``norms``: squared norms of the two Newton corrections, then those of the Taylor
+    coefficients of order 1 and up. ``mode``: 0 in the lanes that predict. ``zr``: their steps in
+    t. ``accepted``: 1 in the lanes whose step is accepted. ``scalars, counters``: see
+    `nag.tracking.kernel`.
     """
 
     vr: Reals
@@ -92,18 +89,12 @@ class Work(NamedTuple):
     pivots: Reals
     base: Reals
     tr: Reals
-    ti: Reals
     norms: Reals
     mode: Reals
     zr: Reals
-    zi: Reals
     accepted: Reals
-    turned: Reals
-    turned_norms: Reals
     scalars: Reals
     counters: Wholes
-    composition: Reals
-    x: Complexes
 
 
 def _real_blocks(start: np.ndarray, coefficient: np.ndarray) -> np.ndarray:
@@ -165,15 +156,9 @@ def work(homotopy: Homotopy, order: int) -> Work:
     value_slots = N + 1 + tape.value_products
     parts = len(homotopy.factors)
     sizes = [slots] * 2 + [order * value_slots] * 2 + [value_slots] * 2 + [N * N] * 2 + [N] * 4
-    sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, 1, order + 2] + [1] * 4
-    sizes += [2 * order * N, order, 16]
+    sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, order + 2, 1, 1, 1, 8]
     vectors = separate(aligned(sum(sizes)), sizes)
-    return Work(
-        *vectors,
-        np.zeros(40, np.int64),
-        composition(order).ravel(),
-        np.zeros(N, np.complex128),
-    )
+    return Work(*vectors, np.zeros(48, np.int64))
 
 
 def _block(first, last, slot, cr, ci, real, vr, vi, shift):
@@ -213,8 +198,7 @@ def products(s, w, first, last):
 
 def factors_at(s, w):
     """Factors of all parts at the lanes' t."""
-    tr = load(w.tr, 0)
-    ti = load(w.ti, 0)
+    t = load(w.tr, 0)
     store(w.vr, s.N, splat(1.0))
     store(w.vi, s.N, splat(0.0))
     if s.toric != 0:
@@ -228,8 +212,8 @@ def factors_at(s, w):
     for p in range(s.parts):
         br = splat(s.factor_re[2 * p + 1])
         bi = splat(s.factor_im[2 * p + 1])
-        store(w.fr, p, fnma(ti, bi, fma(tr, br, splat(s.factor_re[2 * p]))))
-        store(w.fi, p, fma(ti, br, fma(tr, bi, splat(s.factor_im[2 * p]))))
+        store(w.fr, p, fma(t, br, splat(s.factor_re[2 * p])))
+        store(w.fi, p, fma(t, bi, splat(s.factor_im[2 * p])))
 
 
 def _scaled(s, w, part, re, im):
@@ -262,8 +246,7 @@ def values(s, w):
         )
         re, im = _scaled(s, w, s.value_part[b], re, im)
         _add(w.br, w.bi, s.value_place[b], zero - re, zero - im)
-    tr = load(w.tr, 0)
-    ti = load(w.ti, 0)
+    t = load(w.tr, 0)
     for k in range(s.linear):
         re = zero
         im = zero
@@ -274,8 +257,8 @@ def values(s, w):
             if s.linear_moving[k] != 0:
                 dr = splat(s.A1_re[q])
                 di = splat(s.A1_im[q])
-                cr = fnma(ti, di, fma(tr, dr, cr))
-                ci = fma(ti, dr, fma(tr, di, ci))
+                cr = fma(t, dr, cr)
+                ci = fma(t, di, ci)
             x = load(w.vr, j)
             y = load(w.vi, j)
             re = fma(ci, y, fnma(cr, x, re))
@@ -316,8 +299,7 @@ def jacobian(s, w):
         )
         re, im = _scaled(s, w, s.jacobian_part[b], re, im)
         _add(w.jr, w.ji, s.jacobian_place[b], re, im)
-    tr = load(w.tr, 0)
-    ti = load(w.ti, 0)
+    t = load(w.tr, 0)
     for k in range(s.linear):
         for j in range(n):
             q = k * s.N + j
@@ -326,8 +308,8 @@ def jacobian(s, w):
             if s.linear_moving[k] != 0:
                 dr = splat(s.A1_re[q])
                 di = splat(s.A1_im[q])
-                cr = fnma(ti, di, fma(tr, dr, cr))
-                ci = fma(ti, dr, fma(tr, di, ci))
+                cr = fma(t, dr, cr)
+                ci = fma(t, di, ci)
             store(w.jr, (s.rows + k) * n + j, cr)
             store(w.ji, (s.rows + k) * n + j, ci)
     patches = s.rows + s.linear

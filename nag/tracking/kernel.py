@@ -1,4 +1,8 @@
-"""The path tracker's kernel: eight paths at a time, refilled from a queue."""
+"""The path tracker's kernel in doubles: eight paths at a time, refilled from a queue.
+
+Each path runs to t = ``radius``, where its point is kept, and from there straight on to t = 0, for
+as long as it gets on: what happens to it there is for `nag.tracking.ends` to find out.
+"""
 
 from __future__ import annotations
 
@@ -9,33 +13,6 @@ import numpy as np
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import fma, load, select_less, splat, store
 from nag.machine_code.records import Complexes, Reals, Wholes
-from nag.tracking.endgame import (
-    BEST_ERROR,
-    ENDGAME,
-    FAILED,
-    LOOP,
-    MAIN,
-    NEXT_IM,
-    NEXT_RE,
-    NOT_FINITE,
-    PHASE,
-    REALS,
-    SAVED_IM,
-    SAVED_RE,
-    SHORT_STEPS,
-    SHORTCUT,
-    SHRINK,
-    START,
-    STEP_SIZE,
-    STEPS,
-    WHOLES,
-    WINDING,
-    Endgame,
-    arrived,
-    begin,
-    give_up,
-    retreat,
-)
 from nag.tracking.jets import (
     System,
     Work,
@@ -48,32 +25,23 @@ from nag.tracking.jets import (
     right_side,
     values,
 )
-from nag.tracking.linear_algebra import factorize, pivot_ratio, substitute
-from nag.tracking.logarithm import turn
-from nag.tracking.predictor import (
-    ACCURACY,
-    CORRECT,
-    FIRST,
-    GOAL_IM,
-    GOAL_RE,
-    GROWTH,
-    H_USED,
-    LOGARITHMIC,
-    PREDICT,
-    SCALARS,
-    T_IM,
-    T_RE,
-    THETA,
-    H,
-    branch_point,
-    convergence_radius,
-    next_step,
-    next_t,
-    predict,
-)
+from nag.tracking.linear_algebra import factorize, substitute
+from nag.tracking.predictor import CORRECT, PREDICT, next_step, next_t, predict
 
-# Steps after which a straight run to t = 0 ends with the first that is not accepted.
-SHORT = 12
+# What a lane does: nothing; predict and correct; correct at its first point; correct once more.
+EMPTY, STEPPING, STARTING, CORRECTING = -1, 0, 1, 2
+# What became of a step.
+REJECTED, UNFINISHED, ACCEPTED = 0, 1, 2
+# Why a path ended before t = 0, see `nag.tracking.paths.Reason`.
+ARRIVED, STEP_SIZE, STEPS, START, NOT_FINITE = 0, 1, 2, 3, 5
+# Rows of the lanes' counters.
+PATH, ROUNDS, TAKEN, FAILURES, STATE, STRAIGHT = range(6)
+# Rows of the lanes' scalars.
+T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH = range(8)
+# A path that gets on so badly for so many steps behind the radius is left to others.
+PATIENCE = 12
+# Corrections that do not contract any more are rounding errors if they are less than this.
+ROUNDING = 1e-9
 
 
 def _correct(s, w, norms, k):
@@ -148,11 +116,6 @@ def _accept(s, w, order):
             store(w.base, q_im, select_less(half, a, load(w.ci, q), load(w.base, q_im)))
 
 
-# Rows of the lanes' counters.
-PATH, ROUNDS, TAKEN, REJECTED, STATE = range(5)
-COUNTERS = 5
-
-
 def _put(s, w, lane, points, k):
     for j in range(s.N):
         x = points[s.N * k + j]
@@ -160,39 +123,14 @@ def _put(s, w, lane, points, k):
         w.vi[8 * j + lane] = x.imag
 
 
-def _fill(s, w, e, f, c, lane, path, starts):
-    """Put a path into a lane."""
-    _put(s, w, lane, starts, path)
-    for k in range(SCALARS):
-        f[8 * k + lane] = 0.0
-    for k in range(COUNTERS):
-        c[8 * k + lane] = 0
-    f[8 * T_RE + lane] = 1.0
-    c[8 * PATH + lane] = path
-    c[8 * STATE + lane] = 1
-    begin(e, lane)
-    f[8 * GOAL_RE + lane] = e.real[REALS * lane + NEXT_RE]
-    f[8 * GOAL_IM + lane] = e.real[REALS * lane + NEXT_IM]
-
-
-def _restart(s, w, e, f, c, lane):
-    """Go back to the point that the endgame saved."""
-    _put(s, w, lane, e.saved, lane)
-    f[8 * T_RE + lane] = e.real[REALS * lane + SAVED_RE]
-    f[8 * T_IM + lane] = e.real[REALS * lane + SAVED_IM]
-    f[8 * GOAL_RE + lane] = e.real[REALS * lane + NEXT_RE]
-    f[8 * GOAL_IM + lane] = e.real[REALS * lane + NEXT_IM]
-    c[8 * STATE + lane] = 1
-    c[8 * ROUNDS + lane] = 0
-    c[8 * REJECTED + lane] = 0
-
-
 class Batch(NamedTuple):
     """Paths to be tracked in one batch, where their results go, and the settings.
 
     ``starts``: points at t = 1, shape (count, N), of which ``first, first + stride, ..`` are
-    tracked; ``points``: end points. ``outcome, winding, error, steps, reason``: one each path.
-    The rest: see `nag.tracking.settings.Settings`.
+    tracked. ``points``: where they ended, at t = 0 if their ``reason`` is 0; ``safe``: their
+    points at ``safe_t``, which is ``radius``, or 1 for those that did not get there.
+    ``error, steps, reason``: one for each path. The rest: see
+    `nag.tracking.settings.Settings`; a ``radius`` of 0 stands for none.
     """
 
     starts: Complexes
@@ -200,13 +138,14 @@ class Batch(NamedTuple):
     first: int
     stride: int
     points: Complexes
-    outcome: Wholes
-    winding: Wholes
+    safe: Complexes
+    safe_t: Reals
     error: Reals
     steps: Wholes
     reason: Wholes
     order: int
     max_steps: int
+    radius: float
     tolerance: float
     newton: float
     newton_end: float
@@ -216,208 +155,185 @@ class Batch(NamedTuple):
     contraction: float
 
 
-def track_batch(s: System, w: Work, e: Endgame, batch: Batch) -> None:
-    """Track the paths of a batch."""
-    n = s.N
-    order = batch.order
-    max_steps = batch.max_steps
-    count = batch.count
-    stride = batch.stride
-    starts = batch.starts
-    points = batch.points
-    outcome = batch.outcome
-    winding = batch.winding
-    error = batch.error
-    steps = batch.steps
-    reason = batch.reason
-    floor = batch.floor
-    safety = batch.safety
-    theta_max = batch.contraction
-    f = w.scalars
+def _fill(s, w, lane, path, b):
+    """Put a path into a lane."""
+    f, c = w.scalars, w.counters
+    _put(s, w, lane, b.starts, path)
+    for k in range(8):
+        f[8 * k + lane] = 0.0
+    for k in range(6):
+        c[8 * k + lane] = 0
+    f[8 * T + lane] = 1.0
+    f[8 * GOAL + lane] = b.radius
+    c[8 * PATH + lane] = path
+    c[8 * STATE + lane] = STARTING
+
+
+def _aim(w):
+    """Where each lane's points are to be corrected, and which lanes predict."""
+    for lane in range(8):
+        state = w.counters[8 * STATE + lane]
+        w.mode[lane] = PREDICT if state == STEPPING else CORRECT
+        if state == STEPPING:
+            next_t(w, lane)
+        elif state == STARTING:
+            w.tr[lane] = w.scalars[8 * T + lane]
+
+
+def _judged(w, lane, b):
+    """Whether the corrections of a lane let it be accepted; sizes for the next step."""
+    f, c = w.scalars, w.counters
+    stepping = c[8 * STATE + lane] == STEPPING
+    first = w.norms[lane] ** 0.5
+    second = w.norms[8 + lane] ** 0.5
+    if not first < 1e100 or not second < 1e100:
+        return REJECTED
+    theta = second / first if first > 0.0 else 0.0
+    if stepping:
+        f[8 * FIRST + lane] = first
+        rounding = second <= ROUNDING
+        f[8 * THETA + lane] = 0.0 if rounding else theta
+        rounding = rounding or (second <= b.floor and c[8 * FAILURES + lane] >= 2)
+        c[8 * ROUNDS + lane] = 0
+        if first > b.tolerance or not (theta <= b.contraction or rounding):
+            return REJECTED
+    else:
+        c[8 * ROUNDS + lane] += 1
+        if first > 0.1 or not (theta <= 0.5 or second <= b.floor):
+            return REJECTED
+    # The Taylor coefficients' Jacobian is that before the correction.
+    exact = w.tr[lane] == f[8 * GOAL + lane] or c[8 * STATE + lane] == STARTING
+    newton = b.newton_end if exact else b.newton
+    rounds = c[8 * ROUNDS + lane]
+    left = min(theta, 1.0) * second
+    idle = rounds >= 1 and theta > 0.3
+    if left <= newton or ((rounds >= 3 or idle) and second <= b.floor):
+        f[8 * ACCURACY + lane] = left if left > 1e-15 else 1e-15
+        if rounds >= 1 and left > newton:
+            f[8 * ACCURACY + lane] = second
+        return ACCEPTED
+    return UNFINISHED if rounds < 5 else REJECTED
+
+
+def _accepted(w, lane, b):
+    """Go on from the point that was accepted."""
+    f, c = w.scalars, w.counters
+    power = 1.0 / (b.order + 1)
+    f[8 * GROWTH + lane] = 0.0
+    if c[8 * STATE + lane] != STARTING:
+        first = max(f[8 * FIRST + lane], 1e-300)
+        aim = min(
+            b.safety * b.tolerance, 0.3 * b.contraction / max(f[8 * THETA + lane], 1e-300) * first
+        )
+        f[8 * GROWTH + lane] = min((aim / first) ** power, 4.0)
+    f[8 * T + lane] = w.tr[lane]
+    c[8 * STATE + lane] = STEPPING
+    c[8 * FAILURES + lane] = 0
+
+
+def _failed(w, lane, b):
+    """Try a shorter step; the reason why there is none, or 0."""
+    f, c = w.scalars, w.counters
+    first = w.norms[lane] ** 0.5
+    finite = first < 1e100
+    if c[8 * STATE + lane] == STARTING:
+        return START
+    shrink = 0.5
+    if finite and c[8 * STATE + lane] == STEPPING and first > b.tolerance:
+        shrink = (b.safety * b.tolerance / first) ** (1.0 / (b.order + 1))
+        shrink = min(max(shrink, 0.1), 0.6)
+    c[8 * FAILURES + lane] += 1
+    f[8 * H + lane] = f[8 * H_USED + lane] * shrink
+    c[8 * STATE + lane] = STEPPING
+    if f[8 * H + lane] > 1e-10 * f[8 * T + lane]:
+        return ARRIVED
+    return STEP_SIZE if finite else NOT_FINITE
+
+
+def _close(s, w, lane, b, reason):
+    """Write down where a path ended; its lane becomes free."""
     c = w.counters
-    x = w.x
-    power = 1.0 / (order + 1)
-    norms = w.norms
-    mode = w.mode
-    accepted = w.accepted
-    following = batch.first
+    n = s.N
+    path = c[8 * PATH + lane]
+    b.reason[path] = reason
+    b.steps[path] = c[8 * TAKEN + lane]
+    if c[8 * TAKEN + lane] > 1:
+        for j in range(n):
+            b.points[n * path + j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
+    b.error[path] = w.scalars[8 * ACCURACY + lane] if reason == ARRIVED else np.inf
+    c[8 * STATE + lane] = EMPTY
+
+
+def _arrive(s, w, lane, b):
+    """A lane reached its goal: the path has ended, or goes on from its safe point."""
+    f, c = w.scalars, w.counters
+    n = s.N
+    if f[8 * T + lane] == 0.0:
+        _close(s, w, lane, b, ARRIVED)
+        return
+    path = c[8 * PATH + lane]
+    b.safe_t[path] = f[8 * T + lane]
+    for j in range(n):
+        b.safe[n * path + j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
+    f[8 * GOAL + lane] = 0.0
+
+
+def _advance(s, w, b):
+    """What becomes of each lane's step."""
+    f, c = w.scalars, w.counters
+    for lane in range(8):
+        w.accepted[lane] = 0.0
+        if c[8 * STATE + lane] == EMPTY:
+            continue
+        c[8 * TAKEN + lane] += 1
+        reason = ARRIVED
+        verdict = _judged(w, lane, b)
+        if verdict == ACCEPTED:
+            w.accepted[lane] = 1.0
+            _accepted(w, lane, b)
+        elif verdict == REJECTED:
+            reason = _failed(w, lane, b)
+        elif c[8 * STATE + lane] == STEPPING:
+            c[8 * STATE + lane] = CORRECTING
+        if f[8 * GOAL + lane] == 0.0 and b.radius > 0.0:
+            c[8 * STRAIGHT + lane] += 1
+            if c[8 * STRAIGHT + lane] > PATIENCE and verdict == REJECTED:
+                reason = STEPS
+        if c[8 * TAKEN + lane] >= b.max_steps and f[8 * T + lane] > 0.0:
+            reason = STEPS
+        if reason != ARRIVED:
+            w.accepted[lane] = 0.0
+            _close(s, w, lane, b, reason)
+
+
+def track_batch(s: System, w: Work, b: Batch) -> None:
+    """Track the paths of a batch."""
+    following = b.first
     busy = 0
     for lane in range(8):
-        c[8 * STATE + lane] = -1
-        _put(s, w, lane, starts, batch.first)
-        if following < count:
-            _fill(s, w, e, f, c, lane, following, starts)
-            following += stride
+        _put(s, w, lane, b.starts, b.first)
+        w.counters[8 * STATE + lane] = EMPTY
+        if following < b.count:
+            _fill(s, w, lane, following, b)
+            following += b.stride
             busy += 1
-    while busy:
+    while busy > 0:
+        _aim(w)
+        predict(s, w, b.order)
+        _newton_and_jets(s, w, b.order)
+        _advance(s, w, b)
+        _accept(s, w, b.order)
+        busy = 0
         for lane in range(8):
-            state = c[8 * STATE + lane]
-            mode[lane] = PREDICT if state == 0 else CORRECT
-            if state == 0:
-                next_t(w, lane)
-            elif state == 1:
-                w.tr[lane] = f[8 * T_RE + lane]
-                w.ti[lane] = f[8 * T_IM + lane]
-        predict(s, w, order)
-        _newton_and_jets(s, w, order)
-        turning = 0
-        for lane in range(8):
-            accepted[lane] = 0.0
-            state = c[8 * STATE + lane]
-            if state < 0:
-                continue
-            c[8 * TAKEN + lane] += 1
-            n0 = norms[lane] ** 0.5
-            n1 = norms[8 + lane] ** 0.5
-            ending = e.whole[WHOLES * lane + PHASE] != MAIN
-            looping = e.whole[WHOLES * lane + PHASE] == LOOP
-            closing = looping or e.whole[WHOLES * lane + PHASE] == SHRINK
-            tolerance = min(batch.tolerance, 1e-4) if looping else batch.tolerance
-            arriving = w.tr[lane] == f[8 * GOAL_RE + lane] and w.ti[lane] == f[8 * GOAL_IM + lane]
-            # The Taylor coefficients' Jacobian is that before the correction, which where the
-            # Jacobian decays must be small against its smallest singular value.
-            newton = batch.newton_end if arriving or closing or state == 1 else batch.newton
-            finite = n0 < 1e100 and n1 < 1e100
-            ok = finite
-            if finite:
-                theta = n1 / n0 if n0 > 0.0 else 0.0
-                left = min(theta, 1.0) * n1
-                if state == 0:
-                    f[8 * FIRST + lane] = n0
-                    # Corrections that do not contract any more are rounding errors.
-                    rounding = n1 <= (1e-7 if ending else 1e-9)
-                    f[8 * THETA + lane] = 0.0 if rounding else theta
-                    c[8 * ROUNDS + lane] = 0
-                    rounding = rounding or (n1 <= floor and c[8 * REJECTED + lane] >= 2)
-                    ok = n0 <= tolerance and (theta <= theta_max or rounding)
-                else:
-                    c[8 * ROUNDS + lane] += 1
-                    ok = n0 <= 0.1 and (theta <= 0.5 or n1 <= floor)
-                if ok:
-                    idle = c[8 * ROUNDS + lane] >= 1 and theta > 0.3
-                    if left <= newton or ((c[8 * ROUNDS + lane] >= 3 or idle) and n1 <= floor):
-                        accepted[lane] = 1.0
-                    elif c[8 * ROUNDS + lane] >= 5:
-                        ok = False
-            if accepted[lane] > 0.5:
-                f[8 * ACCURACY + lane] = left if left > 1e-15 else 1e-15
-                if c[8 * ROUNDS + lane] >= 1 and left > newton:
-                    f[8 * ACCURACY + lane] = n1
-                f[8 * GROWTH + lane] = 0.0
-                if state != 1:
-                    aim = safety * tolerance
-                    n0 = max(f[8 * FIRST + lane], 1e-300)
-                    aim = min(aim, 0.3 * theta_max / max(f[8 * THETA + lane], 1e-300) * n0)
-                    f[8 * GROWTH + lane] = min((aim / n0) ** power, 4.0)
-                if closing or (arriving and e.active):
-                    turning = 1
-                f[8 * T_RE + lane] = w.tr[lane]
-                f[8 * T_IM + lane] = w.ti[lane]
-                c[8 * STATE + lane] = 0
-                c[8 * REJECTED + lane] = 0
-            elif ok:
-                # Converging, but not there yet: another Newton step at the same t.
-                c[8 * STATE + lane] = 2 if state != 1 else 1
-            elif state == 1:
-                c[8 * STATE + lane] = -2
-                reason[c[8 * PATH + lane]] = START if not ending else ENDGAME
-            else:
-                c[8 * REJECTED + lane] += 1
-                shrink = 0.5
-                if finite and state == 0 and f[8 * FIRST + lane] > tolerance:
-                    shrink = (safety * tolerance / f[8 * FIRST + lane]) ** power
-                    shrink = min(max(shrink, 0.1), 0.6)
-                f[8 * H + lane] = f[8 * H_USED + lane] * shrink
-                c[8 * STATE + lane] = 0
-                size = 1.0
-                if f[8 * LOGARITHMIC + lane] < 0.5:
-                    size = (f[8 * T_RE + lane] ** 2 + f[8 * T_IM + lane] ** 2) ** 0.5
-                if not f[8 * H + lane] > 1e-10 * size:
-                    c[8 * STATE + lane] = -2
-                    reason[c[8 * PATH + lane]] = STEP_SIZE if finite else NOT_FINITE
-            if c[8 * TAKEN + lane] >= max_steps and c[8 * STATE + lane] >= 0:
-                accepted[lane] = 0.0
-                c[8 * STATE + lane] = -2
-                reason[c[8 * PATH + lane]] = STEPS
-            if e.whole[WHOLES * lane + PHASE] == SHORTCUT:
-                e.whole[WHOLES * lane + SHORT_STEPS] += 1
-                if (e.whole[WHOLES * lane + SHORT_STEPS] > SHORT and accepted[lane] < 0.5) or c[
-                    8 * STATE + lane
-                ] == -2:
-                    accepted[lane] = 0.0
-                    c[8 * STATE + lane] = -3
-        _accept(s, w, order)
-        if turning:
-            turn(s, w, order, load(f, T_RE), load(f, T_IM))
-        for lane in range(8):
-            state = c[8 * STATE + lane]
-            if state == -1:
-                continue
-            done = 0
-            path = c[8 * PATH + lane]
-            if state == -3:
-                retreat(s, e, lane, False)
-                _restart(s, w, e, f, c, lane)
-                continue
-            if state == -2:
-                done = 10 + give_up(e, lane)
-            elif (
-                accepted[lane] > 0.5
-                and f[8 * T_RE + lane] == f[8 * GOAL_RE + lane]
-                and f[8 * T_IM + lane] == f[8 * GOAL_IM + lane]
-            ):
-                for j in range(n):
-                    x[j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
-                time = complex(f[8 * T_RE + lane], f[8 * T_IM + lane])
-                hint = pivot_ratio(n, w.jr, w.ji, lane)
-                done = arrived(
-                    s,
-                    e,
-                    lane,
-                    x,
-                    f[8 * ACCURACY + lane],
-                    hint,
-                    convergence_radius(norms, order + 1, lane),
-                    convergence_radius(w.turned_norms, order - 1, lane),
-                    branch_point(s, w, order, lane),
-                    time,
-                )
-                if done == -1:
-                    _restart(s, w, e, f, c, lane)
-                    continue
-                f[8 * GOAL_RE + lane] = e.real[REALS * lane + NEXT_RE]
-                f[8 * GOAL_IM + lane] = e.real[REALS * lane + NEXT_IM]
-                if done == 0 and c[8 * TAKEN + lane] >= max_steps:
-                    reason[path] = STEPS
-                    done = 10 + give_up(e, lane)
-            if accepted[lane] > 0.5:
-                phase = e.whole[WHOLES * lane + PHASE]
-                tolerance = min(batch.tolerance, 1e-4) if phase == LOOP else batch.tolerance
-                turned = phase in (LOOP, SHRINK)
-                next_step(w, order, lane, safety * tolerance, batch.radius_factor, turned)
-            if done >= 10:
-                outcome[path] = done - 10
-                steps[path] = c[8 * TAKEN + lane]
-                if done - 10 == FAILED:
-                    if reason[path] == 0:
-                        reason[path] = ENDGAME
-                    for j in range(n):
-                        points[n * path + j] = complex(
-                            w.base[8 * j + lane], w.base[8 * (n + j) + lane]
-                        )
-                    error[path] = np.inf
-                else:
-                    reason[path] = 0
-                    for j in range(n):
-                        points[n * path + j] = e.best[n * lane + j]
-                    winding[path] = e.whole[WHOLES * lane + WINDING]
-                    error[path] = e.real[REALS * lane + BEST_ERROR]
-                busy -= 1
-                c[8 * STATE + lane] = -1
-                if following < count:
-                    _fill(s, w, e, f, c, lane, following, starts)
-                    following += stride
-                    busy += 1
+            if w.accepted[lane] > 0.5:
+                if w.scalars[8 * T + lane] == w.scalars[8 * GOAL + lane]:
+                    _arrive(s, w, lane, b)
+                next_step(w, b.order, lane, b.safety * b.tolerance, b.radius_factor)
+            if w.counters[8 * STATE + lane] == EMPTY and following < b.count:
+                _fill(s, w, lane, following, b)
+                following += b.stride
+            if w.counters[8 * STATE + lane] != EMPTY:
+                busy += 1
 
 
 track_lanes = Kernel(track_batch, "tracking")

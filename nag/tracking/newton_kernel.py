@@ -173,7 +173,6 @@ def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
                 w.vr[8 * j + lane] = points[n * path + j].real
                 w.vi[8 * j + lane] = points[n * path + j].imag
         store(w.tr, 0, zero)
-        store(w.ti, 0, zero)
         normalize(s, w)
         length = square_root(_matrix(s, w))
         small = _smallest(s, w)

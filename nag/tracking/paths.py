@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import IntEnum
+from fractions import Fraction
 
 import numpy as np
+
+from nag.tracking.homotopy import Homotopy
 
 
 class PathStatus(IntEnum):
@@ -35,9 +39,29 @@ class Reason(IntEnum):
             "the step size became too small",
             "too many steps",
             "Newton's method does not converge at the start point",
-            "the endgame does not converge",
+            "its end asks for more digits",
             "the numbers left the range of double precision",
         )[self]
+
+
+@dataclass(frozen=True, eq=False)
+class Ball:
+    """An end in more digits than doubles have.
+
+    Attributes:
+        centre: coordinates, real and imaginary parts as sums of doubles, shape ``(N, 2, words)``.
+        radii: errors of the coordinates, shape ``(N,)``.
+    """
+
+    centre: np.ndarray
+    radii: np.ndarray
+
+    def fractions(self) -> list[tuple[Fraction, Fraction]]:
+        """The coordinates' real and imaginary parts, exactly."""
+        return [
+            (sum(map(Fraction, re.tolist())), sum(map(Fraction, im.tolist())))
+            for re, im in self.centre
+        ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,26 +71,42 @@ class Paths:
     Attributes:
         points: end points, unit norm in each group of coordinates, shape ``(P, N)``.
         status: `PathStatus`, int8.
-        winding: winding number of the endgame (1 for regular ends, 0 for failed paths).
+        winding: winding number of the end (1 for regular ends, 0 for failed paths).
         accuracy: estimated relative error of the point; inf for failed paths.
-        smallest: smallest singular value of the Jacobian at the point, patches included;
-            polynomial rows are scaled by their largest coefficient, linear rows to unit norm.
-        condition: Frobenius norm of the Jacobian over ``smallest``.
-        steps: predictor steps, rejected ones included, of all attempts.
-        precision: decimal digits of the arithmetic used: 16, 32 (residuals in double-double) or
-            more (mpmath).
+        condition: Frobenius norm of the Jacobian over its smallest singular value.
+        steps: predictor steps, rejected ones included, of all arithmetics.
+        precision: decimal digits of the arithmetic used: 16, 32 or 64.
         reason: `Reason` of a failure, 0 otherwise.
+        balls: regular ends that were found in more digits, by index.
     """
 
     points: np.ndarray
     status: np.ndarray
     winding: np.ndarray
     accuracy: np.ndarray
-    smallest: np.ndarray
     condition: np.ndarray
     steps: np.ndarray
     precision: np.ndarray
     reason: np.ndarray
+    balls: Mapping[int, Ball] = field(default_factory=dict)
+
+    def same(self, homotopy: Homotopy, i: int, j: int) -> bool:
+        """Whether two ends coincide in all digits that they are known to, if both are balls."""
+        if i not in self.balls or j not in self.balls:
+            return True
+        first, second = self.balls[i].fractions(), self.balls[j].fractions()
+        for group in homotopy.groups:
+            # Points of a projective space: coordinates over those of the largest one.
+            largest = max(group, key=lambda k: abs(self.points[i, k]))
+            for k in group:
+                error = sum(
+                    2 * float(ball.radii[k] + ball.radii[largest])
+                    for ball in (self.balls[i], self.balls[j])
+                )
+                a, b = _ratio(first[k], first[largest]), _ratio(second[k], second[largest])
+                if max(abs(float(a[0] - b[0])), abs(float(a[1] - b[1]))) > 16 * error:
+                    return False
+        return True
 
     def __len__(self) -> int:
         return len(self.points)
@@ -85,3 +125,10 @@ class Paths:
         """Number of failed paths for each reason."""
         failed = self.reason[self.status == PathStatus.FAILED]
         return {Reason(r).text: int(k) for r, k in sorted(Counter(failed.tolist()).items())}
+
+
+def _ratio(
+    a: tuple[Fraction, Fraction], b: tuple[Fraction, Fraction]
+) -> tuple[Fraction, Fraction]:
+    size = b[0] ** 2 + b[1] ** 2
+    return (a[0] * b[0] + a[1] * b[1]) / size, (a[1] * b[0] - a[0] * b[1]) / size

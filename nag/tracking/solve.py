@@ -13,22 +13,19 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.tracking.branch_solutions import solve_apart
 from nag.tracking.clusters import clusters, conjugates_present
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings, named
 from nag.tracking.singular_ends import Place, analyse
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
-from nag.tracking.start.choice import choose
+from nag.tracking.start.choice import check_kind, choose
 from nag.tracking.start.target import Start, Target
 from nag.tracking.track import track
 
 Progress = Callable[[str, int, int], None]
 
-# With new random constants if paths failed, or something else speaks against the answer.
-ATTEMPTS = 3
-# Before the last attempt no more failed paths than these are worth more digits.
-FEW = 8
 # |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
 ON = 1e-9
 # End points with larger values than this are no zeros, however badly they are known.
@@ -51,6 +48,10 @@ def solve(
 ) -> SolveResult:
     """All isolated solutions of ``system``, each once, with their multiplicities.
 
+    Where equations factor over the rationals, the parts that the system falls into are solved
+    apart; what comes down to one variable, or to two equations in two of few solutions, is solved
+    exactly. Paths are tracked for the rest, and for a system that a start system is named for.
+
     Args:
         system: what to solve; its ``groups`` are tried among the multihomogeneous structures.
         start: ``"auto"`` (the least work), ``"total"``, ``"multihomogeneous"``,
@@ -65,30 +66,36 @@ def solve(
         ValueError: if there is no such start system or no settings of that name.
     """
     named(settings)
+    check_kind(start)
+    name = settings if isinstance(settings, str) else "custom"
+
+    def tracked(part: PolynomialSystem) -> SolveResult:
+        return _solve_whole(part, start, seed, threads, settings, progress)
+
+    # Who names a start system wants its paths.
+    return solve_apart(system, tracked, seed, name, start == "auto") or tracked(system)
+
+
+def _solve_whole(
+    system: PolynomialSystem,
+    start: str,
+    seed: int,
+    threads: int,
+    settings: Settings | str,
+    progress: Progress | None,
+) -> SolveResult:
+    """The isolated solutions of a system that is tracked as a whole."""
     name = settings if isinstance(settings, str) else "custom"
     rng = np.random.default_rng(seed)
     equations = [f for f in system.polynomials if f]
     if any(f.degree == 0 for f in equations) or system.n == 0:
         return _nothing(system, seed, name)
     problem = _Problem.of(system, equations, rng)
-    result: SolveResult | None = None
-    for attempt in range(ATTEMPTS):
-        if progress:
-            progress("solve", attempt, ATTEMPTS)
-        begin, reason = choose(problem.target, start, system.groups, rng, threads, attempt > 0)
-        tracking = settings
-        if settings == "default" and attempt < ATTEMPTS - 1:
-            tracking = replace(named(settings), double_double_paths=FEW)
-        elif settings == "default":
-            tracking = "careful"
-        paths = track(begin.homotopy, begin.points, tracking, threads)
-        found = _result(problem, begin, reason, paths, rng, seed, name)
-        if result is None or _doubts(found) < _doubts(result):
-            result = found
-        if result.complete:
-            break
-    assert result is not None
-    return result
+    if progress:
+        progress("solve", 0, 1)
+    begin, reason = choose(problem.target, start, system.groups, rng, threads)
+    paths = track(begin.homotopy, begin.points, settings, threads)
+    return _result(problem, begin, reason, paths, rng, seed, name)
 
 
 def begin_of(
@@ -104,10 +111,6 @@ def begin_of(
     started = time.perf_counter()
     paths = track(begin.homotopy, begin.points, settings)
     return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())
-
-
-def _doubts(result: SolveResult) -> tuple[bool, int, int]:
-    return not result.complete, result.paths.failed, len(result.undecided)
 
 
 @dataclass(frozen=True, eq=False)

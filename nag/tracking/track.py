@@ -1,4 +1,9 @@
-"""Track all paths of a homotopy from t = 1 to t = 0 and say how each ends."""
+"""Track all paths of a homotopy from t = 1 to t = 0 and say how each ends.
+
+A straight run in doubles brings most paths to regular ends that Newton's method confirms. The
+others are followed from their last safe points in more digits (`nag.tracking.ends`). Only paths
+that prove to have jumped are tracked again.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +18,15 @@ from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
 from nag.tracking.settings import Settings, named, tighter
 
-STRAIGHT, CAUCHY = 1, 2
-# Largest systems that are tracked again in double-double arithmetic.
-MOST_COORDINATES = 24
 # Smallest homogenising coordinate of a finite zero of a generic system.
 AT_INFINITY = 1e-10
 # Least ratio of a singular value to a Newton step that proves a regular zero.
 PROOF = 1e5
+# Rounding errors of a homogenising coordinate that Newton's method found with residuals in
+# double-double, times the inverse of the smallest singular value.
+RESIDUAL = 1e-29
+# Homogenising coordinates of regular ends at infinity are less than this.
+INFINITE = 1e-26
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -31,7 +38,6 @@ def track(
     threads: int = 1,
     *,
     endgame: bool = True,
-    end_exponent: int = 1,
     distinct: bool = True,
 ) -> Paths:
     """Track ``starts`` from t = 1 to t = 0.
@@ -41,10 +47,8 @@ def track(
         starts: points at t = 1, regular, shape ``(P, N)``.
         settings: `Settings`, or ``"fast"``, ``"default"``, ``"careful"``.
         threads: number of threads; the result does not depend on it.
-        endgame: False where every end is known to be regular: no endgame is run, and an end that
-            does not look regular is failed.
-        end_exponent: ``d`` where paths are analytic in ``(t / (1 - t)) ** d`` near t = 0; then the
-            last coordinate is taken to turn by ``exp(2 pi i / d)`` and to vanish at t = 0.
+        endgame: False where every end is known to be regular: a path need not be safe before its
+            end, and one that ends otherwise has failed.
         distinct: the starts are pairwise distinct, so that equal regular ends betray a path jump;
             such paths are tracked again with tighter control.
 
@@ -56,20 +60,14 @@ def track(
     if starts.ndim != 2 or starts.shape[1] != homotopy.N:
         raise ValueError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
     starts = homotopy.normalized(starts)
-    paths = _attempt(homotopy, starts, chosen, threads, endgame, end_exponent)
-    for attempt in range(chosen.retries):
-        if attempt == 1:
-            paths = _in_double_double(homotopy, starts, paths, chosen, threads, end_exponent)
-        again = set(paths.where(PathStatus.FAILED).tolist())
-        if distinct:
-            again |= set(collisions(homotopy, paths).tolist())
-        if not again:
-            break
+    paths = _attempt(homotopy, starts, chosen, threads, endgame)
+    for _ in range(chosen.retries if distinct else 0):
+        jumped = collisions(homotopy, paths)
+        if not len(jumped):
+            return paths
         chosen = tighter(chosen)
-        indices = np.array(sorted(again))
-        new = _attempt(homotopy, starts[indices], chosen, threads, endgame, end_exponent)
-        paths = _merged(paths, new, indices)
-    return _in_high_precision(homotopy, starts, paths, named(settings), endgame, end_exponent)
+        paths = merged(paths, _attempt(homotopy, starts[jumped], chosen, threads, endgame), jumped)
+    return _without(paths, collisions(homotopy, paths)) if distinct else paths
 
 
 def track_regular(
@@ -79,7 +77,7 @@ def track_regular(
     threads: int = 1,
     weights: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Track once, without an endgame, to a system all of whose finite zeros are regular.
+    """Track once, in doubles, to a system all of whose finite zeros are regular.
 
     Args:
         homotopy: what to track; with ``weights`` its factors must be those of a fixed system.
@@ -92,8 +90,8 @@ def track_regular(
     Returns:
         The normalised finite zeros, shape ``(Q, N)``, and the paths that led there, shape ``(Q,)``.
     """
-    raw = _run(homotopy, homotopy.normalized(starts), settings, threads, False, 1, weights)
-    ended = np.flatnonzero(raw.outcome > 0)
+    raw = _run(homotopy, homotopy.normalized(starts), settings, threads, False, weights)
+    ended = np.flatnonzero(raw.reason == Reason.NONE)
     # A row may be small at a point near infinity, so that singular values would say nothing.
     sharp = refine(homotopy, None, raw.points[ended])
     good = (sharp.moved <= 1e3 * raw.error[ended] + 1e-11) & (sharp.error < 1e-8)
@@ -104,24 +102,40 @@ def track_regular(
 
 @dataclass(frozen=True, eq=False)
 class _Raw:
+    """Where the paths are after a run in doubles: see `nag.tracking.kernel.Batch`."""
+
     points: np.ndarray
-    outcome: np.ndarray
-    winding: np.ndarray
+    safe: np.ndarray
+    safe_t: np.ndarray
     error: np.ndarray
     steps: np.ndarray
     reason: np.ndarray
 
 
 def _attempt(
-    homotopy: Homotopy,
-    starts: np.ndarray,
-    settings: Settings,
-    threads: int,
-    endgame: bool,
-    end_exponent: int,
+    homotopy: Homotopy, starts: np.ndarray, settings: Settings, threads: int, endgame: bool
 ) -> Paths:
-    raw = _run(homotopy, starts, settings, threads, endgame, end_exponent)
-    return _classified(homotopy, raw, endgame)
+    raw = _run(homotopy, starts, settings, threads, endgame)
+    paths = _judged(homotopy, raw)
+    doubtful = paths.where(PathStatus.FAILED)
+    doubtful = doubtful[raw.reason[doubtful] != Reason.START]
+    if not len(doubtful) or settings.digits < 32:
+        return paths
+    from nag.tracking.ends.follow import follow
+
+    reached = raw.reason[doubtful] == Reason.NONE
+    new = follow(
+        homotopy,
+        raw.points[doubtful],
+        reached,
+        raw.safe[doubtful],
+        raw.safe_t[doubtful],
+        settings,
+        threads,
+    )
+    if not endgame:
+        new = _without(new, new.where(PathStatus.SINGULAR))
+    return merged(paths, new, doubtful)
 
 
 def _run(
@@ -130,17 +144,15 @@ def _run(
     settings: Settings,
     threads: int,
     endgame: bool,
-    end_exponent: int,
     weights: np.ndarray | None = None,
 ) -> _Raw:
     from nag.tracking import jets, kernel
-    from nag.tracking.endgame import PATIENCE, endgame_state
 
     P = len(starts)
     raw = _Raw(
-        np.zeros((P, homotopy.N), dtype=np.complex128),
-        np.zeros(P, dtype=np.int64),
-        np.zeros(P, dtype=np.int64),
+        starts.copy(),
+        starts.copy(),
+        np.ones(P),
         np.full(P, np.inf),
         np.zeros(P, dtype=np.int64),
         np.zeros(P, dtype=np.int64),
@@ -152,25 +164,15 @@ def _run(
     batches = max(1, min(threads, P // PATHS_PER_THREAD))
 
     def batch(first: int) -> None:
-        state = endgame_state(
-            homotopy.N,
-            end_exponent,
-            endgame,
-            settings.shortcut,
-            PATIENCE if settings.shortcut else 0,
-            settings.endgame_radius,
-            settings.samples,
-            settings.max_winding,
-            settings.levels,
-        )
         paths = kernel.Batch(
             starts,
             P,
             first,
             batches,
-            *(raw.points, raw.outcome, raw.winding, raw.error, raw.steps, raw.reason),
+            *(raw.points, raw.safe, raw.safe_t, raw.error, raw.steps, raw.reason),
             settings.order,
             settings.max_steps,
+            settings.radius if endgame else 0.0,
             settings.tolerance,
             settings.newton,
             settings.newton_end,
@@ -179,7 +181,7 @@ def _run(
             settings.safety,
             settings.contraction,
         )
-        kernel.track_lanes(arrays, jets.work(homotopy, settings.order), state, paths)
+        kernel.track_lanes(arrays, jets.work(homotopy, settings.order), paths)
 
     if batches == 1:
         batch(0)
@@ -189,130 +191,51 @@ def _run(
     return raw
 
 
-def _in_double_double(
-    homotopy: Homotopy,
-    starts: np.ndarray,
-    paths: Paths,
-    settings: Settings,
-    threads: int,
-    end_exponent: int,
-) -> Paths:
-    """Track again in double-double arithmetic what failed near its end in doubles."""
-    failed = paths.where(PathStatus.FAILED)
-    failed = failed[paths.reason[failed] != Reason.START]
-    # A step costs some N^3 double-double products, a hundred times a step in doubles.
-    most = settings.double_double_paths if homotopy.N <= MOST_COORDINATES else 0
-    if not 0 < len(failed) <= most:
-        return paths
-    from nag.tracking.extended import track_extended
-
-    raw = track_extended(
-        homotopy,
-        starts[failed],
-        threads=threads,
-        end_exponent=end_exponent,
-        radius=settings.endgame_radius,
-        samples=settings.samples,
-        max_winding=settings.max_winding,
-        levels=settings.levels,
-    )
-    new = _classified(homotopy, _Raw(*raw), endgame=True)
-    ended = new.status != PathStatus.FAILED
-    precision = np.where(ended, 32, new.precision).astype(np.int16)
-    return _merged(paths, replace(new, precision=precision), failed)
-
-
-def _in_high_precision(
-    homotopy: Homotopy,
-    starts: np.ndarray,
-    paths: Paths,
-    settings: Settings,
-    endgame: bool,
-    end_exponent: int,
-) -> Paths:
-    """Track again with mpmath what failed in doubles, as many paths as the settings allow."""
-    failed = paths.where(PathStatus.FAILED)
-    failed = failed[paths.reason[failed] != Reason.START][: settings.high_precision_paths]
-    if not len(failed):
-        return paths
-    from nag.tracking.oracle import track_one
-
-    ends = [
-        track_one(
-            homotopy,
-            starts[i],
-            digits=settings.digits,
-            tolerance=min(settings.tolerance, 1e-4),
-            endgame=endgame,
-            end_exponent=end_exponent,
-            max_winding=settings.max_winding,
-        )
-        for i in failed
-    ]
-    outcome = CAUCHY if endgame else STRAIGHT
-    raw = _Raw(
-        np.array([end.point for end in ends]),
-        np.array([outcome if end.winding else 0 for end in ends]),
-        np.array([end.winding for end in ends]),
-        np.array([end.error for end in ends]),
-        np.array([end.steps for end in ends]),
-        np.array([0 if end.winding else Reason.ENDGAME for end in ends]),
-    )
-    new = _classified(homotopy, raw, endgame)
-    return _merged(
-        paths, replace(new, precision=np.full(len(ends), settings.digits, np.int16)), failed
-    )
-
-
-def _classified(homotopy: Homotopy, raw: _Raw, endgame: bool) -> Paths:
+def _judged(homotopy: Homotopy, raw: _Raw) -> Paths:
+    """Ends that Newton's method proves regular, finite or at infinity; the others have failed."""
     P = len(raw.points)
     points = raw.points.copy()
     status = np.full(P, PathStatus.FAILED, dtype=np.int8)
     accuracy = np.full(P, np.inf)
-    smallest = np.zeros(P)
     condition = np.full(P, np.inf)
     reason = raw.reason.astype(np.int8)
-    precision = np.full(P, 16, dtype=np.int16)
-    ended = np.flatnonzero(raw.outcome > 0)
+    ended = np.flatnonzero(raw.reason == Reason.NONE)
     if len(ended):
-        rough = homotopy.normalized(points[ended])
         error = np.maximum(raw.error[ended], 1e-15)
-        sharp = refine(homotopy, None, rough)
+        sharp = refine(homotopy, None, homotopy.normalized(points[ended]))
         steady = sharp.smallest > 0.5 * sharp.before
-        near = sharp.moved <= 1e3 * error + 1e-11
         # Newton's method proves a regular zero where its steps are far smaller than the singular
-        # values; so does a rough end whose error is.
-        proved = steady & (near | (sharp.moved <= 0.1 * sharp.smallest))
-        proved &= (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
-        likely = steady & near & (sharp.error < 1e-8) & (sharp.before > 300 * error)
-        regular = (raw.winding[ended] == 1) & (proved | likely)
-        points[ended] = np.where(regular[:, None], sharp.points, rough)
-        accuracy[ended] = np.where(regular, sharp.error, error)
-        smallest[ended] = np.where(regular, sharp.smallest, sharp.before)
-        condition[ended] = sharp.size / np.maximum(smallest[ended], 1e-300)
-        precision[ended[regular]] = 32
-        sizes = np.abs(points[ended][:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
-        limit = np.where(
-            regular, np.maximum(1e2 * sharp.error, 1e-14), np.maximum(100 * error, 1e-8)
-        )
-        far = (sizes <= limit) & endgame
-        status[ended] = np.where(
-            far, PathStatus.AT_INFINITY, np.where(regular, PathStatus.REGULAR, PathStatus.SINGULAR)
-        )
-        # A path that ran straight to a singular end has not been judged by an endgame; branches
-        # do not meet at a regular zero.
-        straight = raw.outcome[ended] == STRAIGHT
-        lost = ended[~regular & (straight | (proved & ~far))]
-        status[lost] = PathStatus.FAILED
-        reason[lost] = Reason.ENDGAME
-    winding = np.where(status == PathStatus.FAILED, 0, raw.winding)
-    return Paths(
-        points, status, winding, accuracy, smallest, condition, raw.steps, precision, reason
-    )
+        # values.
+        near = (sharp.moved <= 1e3 * error + 1e-11) | (sharp.moved <= 0.1 * sharp.smallest)
+        proved = steady & near & (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
+        points[ended] = sharp.points
+        accuracy[ended] = sharp.error
+        condition[ended] = sharp.condition
+        sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
+        known = sizes > RESIDUAL / np.maximum(sharp.smallest, 1e-300)
+        far = sizes <= INFINITE
+        status[ended[proved & ~far & known]] = PathStatus.REGULAR
+        status[ended[proved & far & ~known]] = PathStatus.AT_INFINITY
+    failed = status == PathStatus.FAILED
+    reason[failed & (reason == Reason.NONE)] = Reason.ENDGAME
+    accuracy[failed] = np.inf
+    winding = np.where(failed, 0, 1)
+    digits = np.where(failed, 16, 32).astype(np.int16)
+    return Paths(points, status, winding, accuracy, condition, raw.steps, digits, reason)
+
+
+def _without(paths: Paths, lost: np.ndarray) -> Paths:
+    """The same, with the paths at ``lost`` failed."""
+    status, reason = paths.status.copy(), paths.reason.copy()
+    status[lost], reason[lost] = PathStatus.FAILED, Reason.ENDGAME
+    return replace(paths, status=status, reason=reason)
 
 
 def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
-    """Indices of the paths with regular ends that coincide with another one's."""
+    """Indices of the paths with regular ends that coincide with another one's.
+
+    Two ends coincide if they do in all digits that both are known to.
+    """
     regular = paths.where(PathStatus.REGULAR)
     if len(regular) < 2:
         return regular[:0]
@@ -328,7 +251,9 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     tolerance = np.maximum(1e-10, 1e3 * paths.accuracy[regular])
     for i, j in neighbours(key, np.full(len(key), 1e-6)):
         close = _distances(homotopy, points[i], points[j]) <= np.maximum(tolerance[i], tolerance[j])
-        found.update(regular[i[close]].tolist(), regular[j[close]].tolist())
+        for a, b in zip(regular[i[close]].tolist(), regular[j[close]].tolist(), strict=True):
+            if paths.same(homotopy, a, b):
+                found |= {a, b}
     return np.array(sorted(found), dtype=np.int64)
 
 
@@ -344,12 +269,17 @@ def _distances(homotopy: Homotopy, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return largest
 
 
-def _merged(old: Paths, new: Paths, indices: np.ndarray) -> Paths:
+def merged(old: Paths, new: Paths, indices: np.ndarray) -> Paths:
     """``old`` with the paths at ``indices`` replaced; steps add up."""
     fields = {}
     for name in old.__dataclass_fields__:
+        if name == "balls":
+            continue
         array = getattr(old, name).copy()
         values = getattr(new, name)
         array[indices] = array[indices] + values if name == "steps" else values
         fields[name] = array
-    return replace(old, **fields)
+    replaced = set(indices.tolist())
+    balls = {i: ball for i, ball in old.balls.items() if i not in replaced}
+    balls |= {int(indices[i]): ball for i, ball in new.balls.items()}
+    return replace(old, balls=balls, **fields)

@@ -45,8 +45,9 @@ def centres(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
             row[place[e]] = float(c / top)
     pairs = {}
     for i in linear:
-        upper = [k for k, e in enumerate(monomials) if e[i]]
-        pairs[i] = np.array([place[_without(monomials[k], i)] for k in upper]), np.array(upper)
+        upper = np.array([k for k, e in enumerate(monomials) if e[i]], dtype=np.int64)
+        lower = [place[_without(monomials[k], i)] for k in upper]
+        pairs[i] = np.array(lower, dtype=np.int64), upper
     radius, centre = _balanced(matrix, _alike(polynomials), pairs, n)
     if radius is None:
         return nothing

@@ -22,6 +22,16 @@ FEW = 64
 WORK = 1.6
 
 
+def check_kind(kind: str) -> None:
+    """Make sure that there is such a start system.
+
+    Raises:
+        ValueError: if there is none.
+    """
+    if kind not in KINDS:
+        raise ValueError(f"no start system {kind!r}; there are {', '.join(KINDS)}")
+
+
 def choose(
     target: Target,
     kind: str,
@@ -38,8 +48,7 @@ def choose(
         StartError: if there is none, or it would have too many paths.
         ValueError: if there is no such kind.
     """
-    if kind not in KINDS:
-        raise ValueError(f"no start system {kind!r}; there are {', '.join(KINDS)}")
+    check_kind(kind)
     total = bezout(target)
     if kind == "total":
         return total_degree(target, rng, generic), f"total degree, as asked: {_paths(total)}"

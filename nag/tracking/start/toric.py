@@ -140,7 +140,7 @@ def by_degeneration(
     weights = cell_weights(cells)[owners]
     degrees = group_degrees(system.rows, groups)
     homotopy = Homotopy(_single_terms(homogenized(system.rows, n, groups, degrees)))
-    settings, length = replace(named("fast"), shortcut=False), LENGTH
+    settings, length = named("fast"), LENGTH
     left = np.arange(len(starts))
     ends = np.zeros((len(starts), 1 + n), dtype=np.complex128)
     spent = 0

@@ -1,0 +1,112 @@
+"""Factors over the rationals of exact polynomials, by FLINT.
+
+FLINT is loaded when the first polynomial is factored, and not before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+from nag.algebra.polynomial import Polynomial
+
+# Integer coefficients of more bits are divided by a power of two, so that they fit into doubles.
+MOST_BITS = 200
+
+
+class Ring:
+    """The polynomials over the rationals in ``n`` variables, as FLINT's ``fmpq_mpoly``."""
+
+    def __init__(self, n: int) -> None:
+        import flint
+
+        names = [f"x{i}" for i in range(n)]
+        self.n = n
+        self._rational = flint.fmpq
+        self.context = flint.fmpq_mpoly_ctx.get(names, flint.Ordering.lex)
+
+    def of(self, f: Polynomial) -> Any:
+        """An exact polynomial as FLINT's."""
+        terms = {e: self._rational(c.numerator, c.denominator) for e, c in f.terms.items()}
+        return self.context.from_dict(terms)
+
+    def polynomial(self, f: Any) -> Polynomial:
+        """The way back."""
+        terms = {tuple(map(int, e)): Fraction(int(c.p), int(c.q)) for e, c in f.to_dict().items()}
+        return Polynomial(self.n, terms)
+
+    def factors(self, f: Any) -> list[tuple[Any, int]]:
+        """The distinct irreducible factors with their exponents; none of a constant.
+
+        A factor has coprime integer coefficients, the leading one positive: factors that are equal
+        up to a constant are equal.
+        """
+        if f.is_constant():
+            return []
+        return [(p, int(k)) for p, k in f.factor()[1]]
+
+    def factor_polynomial(self, f: Any) -> Polynomial:
+        """A factor as a polynomial whose coefficients are not too large for doubles."""
+        g = self.polynomial(f)
+        bits = max((abs(c.numerator).bit_length() for c in g.terms.values()), default=0)
+        return g if bits <= MOST_BITS else g * Fraction(1, 2**bits)
+
+
+@lru_cache(maxsize=64)
+def ring(n: int) -> Ring:
+    """The ring in ``n`` variables; the same object each time."""
+    return Ring(n)
+
+
+# Distinct irreducible polynomials with their exponents.
+Factors = tuple[tuple[Polynomial, int], ...]
+
+
+def factored(f: Polynomial) -> Factors:
+    """The distinct irreducible factors of ``f`` over the rationals, with their exponents.
+
+    None of a constant. Factors that are equal up to a constant are equal. A polynomial with
+    irrational coefficients is left as it is.
+    """
+    if f.degree < 1:
+        return ()
+    if not f.exact:
+        return ((f, 1),)
+    over = ring(f.n)
+    return tuple((over.factor_polynomial(p), k) for p, k in over.factors(over.of(f)))
+
+
+def square_free_part(f: Polynomial) -> Polynomial:
+    """The product of the distinct irreducible factors of ``f``; ``f`` itself if they are simple.
+
+    A polynomial with irrational coefficients is left as it is.
+    """
+    found = factored(f)
+    if all(k == 1 for _, k in found):
+        return f
+    return product([p for p, _ in found], f.n)
+
+
+def product(factors: Iterable[Polynomial], n: int) -> Polynomial:
+    result = Polynomial.constant(n, 1)
+    for p in factors:
+        result = result * p
+    return result
+
+
+def common_factor(polynomials: Sequence[Polynomial]) -> Polynomial:
+    """The greatest common divisor of exact polynomials, not all of them zero.
+
+    Raises:
+        ValueError: if one has irrational coefficients, or there is none but zero.
+    """
+    kept = [f for f in polynomials if f]
+    if not kept or not all(f.exact for f in kept):
+        raise ValueError("a greatest common divisor is of exact polynomials that are not zero")
+    over = ring(kept[0].n)
+    result = over.of(kept[0])
+    for f in kept[1:]:
+        result = result.gcd(over.of(f))
+    return over.factor_polynomial(result)

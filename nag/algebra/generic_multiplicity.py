@@ -1,0 +1,100 @@
+"""Multiplicity of a component in the scheme that equations define, at one of its generic points."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.factoring import Factors
+from nag.algebra.local_ideal import local_ideal
+from nag.algebra.polynomial import Polynomial
+
+# Generators with more choices of a factor of each are not taken apart.
+MOST_INTERSECTIONS = 64
+# Least singular value of gradients of length one that are certainly independent.
+INDEPENDENT = 1e-6
+# Derivatives that are larger than this, beside their terms, certainly do not vanish.
+NOT_ZERO = 1e-7
+
+
+def generic_multiplicity(
+    equations: Sequence[Factors],
+    codimension: int,
+    vanishes: Callable[[Polynomial], bool | None],
+    independent: Callable[[Sequence[Polynomial]], bool],
+    by_local_ring: Callable[[Sequence[Polynomial]], int | None],
+) -> int:
+    """Multiplicity of the component through a generic point of it; 0 if it was not found.
+
+    It is exact where the equations' factors show it, see `LocalIdeal.multiplicity`. Where the
+    generators are as many as the codimension, it is the sum of the multiplicities of all choices of
+    one factor of each, times their exponents: that many elements whose quotient is of finite length
+    are a regular sequence in any order, in a regular local ring, and for such the length is
+    additive, ``0 -> R/(f) -> R/(f g) -> R/(g) -> 0`` being exact. Else it is the dimension of the
+    local ring of all generators.
+
+    Args:
+        equations: those that are not zero, by their factors.
+        codimension: of the component.
+        vanishes: whether a polynomial vanishes on the component; None if that is not known.
+        independent: whether gradients of polynomials certainly are, at a generic point.
+        by_local_ring: computes the dimension of the local ring of some generators at a generic
+            point, on a slice of complementary dimension.
+    """
+    unknown = False
+
+    def there(f: Polynomial) -> bool:
+        nonlocal unknown
+        answer = vanishes(f)
+        unknown |= answer is None
+        return answer is not False
+
+    ideal = local_ideal(equations, there)
+    if unknown:
+        return 0
+    exact = ideal.multiplicity(codimension, independent)
+    if exact is not None:
+        return exact
+    if ideal.intersections(codimension) > MOST_INTERSECTIONS:
+        return by_local_ring(ideal.generators) or 0
+    total = 0
+    for factors in itertools.product(*ideal.monomials):
+        chosen = [*ideal.coordinates, *(p for p, _ in factors)]
+        part = local_ideal([((p, 1),) for p in chosen], there)
+        single = part.multiplicity(codimension, independent) or by_local_ring(part.generators)
+        if not single or unknown:
+            return 0
+        total += single * math.prod(k for _, k in factors)
+    return total
+
+
+def independent_gradients(polynomials: Sequence[Polynomial], x: np.ndarray, error: float) -> bool:
+    """Whether the gradients of polynomials are certainly independent at a point.
+
+    A derivative counts where it is no rounding error of its terms, nor one that an error of the
+    coordinates explains. Rows and columns are brought to length one.
+
+    Args:
+        x: the point, shape ``(n,)``.
+        error: how far, at most, a coordinate may be from the exact one.
+    """
+    n = len(x)
+    derivatives = [f.derivative(i) for f in polynomials for i in range(n)]
+    point = np.asarray(x, dtype=complex)[None]
+    values = Evaluator.of(derivatives, n).values(point)[0]
+    sizes = Evaluator.of(derivatives, n).absolute(point)[0]
+    doubt = Evaluator.of(derivatives, n).absolute(np.abs(point) + error)[0] - sizes
+    gradients = np.where(np.abs(values) > NOT_ZERO * sizes + doubt, values, 0)
+    scales = [max((abs(float(c)) for c in f.terms.values()), default=1.0) for f in derivatives]
+    gradients = (gradients * scales).reshape(len(polynomials), n)
+    for axis in (1, 0, 1):
+        lengths = np.linalg.norm(gradients, axis=axis, keepdims=True)
+        if axis == 1 and not (lengths > 0).all():
+            return False
+        gradients = gradients / np.where(lengths == 0, 1.0, lengths)
+    s = np.linalg.svd(gradients, compute_uv=False)
+    return len(polynomials) <= n and bool(s[-1] > INDEPENDENT)

@@ -1,0 +1,346 @@
+"""Components of systems that fall apart exactly: those of the branches, joined without repeats."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.branches import branches
+from nag.algebra.elimination import eliminate_linear
+from nag.algebra.evaluation import Evaluator, may_vanish
+from nag.algebra.factoring import Factors, factored
+from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
+from nag.algebra.system import PolynomialSystem
+from nag.algebra.vanishing import Vanishing, follows
+from nag.decomposition.confirm import vanishing
+from nag.decomposition.cutting import ON, numerical_corank
+from nag.decomposition.fibres import Tracker
+from nag.decomposition.frame import Frame
+from nag.decomposition.membership import Membership, component_fibres, is_member
+from nag.decomposition.moving import witness_at
+from nag.decomposition.multiplicity import multiplicity
+from nag.decomposition.slices import random_rows, to_slice
+from nag.decomposition.symmetric_images import in_orbits
+from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+
+# Values, relative to their terms, above which a polynomial certainly does not vanish at a point.
+NONZERO = 1e-6
+# Singular values of a Jacobian, relative to its size, that count as zero.
+ZERO = 1e-9
+
+Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
+
+
+@dataclass(frozen=True, eq=False)
+class _Component:
+    """A component of a branch.
+
+    Attributes:
+        system: the branch.
+        zero: the exact zero, where it is one of an algebraic branch.
+    """
+
+    witness: WitnessSet
+    system: PolynomialSystem
+    zero: AlgebraicZero | None = None
+
+    @cached_property
+    def vanishes(self) -> Vanishing:
+        """Whether a polynomial vanishes on the component."""
+        return Vanishing(self._vanishes)
+
+    def _vanishes(self, f: Polynomial) -> bool | None:
+        if self.zero is not None and f.exact:
+            return self.zero.vanishes(f)
+        if (Evaluator.of([f], f.n).residuals(self.witness.points) > NONZERO).any():
+            return False
+        elimination = eliminate_linear(self.system, graphs=False)
+        if follows(f.compose(elimination.images), elimination):
+            return True
+        try:
+            fibre = component_fibres(self.system, self.witness)[0]
+        except ValueError:
+            return None
+        return bool(vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0])
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """A branch and its components."""
+
+    system: PolynomialSystem
+    components: tuple[_Component, ...]
+    answer: Decomposition | None
+
+
+def decompose_apart(
+    system: PolynomialSystem,
+    whole: Whole,
+    symmetries: Sequence[SignedPermutation],
+    seed: int,
+    threads: int,
+    settings: str,
+) -> Decomposition | None:
+    """The components of a system that falls apart, or has zeros that are known exactly.
+
+    Args:
+        whole: decomposes a system as it is, with its symmetries.
+
+    Returns:
+        None if the system neither falls apart nor comes down to one variable.
+    """
+    if system.n == 0:
+        return None
+    apart, rng = branches(system), np.random.default_rng([seed, 11])
+    if apart is None:
+        zeros = algebraic_zeros(system)
+        if zeros is None:
+            return None
+        parts = [_algebraic(system, zeros)]
+        used: Sequence[SignedPermutation] = ()
+    else:
+        systems = [b.system(system) for b in apart]
+        used = symmetries if len(systems) == 1 and _keep(symmetries, systems[0]) else ()
+        parts = [_part(each, whole, used, rng) for each in systems]
+    joined, notes, counts = _joined(parts, rng, Tracker(settings, threads))
+    components = [c.witness for c in joined]
+    if apart is not None:
+        components = _in_scheme(system, joined)
+    if symmetries and not used and components:
+        try:
+            components = _orbits(system, components, symmetries, seed, threads, settings)
+        except ValueError as error:
+            notes.append(f"orbits of the symmetries are not known: {error}")
+    components.sort(key=lambda c: (-c.dimension, c.degree))
+    answers = [part.answer for part in parts if part.answer is not None]
+    notes += [note for answer in answers for note in answer.notes]
+    undecided = any(c.status is Status.UNDECIDED for c in components)
+    return Decomposition(
+        system=system,
+        components=tuple(components),
+        paths=sum((answer.paths for answer in answers), counts),
+        seed=seed,
+        settings=settings,
+        order=(),
+        complete=not (undecided or notes),
+        notes=tuple(dict.fromkeys(notes)),
+    )
+
+
+def _keep(symmetries: Sequence[SignedPermutation], system: PolynomialSystem) -> bool:
+    try:
+        for symmetry in symmetries:
+            check_symmetry(system, symmetry)
+    except SymmetryError:
+        return False
+    return True
+
+
+def _part(
+    system: PolynomialSystem,
+    whole: Whole,
+    symmetries: Sequence[SignedPermutation],
+    rng: np.random.Generator,
+) -> _Part:
+    zeros = None if symmetries else algebraic_zeros(system)
+    if zeros is not None:
+        return _algebraic(system, zeros)
+    if not system.groups and all(f.exact and f.degree <= 1 for f in system.polynomials):
+        return _linear(system, rng)
+    answer = whole(system, symmetries)
+    return _Part(system, tuple(_Component(c, system) for c in answer.components), answer)
+
+
+def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Part:
+    n = system.n
+    evaluator = Evaluator.of(system.polynomials, n)
+    found = []
+    for zero in zeros:
+        x = zero.point
+        if any(_vanishes_at(f, zero) for f in system.nonzero):
+            continue
+        witness = WitnessSet(
+            slice=Slice(np.zeros((0, n)), np.zeros(0)),
+            points=x[None],
+            multiplicity=zero.multiplicity,
+            status=Status.IRREDUCIBLE,
+            residual=float(evaluator.residuals(x[None]).max(initial=0.0)),
+            accuracy=float(np.finfo(float).eps),
+            corank=_corank(evaluator, x),
+            multidegree=np.array(1) if system.groups else None,
+        )
+        found.append(_Component(witness, system, zero))
+    return _Part(system, tuple(found), None)
+
+
+def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
+    """A linear space by a point of it."""
+    elimination = eliminate_linear(system, graphs=False)
+    frame, d = Frame.of(elimination), elimination.system.n
+    rows = random_rows(rng, d, d)
+    x = frame.points(np.linalg.solve(rows[:, 1:], -rows[:, 0])[None])
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    witness = WitnessSet(
+        slice=frame.slice(rows),
+        points=x,
+        multiplicity=1,
+        status=Status.IRREDUCIBLE,
+        residual=float(evaluator.residuals(x).max(initial=0.0)),
+        accuracy=float(np.finfo(float).eps),
+        corank=d,
+    )
+    return _Part(system, (_Component(witness, system),), None)
+
+
+def _vanishes_at(f: Polynomial, zero: AlgebraicZero) -> bool:
+    if f.exact:
+        return zero.vanishes(f)
+    return bool(Evaluator.of([f], f.n).residuals(zero.point[None])[0, 0] < ON)
+
+
+def _corank(evaluator: Evaluator, x: np.ndarray) -> int:
+    s = np.linalg.svd(evaluator.balanced_jacobian(x), compute_uv=False)
+    return numerical_corank(s, len(x), ZERO)
+
+
+def _joined(
+    parts: Sequence[_Part], rng: np.random.Generator, tracker: Tracker
+) -> tuple[list[_Component], list[str], PathCounts]:
+    """The components of all branches that lie in no component of another branch.
+
+    A component lies in the zero set of another branch when the equations vanish at one of its
+    generic points. Then it is one of that branch's components or part of a larger one.
+    """
+    kept: list[_Component] = []
+    notes: list[str] = []
+    counts = PathCounts()
+    systems = [part.system.polynomials for part in parts]
+    first = [c.witness.points[0] for part in parts for c in part.components]
+    near = iter(may_vanish(systems, np.array(first), NONZERO) if first else ())
+    for i, part in enumerate(parts):
+        for component, close in zip(part.components, near, strict=False):
+            inside = False
+            for j in (j for j in np.flatnonzero(close).tolist() if j != i):
+                answer, spent = _covered(component, parts[j], j < i, rng, tracker)
+                counts += spent
+                if answer is Membership.UNDECIDED:
+                    d = component.witness.dimension
+                    notes.append(f"a component of dimension {d} may lie in one of another branch")
+                inside |= answer is Membership.MEMBER
+                if inside:
+                    break
+            if not inside:
+                kept.append(component)
+    return kept, notes, counts
+
+
+def _covered(
+    component: _Component, other: _Part, earlier: bool, rng: np.random.Generator, tracker: Tracker
+) -> tuple[Membership, PathCounts]:
+    """Whether a component is in one of another branch: in a larger one, or in an earlier branch."""
+    counts = PathCounts()
+    there = [component.vanishes(f) for f in other.system.polynomials]
+    if False in there:
+        return Membership.FOREIGN, counts
+    if None in there:
+        return Membership.UNDECIDED, counts
+    witness = component.witness
+    larger = [c for c in other.components if c.witness.dimension > witness.dimension]
+    if earlier or (larger and len(larger) == len(other.components)):
+        return Membership.MEMBER, counts
+    result = Membership.FOREIGN
+    for each in larger:
+        try:
+            fibres = component_fibres(other.system, each.witness)
+        except ValueError:
+            result = Membership.UNDECIDED
+            continue
+        point, rows = witness.points[0], each.witness.slice.rows
+        answer, spent = is_member(point, witness.accuracy, fibres, rows, rng, tracker)
+        counts += spent
+        if answer is Membership.MEMBER:
+            return answer, counts
+        if answer is Membership.UNDECIDED:
+            result = answer
+    return result, counts
+
+
+def _in_scheme(system: PolynomialSystem, components: Sequence[_Component]) -> list[WitnessSet]:
+    """The components with what the original equations make of them."""
+    equations = [factored(f) for f in system.polynomials if f]
+    factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
+    original = Evaluator.of(system.polynomials, system.n)
+    products = Evaluator.of(factors, system.n)
+    found = []
+    for component in components:
+        witness = component.witness
+        far = (products.residuals(witness.points) > NONZERO).any(axis=0)
+        component.vanishes.exclude(p for p, nonzero in zip(factors, far, strict=True) if nonzero)
+        multiple = _multiplicity(equations, component)
+        residual = float(original.residuals(witness.points).max(initial=0.0))
+        reasons = [witness.note] if witness.note else []
+        if residual > ON:
+            reasons.append("a point does not satisfy all equations")
+        if not multiple:
+            reasons.append("its multiplicity was not found")
+        changed = replace(
+            witness,
+            multiplicity=multiple,
+            residual=residual,
+            corank=_corank(original, witness.points[0]),
+            status=Status.UNDECIDED if reasons else witness.status,
+            note="; ".join(reasons),
+        )
+        found.append(changed)
+    return found
+
+
+def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
+    """The multiplicity of a component in the scheme of all equations; 0 if it was not found."""
+    witness = component.witness
+    n = witness.points.shape[1]
+    x = witness.points[np.linalg.norm(witness.points, axis=1).argmin()]
+
+    def independent(polynomials: Sequence[Polynomial]) -> bool:
+        if component.zero is not None and all(f.exact for f in polynomials):
+            return component.zero.independent(polynomials)
+        error = max(1e3 * witness.accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
+        return independent_gradients(polynomials, x, error)
+
+    def by_local_ring(generators: Sequence[Polynomial]) -> int:
+        return multiplicity(Evaluator.of(generators, n), witness.slice.rows, x)
+
+    codimension = n - witness.dimension
+    return generic_multiplicity(
+        equations, codimension, component.vanishes, independent, by_local_ring
+    )
+
+
+def _orbits(
+    system: PolynomialSystem,
+    components: Sequence[WitnessSet],
+    symmetries: Sequence[SignedPermutation],
+    seed: int,
+    threads: int,
+    settings: str,
+) -> list[WitnessSet]:
+    """One of each orbit; components that are not confirmed are none of any.
+
+    Raises:
+        ValueError: if points could not be moved to a common slice.
+    """
+    options = {"seed": seed, "threads": threads, "settings": settings}
+    whole = [c for c in components if c.status is Status.IRREDUCIBLE]
+    flag = random_rows(np.random.default_rng([seed, 12]), system.n, system.n)
+    whole = [
+        witness_at(system, c, to_slice(flag[: c.dimension]), **options) if c.dimension else c
+        for c in whole
+    ]
+    orbits = in_orbits(system, whole, symmetries, **options)
+    return [*orbits, *(c for c in components if c.status is not Status.IRREDUCIBLE)]

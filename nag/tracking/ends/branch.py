@@ -1,0 +1,176 @@
+"""A path as a branch near t = 0: what its Taylor coefficients say, and where they lead.
+
+Taylor coefficients are those in h, t going to ``t exp(h)``, in doubles: ``plain`` of the
+coordinates, ``logs`` of their logarithms. A branch is ``x_j = t^v_j`` times a
+power series in ``r = t ** (1 / w)``, so the derivative of ``log x_j`` is ``v_j`` plus one: its
+series in r converges as far as the next branch point is from 0, for the true w only.
+"""
+
+from __future__ import annotations
+
+from nag.machine_code.lanes import fma, load, select_less, splat, square_root, store
+from nag.tracking.numbers import complex_numbers as z
+from nag.tracking.numbers import double_double as number
+
+# Longest step, in log t.
+LONGEST = 40.0
+
+
+def _keep(data, k, accepted, value):
+    z.write(data, k, z.choose(splat(0.5), accepted, value, z.read(data, k)))
+
+
+def keep_series(s, r, order):
+    """Taylor coefficients of coordinates and logarithms into the base, in the accepted lanes."""
+    accepted = load(r.accepted, 0)
+    n = s.N
+    size = n + 1 + s.value_products
+    for j in range(n):
+        x = z.read(r.slots, j)
+        inverse = z.inverse(x)
+        # m x_m = sum of i l_i x_(m-i) for l = log x; the sums take the place of l for now.
+        for m in range(1, order + 1):
+            own = z.read(r.series, (m - 1) * size + j)
+            total = z.stretch(own, number.exact(splat(float(m))))
+            for i in range(1, m):
+                left = z.read(r.change, i)
+                product = z.multiply(left, z.read(r.series, (m - i - 1) * size + j))
+                total = z.add(total, z.negative(product))
+            total = z.multiply(total, inverse)
+            z.write(r.change, m, total)
+            _keep(r.coordinates, (m - 1) * n + j, accepted, own)
+            log = z.stretch(total, number.same(s.inverses, m))
+            _keep(r.logarithms, (m - 1) * n + j, accepted, log)
+        _round(s, r, order, j)
+
+
+def _round(s, r, order, j):
+    """Taylor coefficients of a coordinate and its logarithm as doubles."""
+    q = 2 * j * (order + 1)
+    re, im = z.rounded(z.read(r.base, j))
+    store(r.plain, q, re)
+    store(r.plain, q + 1, im)
+    for m in range(1, order + 1):
+        re, im = z.rounded(z.read(r.coordinates, (m - 1) * s.N + j))
+        store(r.plain, q + 2 * m, re)
+        store(r.plain, q + 2 * m + 1, im)
+        re, im = z.rounded(z.read(r.logarithms, (m - 1) * s.N + j))
+        store(r.logs, q + 2 * m, re)
+        store(r.logs, q + 2 * m + 1, im)
+
+
+def _last_terms(s, r, order, j):
+    """Sizes of the last coefficients of a coordinate's logarithm, times it, and of itself."""
+    q = 2 * (j * (order + 1) + order)
+    re, im = load(r.plain, q), load(r.plain, q + 1)
+    plain = square_root(fma(re, re, im * im))
+    re, im = load(r.logs, q), load(r.logs, q + 1)
+    return square_root(fma(re, re, im * im)) * z.magnitude(z.read(r.base, j)), plain
+
+
+def predict(s, r, order, wanted, finishing, h):
+    """Points a step ``-h`` in log t on, or at t = 0 where finishing, in the lanes wanted.
+
+    A coordinate is predicted by the series, its own or its logarithm's, whose last term is smaller.
+    """
+    n = s.N
+    half = splat(0.5)
+    step = number.exact(splat(0.0) - h)
+    for j in range(n):
+        base = z.read(r.base, j)
+        log = z.exact(splat(0.0), splat(0.0))
+        plain = log
+        end = log
+        for m in range(order, 0, -1):
+            k = (m - 1) * n + j
+            own = z.read(r.coordinates, k)
+            log = z.stretch(z.add(log, z.read(r.logarithms, k)), step)
+            plain = z.stretch(z.add(plain, own), step)
+            end = z.add(end, z.stretch(own, number.same(s.at_end, m)))
+        by_log = z.multiply(base, z.exponential(log, s.inverses))
+        last, other = _last_terms(s, r, order, j)
+        value = z.choose(last, other, by_log, z.add(base, plain))
+        value = z.choose(half, finishing, z.add(base, end), value)
+        z.write(r.slots, j, z.choose(half, wanted, value, z.read(r.slots, j)))
+    zero = number.exact(splat(0.0))
+    shrunk, _ = z.exponential((step, zero), s.inverses)
+    t = number.multiply(number.read(r.time, 0), shrunk)
+    t = number.choose(half, finishing, zero, t)
+    number.write(r.t, 0, number.choose(half, wanted, t, number.read(r.t, 0)))
+
+
+def _size(data, q, lane):
+    return (data[8 * q + lane] ** 2 + data[8 * (q + 1) + lane] ** 2) ** 0.5
+
+
+def _reach(first, second, order, goal):
+    """How far a series leads whose last coefficients have these sizes."""
+    h = LONGEST
+    if first > 0.0:
+        h = min(h, (goal / first) ** (1.0 / order))
+    if second > 0.0:
+        h = min(h, (goal / second) ** (1.0 / (order - 1)))
+    return h
+
+
+def reach(s, r, order, lane, goal):
+    """The longest step with an expected error of ``goal``, relative to each coordinate's weight."""
+    h = LONGEST
+    for j in range(s.N):
+        q = 2 * (j * (order + 1) + order)
+        weight = r.base_weights[8 * j + lane]
+        here = _reach(
+            _size(r.plain, q, lane) / weight, _size(r.plain, q - 2, lane) / weight, order, goal
+        )
+        if r.base_sizes[8 * j + lane] >= weight:
+            here = max(
+                here, _reach(_size(r.logs, q, lane), _size(r.logs, q - 2, lane), order, goal)
+            )
+        h = min(h, here)
+    return h
+
+
+def _at_zero(s, data, q, order, m, lane):
+    """Coefficient ``m`` in r = -rho, w = 1, of a series in h; entry ``q`` is its first."""
+    value = 0.0 + 0.0j
+    for k in range(1, m + 1):
+        c = s.logarithm[k * (order + 1) + m]
+        p = q + 2 * k
+        value += c * complex(data[8 * p + lane], data[8 * (p + 1) + lane])
+    return value if m % 2 == 0 else -value
+
+
+def tail_at_end(s, r, order, lane):
+    """Size of the last terms of the coordinates' power series in t, at t = 0, over their weights."""
+    most = 0.0
+    for j in range(s.N):
+        q = 2 * j * (order + 1)
+        last = abs(_at_zero(s, r.plain, q, order, order, lane))
+        before = abs(_at_zero(s, r.plain, q, order, order - 1, lane))
+        most = max(most, (last + before) / r.base_weights[8 * j + lane])
+    return most
+
+
+def tails(s, r, order, w):
+    """Largest last term at r = 0 of the derivatives of the logarithms as series in t^(1/w).
+
+    Coordinates that do not exceed their rounding error have no logarithm and do not count.
+    """
+    most = splat(0.0)
+    for j in range(s.N):
+        total = splat(0.0)
+        for m in range(order - 2, order):
+            re = splat(0.0)
+            im = splat(0.0)
+            power = 1.0
+            for k in range(m + 1):
+                c = splat(s.logarithm[k * (order + 1) + m] * power * (k + 1))
+                power = power * w
+                q = 2 * (j * (order + 1) + k + 1)
+                re = fma(c, load(r.logs, q), re)
+                im = fma(c, load(r.logs, q + 1), im)
+            total = total + square_root(fma(re, re, im * im))
+        size = load(r.base_sizes, j)
+        known = select_less(size, load(r.base_weights, j), splat(0.0), total)
+        most = select_less(most, known, known, most)
+    return most

@@ -1,0 +1,340 @@
+"""Paths that doubles leave doubtful, followed to their ends in as many digits as these need."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from nag.tracking.ends import records
+from nag.tracking.ends.inclusion import proved
+from nag.tracking.ends.limits import Limit, Limits
+from nag.tracking.ends.terms import Terms
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.newton import refine
+from nag.tracking.paths import Ball, Paths, PathStatus, Reason
+from nag.tracking.settings import Settings
+
+# Order of the Taylor coefficients.
+ORDER = 14
+# Digits of numbers of as many words.
+DIGITS = {2: 32, 4: 64}
+MAX_STEPS = 300
+MAX_WINDING = 40
+# Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
+# those of the settings.
+ACCURACY, CONTRACTION = 0.1, 0.3
+# Largest last term of a power series in doubles that is taken to converge.
+TAIL = 1e-9
+# Digits to which equations with coefficients of so few digits must hold at least, and the most
+# that may be asked for.
+LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 16, 6, 45
+# A coordinate is known if it exceeds its rounding error so many times.
+KNOWN = 1e3
+
+
+@dataclass(eq=False)
+class _States:
+    """Where the paths are, and what is known of their ends.
+
+    ``where, t``: the last safe points; ``found``: regular ends; ``limits``: others. ``straight``: 0
+    where Newton's method at t = 0 is of no use; ``asked``: in how many words it was tried at a
+    limit.
+    """
+
+    where: np.ndarray
+    t: np.ndarray
+    latest: np.ndarray
+    curvature: np.ndarray
+    ends: np.ndarray
+    tried: np.ndarray
+    straight: np.ndarray
+    asked: np.ndarray
+    outcome: np.ndarray
+    winding: np.ndarray
+    steps: np.ndarray
+    digits: np.ndarray
+    errors: np.ndarray
+    limits: dict[int, Limit]
+    found: dict[int, np.ndarray]
+
+    @classmethod
+    def of(cls, ends: np.ndarray, reached: np.ndarray, safe: np.ndarray, t: np.ndarray) -> _States:
+        P, N = safe.shape
+        whole = [np.zeros(P, dtype=np.int64) for _ in range(4)]
+        return cls(
+            _in_words(safe),
+            np.stack([t, np.zeros(P)], axis=1),
+            np.ones(P),
+            np.ones(P),
+            _in_words(ends),
+            np.where(reached, 0, 1),
+            np.ones(P, dtype=np.int64),
+            np.zeros(P, dtype=np.int64),
+            *whole,
+            np.zeros((P, N)),
+            {},
+            {},
+        )
+
+    def point(self, path: int) -> np.ndarray:
+        """Coordinates where the path is, as doubles."""
+        parts = self.found.get(path, self.where[path]).sum(axis=-1)
+        return parts[:, 0] + 1j * parts[:, 1]
+
+    def may_be_simple(self, path: int, limit: Limit) -> bool:
+        """Whether a limit may be a regular zero, and has not been tried in as many digits."""
+        words = self.where.shape[-1]
+        return limit.winding == 1 and not any(limit.orders) and self.asked[path] < words
+
+    def known(self, path: int) -> np.ndarray:
+        """Which coordinates exceed their rounding errors."""
+        return np.abs(self.point(path)) > KNOWN * self.errors[path]
+
+
+def _in_words(points: np.ndarray) -> np.ndarray:
+    """Complex doubles as sums of two doubles, shape ``(P, N, 2, 2)``."""
+    result = np.zeros((*points.shape, 2, 2))
+    result[..., 0, 0], result[..., 1, 0] = points.real, points.imag
+    return result
+
+
+def follow(
+    homotopy: Homotopy,
+    ends: np.ndarray,
+    reached: np.ndarray,
+    safe: np.ndarray,
+    t: np.ndarray,
+    settings: Settings,
+    threads: int = 1,
+) -> Paths:
+    """Follow paths from safe points to their ends.
+
+    Args:
+        homotopy: what to track.
+        ends: where straight runs in doubles ended, at t = 0 where ``reached``, shape ``(P, N)``.
+        safe: points of the paths at ``t``, shape ``(P, N)``.
+        settings: how many digits may be used, and how many are evidence.
+        threads: number of threads; the result does not depend on it.
+
+    Returns:
+        The paths; those whose ends ask for more digits have failed.
+    """
+    states = _States.of(ends, reached, safe, t)
+    pending = np.arange(len(safe))
+    for words, digits in DIGITS.items():
+        if not len(pending) or digits > settings.digits:
+            break
+        pending = _follow_in(homotopy, states, pending, words, settings, threads)
+    return _paths(homotopy, states)
+
+
+def digits_of_evidence(homotopy: Homotopy, beyond: int) -> int:
+    """To how many digits an end must satisfy the equations: so many more than these have.
+
+    What holds only because coefficients were rounded then does not count.
+    """
+    most = 0
+    for row in homotopy.rows.parts:
+        for part, terms in row:
+            if homotopy.factors[part][0] != 0:
+                most = max(most, *map(_digits, terms.values()))
+    return min(LEAST_EVIDENCE + beyond + max(0, most - ROUND_NUMBERS), MOST_EVIDENCE)
+
+
+def _digits(c: object) -> int:
+    """Decimal digits of a rational number's numerator and denominator, the longer of both."""
+    if isinstance(c, int | Fraction):
+        c = Fraction(c)
+        return len(str(max(abs(c.numerator), c.denominator)))
+    return 0
+
+
+def _follow_in(
+    homotopy: Homotopy,
+    states: _States,
+    pending: np.ndarray,
+    words: int,
+    settings: Settings,
+    threads: int,
+) -> np.ndarray:
+    """Follow paths in one arithmetic; those that need the next one."""
+    from nag.tracking.ends import kernel
+
+    have = states.where.shape[-1]
+    if have < words:
+        room = ((0, 0), (0, 0), (0, 0), (0, words - have))
+        states.where = np.pad(states.where, room)
+        states.ends = np.pad(states.ends, room)
+        states.t = np.pad(states.t, room[2:])
+    terms = Terms(homotopy)
+    limits = Limits(terms, words, ORDER)
+    need = 10.0 ** -digits_of_evidence(homotopy, settings.evidence)
+    later: list[int] = []
+    while len(pending):
+        series = _run(homotopy, states, pending, words, settings, threads)
+        again: list[int] = []
+        for k, path in enumerate(pending.tolist()):
+            states.digits[path] = DIGITS[words]
+            outcome = states.outcome[path]
+            if outcome == kernel.LOST:
+                later.append(path)
+            elif outcome == kernel.LIMIT:
+                verdict = _limit(states, limits, path, series[k], need)
+                if verdict != kernel.LIMIT:
+                    states.outcome[path] = kernel.LOST
+                    hopeful = verdict == kernel.OPEN and states.steps[path] < MAX_STEPS
+                    (again if hopeful else later).append(path)
+            elif outcome == kernel.REGULAR:
+                centre = states.found[path]
+                if not proved(terms, centre, states.errors[path]):
+                    # Newton's method converged, but not to a regular zero: go on without it.
+                    states.straight[path] = 0
+                    again.append(path)
+                elif _ambiguous(homotopy, states, path, need):
+                    states.ends[path], states.tried[path] = centre, 0
+                    later.append(path)
+                else:
+                    continue
+                del states.found[path]
+                states.outcome[path] = kernel.LOST
+        pending = np.array(again, dtype=np.int64)
+    return np.array(sorted(later), dtype=np.int64)
+
+
+def _ambiguous(homotopy: Homotopy, states: _States, path: int, need: float) -> bool:
+    """Whether a regular end is at infinity to fewer digits than are needed."""
+    far = [j for j in homotopy.infinity if not states.known(path)[j]]
+    return bool(far) and float(KNOWN * states.errors[path][far].max()) > need
+
+
+def _limit(
+    states: _States, limits: Limits, path: int, series: np.ndarray, need: float
+) -> int:
+    """`LIMIT` if the equations agree, `OPEN` if further in they may, `LOST` in more digits."""
+    from nag.tracking.ends import kernel
+
+    known, t, w = states.known(path), states.t[path, 0], int(states.winding[path])
+    limit = limits.of(states.where[path], series, known, states.t[path], w)
+    if limit is not None and limit.residual <= need and states.may_be_simple(path, limit):
+        # No branch point at t = 0: Newton's method is tried at the limit before it counts.
+        states.ends[path], states.tried[path] = limit.centre, 0
+        states.asked[path] = limits.words
+        return kernel.OPEN
+    if limit is not None and limit.residual <= need:
+        states.limits[path] = limit
+        states.winding[path] = limit.winding
+        return kernel.LIMIT
+    shrink = 1e-3
+    if limit is not None:
+        # The last term of the series is about the power of r of its order.
+        shrink = min(0.1, max(1e-8, (need / limit.residual) ** (w / ORDER)))
+    states.latest[path] = t * shrink
+    noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
+    return kernel.LOST if noise > 1e-3 * need and limits.words == 2 else kernel.OPEN
+
+
+def _run(
+    homotopy: Homotopy,
+    states: _States,
+    chosen: np.ndarray,
+    words: int,
+    settings: Settings,
+    threads: int,
+) -> np.ndarray:
+    """Run the kernel; Taylor coefficients of the chosen paths that converged to limits."""
+    from nag.tracking.ends import kernel
+
+    compiled = kernel.KERNELS[words]
+    compiled.prepare()
+    system = records.equations(homotopy, words, ORDER)
+    batches = max(1, min(threads, len(chosen) // 8))
+    series = np.zeros((len(chosen), ORDER, homotopy.N, 2, words))
+
+    def part(first: int) -> None:
+        own = chosen[first::batches]
+        count, N = len(own), homotopy.N
+        whole = [np.zeros(count, dtype=np.int64) for _ in range(3)]
+        points, errors = states.where[own].copy(), np.zeros((count, N))
+        t, curvature = states.t[own], states.curvature[own]
+        taylor = np.zeros((count, ORDER, N, 2, words))
+        batch = kernel.Batch(
+            count,
+            ORDER,
+            states.ends[own].ravel(),
+            states.tried[own],
+            states.straight[own],
+            states.where[own].ravel(),
+            t.reshape(-1),
+            states.latest[own],
+            *whole,
+            points.reshape(-1),
+            taylor.reshape(-1),
+            errors.reshape(-1),
+            curvature,
+            MAX_STEPS,
+            MAX_WINDING,
+            ACCURACY * settings.tolerance,
+            CONTRACTION * settings.contraction,
+            TAIL,
+        )
+        compiled(system, records.room(homotopy, words, ORDER), batch)
+        states.outcome[own], states.winding[own] = whole[0], whole[1]
+        states.steps[own] += whole[2]
+        regular = whole[0] == kernel.REGULAR
+        states.found |= {int(own[k]): points[k] for k in np.flatnonzero(regular)}
+        states.where[own[~regular]] = points[~regular]
+        states.errors[own] = errors
+        states.t[own], states.curvature[own] = t, curvature
+        states.tried[own] = 1
+        series[first::batches] = taylor
+
+    if batches == 1:
+        part(0)
+    else:
+        with ThreadPoolExecutor(batches) as pool:
+            list(pool.map(part, range(batches)))
+    return series
+
+
+def _paths(homotopy: Homotopy, states: _States) -> Paths:
+    from nag.tracking.ends import kernel
+
+    P = len(states.t)
+    points = np.zeros((P, homotopy.N), dtype=np.complex128)
+    status = np.full(P, PathStatus.FAILED, dtype=np.int8)
+    accuracy = np.full(P, np.inf)
+    balls: dict[int, Ball] = {}
+    infinite = list(homotopy.infinity)
+    for path in range(P):
+        points[path] = states.point(path)
+        if states.outcome[path] == kernel.REGULAR:
+            finite = bool(states.known(path)[infinite].all())
+            status[path] = PathStatus.REGULAR if finite else PathStatus.AT_INFINITY
+            accuracy[path] = max(2e-16, float(states.errors[path].max()))
+            balls[path] = Ball(states.found[path], states.errors[path])
+        elif states.outcome[path] == kernel.LIMIT:
+            limit = states.limits[path]
+            points[path] = limit.point
+            finite = bool((limit.point[infinite] != 0).all())
+            status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY
+            accuracy[path] = max(2e-16, limit.tail)
+    points = homotopy.normalized(points)
+    condition = np.full(P, np.inf)
+    regular = np.flatnonzero(status == PathStatus.REGULAR)
+    if len(regular):
+        condition[regular] = refine(homotopy, None, points[regular], iterations=0).condition
+    failed = status == PathStatus.FAILED
+    return Paths(
+        points,
+        status,
+        np.where(failed, 0, np.maximum(states.winding, 1)),
+        accuracy,
+        condition,
+        states.steps,
+        states.digits.astype(np.int16),
+        np.where(failed, Reason.ENDGAME, Reason.NONE).astype(np.int8),
+        balls,
+    )

@@ -1,0 +1,99 @@
+"""Krawczyk's test in ball arithmetic: proof of exactly one zero of a homotopy at t = 0 in a box.
+
+For a box X with midpoint x and any matrix Y near the inverse Jacobian, all zeros in X lie in
+``K(X) = x - Y F(x) + (1 - Y F'(X)) (X - x)``; if K(X) lies in the interior of X, there is exactly
+one, and it is regular. F are the rows of the homotopy and a patch through x for each group.
+Reference:
+    Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken, 1969;
+    Burr, Lee & Leykin, Effective certification of approximate solutions, 2019.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from nag.tracking.ends.terms import BITS, Terms, number
+
+# Radii of the box, in rounding errors of the coordinates.
+WIDER = 64.0
+
+
+def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> bool:
+    """Whether a box of some rounding errors about a point holds exactly one, regular zero.
+
+    Args:
+        terms: the homotopy's.
+        centre: coordinates, shape ``(N, 2, words)``.
+        errors: of the coordinates, shape ``(N,)``.
+    """
+    import flint
+
+    before = flint.ctx.prec
+    try:
+        flint.ctx.prec = BITS[centre.shape[-1]]
+        return _proved(flint, terms, centre, errors)
+    finally:
+        flint.ctx.prec = before
+
+
+def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) -> bool:
+    N = terms.homotopy.N
+    if not np.isfinite(centre).all() or not np.isfinite(errors).all():
+        return False
+    x = [number(c) for c in centre]
+    floor = np.abs(centre[:, :, 0]).max(initial=0.0) * 2.0 ** -(BITS[centre.shape[-1]] // 2 + 8)
+    radii = [WIDER * float(e) + floor * 2.0**-32 for e in errors]
+    box = [z + flint.acb(flint.arb(0, r), flint.arb(0, r)) for z, r in zip(x, radii, strict=True)]
+    patches = _patches(flint, terms, x)
+    values, jacobian = _system(flint, terms, patches, x)
+    try:
+        Y = jacobian.mid().inv().mid()
+    except ZeroDivisionError:
+        return False
+    _, slopes = _system(flint, terms, patches, box)
+    newton = Y * values
+    rest = flint.acb_mat(N, N, [int(i == j) for i in range(N) for j in range(N)]) - Y * slopes
+    moved = flint.acb_mat(N, 1, [b - z for b, z in zip(box, x, strict=True)])
+    image = rest * moved - newton
+    return all(bool(image[j, 0].abs_upper() < flint.arb(r)) for j, r in enumerate(radii))
+
+
+def _patches(flint: Any, terms: Terms, x: list[Any]) -> list[list[Any]]:
+    """One row for each group, whose product with the point is 1."""
+    rows = []
+    for group in terms.homotopy.groups:
+        conjugates = [z.mid().conjugate() if j in group else flint.acb(0) for j, z in enumerate(x)]
+        size = sum((c * z for c, z in zip(conjugates, x, strict=True)), flint.acb(0)).mid()
+        rows.append([(c / size).mid() for c in conjugates])
+    return rows
+
+
+def _system(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) -> tuple[Any, Any]:
+    """Values and Jacobian of the rows at t = 0 and of the patches."""
+    N = terms.homotopy.N
+    values: list[Any] = []
+    jacobian: list[Any] = []
+    for row in terms.rows:
+        value = flint.acb(0)
+        slopes = [flint.acb(0)] * N
+        for factors, c, _ in row:
+            if c == 0:
+                continue
+            powers = [x[j] ** k for j, k in factors]
+            after = [flint.acb(1)]
+            for p in reversed(powers):
+                after.append(after[-1] * p)
+            value += c * after[-1]
+            before = c
+            for i, (j, k) in enumerate(factors):
+                rest = before * after[len(factors) - 1 - i]
+                slopes[j] += rest * k * x[j] ** (k - 1) if k > 1 else rest
+                before = before * powers[i]
+        values.append(value)
+        jacobian += slopes
+    for patch in patches:
+        values.append(sum((c * z for c, z in zip(patch, x, strict=True)), flint.acb(-1)))
+        jacobian += patch
+    return flint.acb_mat(N, 1, values), flint.acb_mat(N, N, jacobian)

@@ -1,0 +1,412 @@
+"""The kernel that follows eight paths to their ends, in the arithmetic that it is compiled for.
+
+All lanes make a step together: each is predicted, corrected, and expanded into Taylor series.
+A lane is at t > 0 (`STEP`), or tries whether Newton's method converges at t = 0 (`FINISH`).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.lanes import load, select_less, splat, store
+from nag.machine_code.records import Reals, Wholes
+from nag.tracking.ends.branch import (
+    keep_series,
+    reach,
+    predict,
+    tail_at_end,
+    tails,
+)
+from nag.tracking.ends.evaluation import (
+    block_sums,
+    complete_slots,
+    factors_at,
+    incomplete_slots,
+    jacobian,
+    lay_patches,
+    products,
+    right_side,
+    values,
+)
+from nag.tracking.ends.linear_algebra import (
+    equilibrate,
+    factorize,
+    newton_correction,
+    substitute,
+    vanishing,
+)
+from nag.tracking.ends.records import Equations, Room
+from nag.tracking.numbers import complex_numbers as z
+from nag.tracking.numbers import double_double, quad_double
+from nag.tracking.numbers import double_double as number
+
+# What a lane does.
+IDLE, STEP, FINISH = 0.0, 1.0, 2.0
+# How a path ended: it is lost where its rounding errors, or its steps, leave it nothing to go on.
+OPEN, REGULAR, LIMIT, LOST, TOO_LONG = range(5)
+# Relative size of coordinates that doubles do not know.
+FLOOR = 1e-9
+# Corrections of so many rounding errors may be nothing else.
+STAGNANT = 1e2
+# Rows of the lanes' scalars.
+(
+    MODE,
+    PATH,
+    T,
+    H,
+    FIRST,
+    LAST,
+    CONTRACTION,
+    SETTLED,
+    CURVATURE,
+    TAKEN,
+    TRIED,
+    WINDING,
+    WAITED,
+    KNOWN,
+    BASE,
+    REJECTED,
+    WANTED,
+    EXCESS,
+) = range(18)
+
+
+class Batch(NamedTuple):
+    """Paths to be followed, and where their results go.
+
+    ``ends``: points at which to try Newton's method at t = 0 first, like ``starts``, if
+    ``tried`` is 0; ``straight``: 0 where not to try it later; ``starts``: points of the paths, numbers as in `Equations`, shape
+    (count, N, 2, words), at ``t``, shape (count, words). ``latest``: largest t at which a limit is taken for one.
+    ``outcome, winding, steps``: one for each path; ``points``: like ``starts``, the end, or where
+    the path is, at ``t``; ``series``: Taylor coefficients there, of order 1 and up, shape
+    (count, order, N, 2, words); ``errors``: rounding errors of the coordinates, shape (count, N).
+    ``finite``: whether simple zeros at t = 0 are looked for. ``tail``: largest last term of a
+    power series that is taken to converge.
+    """
+
+    count: int
+    order: int
+    ends: Reals
+    tried: Wholes
+    straight: Wholes
+    starts: Reals
+    t: Reals
+    latest: Reals
+    outcome: Wholes
+    winding: Wholes
+    steps: Wholes
+    points: Reals
+    series: Reals
+    errors: Reals
+    curvature: Reals
+    max_steps: int
+    max_winding: int
+    accuracy: float
+    contraction: float
+    tail: float
+
+
+def _put(s, r, lane, data, path):
+    """Coordinates of a lane from an array of numbers."""
+    for k in range(2 * number.WORDS * s.N):
+        r.slots[8 * k + lane] = data[2 * number.WORDS * s.N * path + k]
+
+
+def _set_time(r, lane, t, path, zero):
+    for k in range(number.WORDS):
+        r.t[8 * k + lane] = 0.0 if zero else t[number.WORDS * path + k]
+
+
+def _fill(s, r, f, lane, path, b):
+    """Put a path into a lane."""
+    for k in range(18):
+        f[8 * k + lane] = 0.0
+    f[8 * PATH + lane] = path
+    f[8 * TRIED + lane] = 1e-2
+    f[8 * CURVATURE + lane] = b.curvature[path]
+    if b.tried[path] == 0:
+        f[8 * MODE + lane] = FINISH
+        _set_time(r, lane, b.t, path, True)
+        _put(s, r, lane, b.ends, path)
+    else:
+        _begin(s, r, f, lane, b)
+
+
+def _begin(s, r, f, lane, b):
+    """Go to the path's own point."""
+    path = int(f[8 * PATH + lane])
+    f[8 * MODE + lane] = STEP
+    _set_time(r, lane, b.t, path, False)
+    _put(s, r, lane, b.starts, path)
+
+
+def _correct(s, r, f, b):
+    """Newton's method in all lanes, until each has settled or failed."""
+    for lane in range(8):
+        f[8 * SETTLED + lane] = 0.0 if f[8 * MODE + lane] > IDLE else 2.0
+    lay_patches(s, r)
+    factors_at(s, r)
+    # Small coordinates are not known at points that come from doubles.
+    half = splat(0.5)
+    nothing = z.exact(splat(0.0), splat(0.0))
+    floor = select_less(load(f, BASE), half, splat(FLOOR), splat(0.0))
+    for j in range(s.N):
+        size = z.largest(z.magnitude(z.read(r.slots, j)), floor)
+        store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
+    for k in range(12):
+        products(s, r, s.products)
+        values(s, r)
+        jacobian(s, r)
+        equilibrate(s, r)
+        factorize(s, r)
+        newton_correction(s, r, floor)
+        settled = load(f, SETTLED)
+        for j in range(s.N):
+            x = z.read(r.slots, j)
+            correction = z.read(r.right, j)
+            moved = z.choose(half, vanishing(x, correction), nothing, z.add(x, correction))
+            z.write(r.slots, j, z.choose(settled, half, moved, x))
+        busy = 0
+        for lane in range(8):
+            if f[8 * SETTLED + lane] < 0.5:
+                f[8 * SETTLED + lane] = _judged(r, f, lane, k, b)
+                if f[8 * SETTLED + lane] < 0.5:
+                    busy += 1
+        if busy == 0:
+            break
+
+
+def _judged(r, f, lane, k, b):
+    """0 if a lane needs another correction, 1 if it has settled, 2 if it failed."""
+    eta = r.measures[lane]
+    excess = r.measures[8 + lane]
+    f[8 * EXCESS + lane] = max(1.0, excess)
+    f[8 * KNOWN + lane] = r.measures[16 + lane] * f[8 * EXCESS + lane]
+    if not eta < 0.5 or not r.measures[24 + lane] < 0.5:
+        f[8 * FIRST + lane] = 1.0 if k == 0 else f[8 * FIRST + lane]
+        return 2.0
+    noise = excess <= 1.0
+    if k == 0:
+        f[8 * FIRST + lane] = eta
+        f[8 * CONTRACTION + lane] = 0.0
+        f[8 * LAST + lane] = eta
+        return 1.0 if noise else 0.0
+    theta = eta / f[8 * LAST + lane]
+    f[8 * LAST + lane] = eta
+    if k == 1:
+        # A second correction that is half rounding errors says how large it is at most.
+        curvature = theta / f[8 * FIRST + lane]
+        if excess <= 1e2:
+            curvature = min(curvature, f[8 * CURVATURE + lane])
+        f[8 * CURVATURE + lane] = curvature
+    if noise:
+        return 1.0
+    if k == 1:
+        f[8 * CONTRACTION + lane] = theta
+    if theta > 0.25:
+        # Corrections that do not contract any more may be a few rounding errors.
+        return 1.0 if excess <= STAGNANT else 2.0
+    return 2.0 if k == 11 else 0.0
+
+
+def _expand(s, r, order):
+    """Taylor coefficients of the path."""
+    products(s, r, s.value_products)
+    values(s, r)
+    for m in range(1, order + 1):
+        incomplete_slots(s, r, m)
+        block_sums(s, r, m)
+        right_side(s, r, m)
+        substitute(s, r, r.right)
+        complete_slots(s, r, m)
+        block_sums(s, r, m)
+
+
+def _keep(s, r, f, order):
+    """Make the accepted points the bases of further steps."""
+    half = splat(0.5)
+    accepted = load(r.accepted, 0)
+    for j in range(s.N):
+        x = z.read(r.slots, j)
+        z.write(r.base, j, z.choose(half, accepted, x, z.read(r.base, j)))
+        size = z.magnitude(x)
+        store(r.base_sizes, j, select_less(half, accepted, size, load(r.base_sizes, j)))
+        weight, known = load(r.weights, j), load(r.base_weights, j)
+        weight = z.largest(weight, size)
+        store(r.base_weights, j, select_less(half, accepted, weight, known))
+        error, known = load(r.errors, j) * load(f, EXCESS), load(r.base_errors, j)
+        store(r.base_errors, j, select_less(half, accepted, error, known))
+    time = number.read(r.time, 0)
+    number.write(r.time, 0, number.choose(half, accepted, number.read(r.t, 0), time))
+    keep_series(s, r, order)
+
+
+def _close(s, r, f, lane, b, outcome, data):
+    """Results of a path, its point from ``data``; the lane becomes free."""
+    path = int(f[8 * PATH + lane])
+    b.outcome[path] = outcome
+    b.winding[path] = int(f[8 * WINDING + lane])
+    b.steps[path] += int(f[8 * TAKEN + lane])
+    b.curvature[path] = f[8 * CURVATURE + lane]
+    numbers = 2 * number.WORDS * s.N
+    if outcome == REGULAR or f[8 * BASE + lane] > 0.5:
+        for k in range(numbers):
+            b.points[numbers * path + k] = data[8 * k + lane]
+        if outcome != REGULAR:
+            for k in range(number.WORDS):
+                b.t[number.WORDS * path + k] = r.time[8 * k + lane]
+    for j in range(s.N):
+        error = r.base_errors[8 * j + lane]
+        if outcome == REGULAR:
+            error = r.errors[8 * j + lane] * f[8 * EXCESS + lane]
+        b.errors[s.N * path + j] = error
+    if outcome == LIMIT:
+        size = s.N + 1 + s.value_products
+        for m in range(b.order):
+            for k in range(numbers):
+                value = r.series[8 * (2 * number.WORDS * m * size + k) + lane]
+                b.series[numbers * (b.order * path + m) + k] = value
+    f[8 * MODE + lane] = IDLE
+
+
+def _rejected(s, r, f, lane, b):
+    """A step or a finish that failed: a shorter step, or none if there is none."""
+    if f[8 * MODE + lane] == FINISH:
+        if f[8 * BASE + lane] < 0.5:
+            _begin(s, r, f, lane, b)
+            return
+        f[8 * MODE + lane] = STEP
+    elif f[8 * BASE + lane] < 0.5:
+        _close(s, r, f, lane, b, LOST, r.base)
+        return
+    else:
+        f[8 * H + lane] *= 0.4
+        f[8 * REJECTED + lane] += 1.0
+        if f[8 * H + lane] < 1e-7 or f[8 * REJECTED + lane] > 25.0:
+            _close(s, r, f, lane, b, LOST, r.base)
+            return
+    f[8 * WANTED + lane] = 1.0
+
+
+def _predict(s, r, f, order):
+    """Where the lanes that want it are to be corrected next."""
+    one = splat(1.0)
+    finishing = load(f, MODE) - one
+    predict(s, r, order, load(f, WANTED), finishing, load(f, H))
+    store(f, WANTED, splat(0.0))
+
+
+def _advance(s, r, f, lane, b, best, winding):
+    """What follows an accepted step: a limit, a trial at t = 0, or another step."""
+    path = int(f[8 * PATH + lane])
+    rejected = f[8 * REJECTED + lane]
+    f[8 * T + lane] = r.t[lane]
+    f[8 * BASE + lane] = 1.0
+    f[8 * REJECTED + lane] = 0.0
+    curvature = max(f[8 * CURVATURE + lane], 1.0)
+    if f[8 * KNOWN + lane] * curvature > 1e-3:
+        _close(s, r, f, lane, b, LOST, r.base)
+        return
+    converged_here = best <= b.tail
+    converged = converged_here and r.t[lane] <= b.latest[path]
+    f[8 * WAITED + lane] = f[8 * WAITED + lane] + 1.0 if converged else 0.0
+    if f[8 * WINDING + lane] != winding:
+        f[8 * WAITED + lane] = min(f[8 * WAITED + lane], 1.0)
+    f[8 * WINDING + lane] = winding
+    if f[8 * TAKEN + lane] >= b.max_steps or f[8 * T + lane] < 1e-280:
+        _close(s, r, f, lane, b, TOO_LONG, r.base)
+        return
+    goal = min(b.accuracy, b.contraction / curvature)
+    h = reach(s, r, b.order, lane, goal)
+    if converged_here:
+        # Further in, rounding errors grow: no further than a limit is wanted.
+        h = min(h, max(2.0, math.log(f[8 * T + lane] / b.latest[path])))
+    f[8 * H + lane] = min(h, f[8 * H + lane]) if rejected > 0.5 else h
+    end = tail_at_end(s, r, b.order, lane)
+    if end <= 0.1 * f[8 * TRIED + lane] and b.straight[path] != 0:
+        f[8 * TRIED + lane] = end
+        f[8 * MODE + lane] = FINISH
+        f[8 * WANTED + lane] = 1.0
+    elif f[8 * WAITED + lane] >= 2.0:
+        _close(s, r, f, lane, b, LIMIT, r.base)
+    else:
+        f[8 * WANTED + lane] = 1.0
+
+
+def _best_winding(s, r, b):
+    """The w with the smallest tail in each lane, and that tail, into the first measures.
+
+    A power series in t^(1/w) is one for the multiples of w as well: the first one will do.
+    """
+    best = splat(1e300)
+    chosen = splat(0.0)
+    enough = splat(b.tail)
+    for w in range(1, b.max_winding + 1):
+        tail = tails(s, r, b.order, float(w))
+        tail = select_less(enough, best, tail, best)
+        chosen = select_less(tail, best, splat(float(w)), chosen)
+        best = select_less(tail, best, tail, best)
+    store(r.measures, 0, best)
+    store(r.measures, 1, chosen)
+
+
+def follow_batch(s: Equations, r: Room, b: Batch) -> None:
+    """Follow all paths of a batch."""
+    f = r.scalars
+    following = 0
+    busy = 0
+    for lane in range(8):
+        f[8 * MODE + lane] = IDLE
+        path = min(lane, b.count - 1)
+        _fill(s, r, f, lane, path, b)
+        if lane < b.count:
+            busy += 1
+            following += 1
+        else:
+            f[8 * MODE + lane] = IDLE
+    while busy > 0:
+        _correct(s, r, f, b)
+        stepping = 0
+        for lane in range(8):
+            r.accepted[lane] = 0.0
+            mode = f[8 * MODE + lane]
+            if mode == IDLE:
+                continue
+            f[8 * TAKEN + lane] += 1.0
+            contracted = f[8 * CONTRACTION + lane] <= b.contraction
+            if f[8 * SETTLED + lane] > 1.5 or not contracted:
+                _rejected(s, r, f, lane, b)
+            elif mode == FINISH:
+                curvature = max(f[8 * CURVATURE + lane], 1.0)
+                if f[8 * KNOWN + lane] * curvature <= 1e-3:
+                    _close(s, r, f, lane, b, REGULAR, r.slots)
+                else:
+                    _rejected(s, r, f, lane, b)
+            else:
+                r.accepted[lane] = 1.0
+                stepping += 1
+        if stepping > 0:
+            _expand(s, r, b.order)
+            _keep(s, r, f, b.order)
+            _best_winding(s, r, b)
+            for lane in range(8):
+                if r.accepted[lane] > 0.5:
+                    best, winding = r.measures[lane], r.measures[8 + lane]
+                    _advance(s, r, f, lane, b, best, winding)
+        _predict(s, r, f, b.order)
+        for lane in range(8):
+            if f[8 * MODE + lane] == IDLE and following < b.count:
+                _fill(s, r, f, lane, following, b)
+                following += 1
+        busy = 0
+        for lane in range(8):
+            if f[8 * MODE + lane] > IDLE:
+                busy += 1
+
+
+KERNELS = {
+    arithmetic.WORDS: Kernel(follow_batch, "tracking", {"number": arithmetic})
+    for arithmetic in (double_double, quad_double)
+}

@@ -1,0 +1,180 @@
+"""Limits of branches as t goes to 0: orders, leading coefficients, and whether the equations agree.
+
+A branch is ``x_j = t^v_j (X_j + ..)`` with rational orders v. In the direction (v, 1) the terms of
+least order of each equation of the homotopy must cancel at X; these initial forms are exact
+(Huber & Verschelde, Polyhedral end games for polynomial continuation, 1998). That they vanish to
+many digits is evidence, no proof: an end so near to it would look the same.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from nag.tracking.ends.terms import BITS, Terms, doubles, number, real
+
+# An order in units of 1 / w is a whole number to so many units.
+WHOLE = 1e-3
+LARGEST = 100
+LOG_2 = 0.6931471805599453
+# Order of a coordinate that is zero as far as its digits go.
+NEVER = 1 << 40
+
+
+@dataclass(frozen=True, eq=False)
+class Limit:
+    """Where a branch leads.
+
+    Attributes:
+        orders: of the coordinates, in units of ``1 / winding``.
+        winding: winding number, or a part of it where all orders have a smaller denominator.
+        point: leading coefficients as doubles, 0 for coordinates that vanish beside those of
+            least order in their group, shape ``(N,)``; ``centre``: the same in all digits, shape
+            ``(N, 2, words)``.
+        tail: size of the last terms of the power series.
+        residual: largest value of an initial form over the sum of its terms.
+    """
+
+    orders: tuple[int, ...]
+    winding: int
+    point: np.ndarray
+    centre: np.ndarray
+    tail: float
+    residual: float
+
+
+@dataclass(frozen=True, eq=False)
+class Limits:
+    """What finds the limits of the branches of one homotopy, in numbers of ``words`` doubles."""
+
+    terms: Terms
+    words: int
+    order: int
+    _initial: dict[tuple[int, ...], Any] = field(default_factory=dict)
+
+    def of(
+        self, x: np.ndarray, series: np.ndarray, known: np.ndarray, t: np.ndarray, winding: int
+    ) -> Limit | None:
+        """The limit of a branch.
+
+        Args:
+            x: coordinates at t, shape ``(N, 2, words)``.
+            series: their Taylor coefficients in log t, shape ``(order, N, 2, words)``.
+            known: which coordinates exceed their rounding errors, shape ``(N,)``.
+            t: shape ``(words,)``.
+
+        Returns:
+            None where the orders are no rational numbers with a common small denominator.
+        """
+        import flint
+
+        bits = flint.ctx.prec, flint.ctx.cap
+        try:
+            flint.ctx.prec, flint.ctx.cap = BITS[self.words], self.order + 1
+            return self._of(flint, x, series, known, t, winding)
+        finally:
+            flint.ctx.prec, flint.ctx.cap = bits
+
+    def _of(
+        self,
+        flint: Any,
+        x: np.ndarray,
+        series: np.ndarray,
+        known: np.ndarray,
+        t: np.ndarray,
+        winding: int,
+    ) -> Limit | None:
+        rho = flint.acb_series([0, 1])
+        step = (rho + 1).log() * winding
+        log_t = real(t).log()
+        N = self.terms.homotopy.N
+        logs: list[Any] = [None] * N
+        slopes = np.full(N, np.nan)
+        tail = 0.0
+        for j in np.flatnonzero(known).tolist():
+            numbers = [number(x[j])] + [number(c[j]) for c in series]
+            logs[j] = (flint.acb_series(numbers) / numbers[0]).log()
+            slope, last = _at_minus_one(logs[j].derivative()(step))
+            slopes[j] = complex(slope).real
+            if not abs(complex(slope).imag) <= WHOLE:
+                return None
+            tail = max(tail, last)
+        winding = _denominator(slopes[known], winding)
+        if not winding:
+            return None
+        orders = [NEVER] * N
+        leading = [flint.acb(0)] * N
+        for j in np.flatnonzero(known).tolist():
+            orders[j] = round(winding * slopes[j])
+            order = flint.fmpq(orders[j], winding)
+            value, _ = _at_minus_one((logs[j] - flint.acb_series([0, order]))(step))
+            leading[j] = number(x[j]) * (value - log_t * order).exp()
+        residual = self._residual(flint, tuple(orders), leading, winding)
+        centre = self._centre(orders, leading)
+        parts = centre.sum(axis=2)
+        point = parts[:, 0] + 1j * parts[:, 1]
+        return Limit(tuple(orders), winding, point, centre, tail, residual)
+
+    def _centre(self, orders: list[int], leading: list[Any]) -> np.ndarray:
+        centre = np.zeros((self.terms.homotopy.N, 2, self.words))
+        for indices in self.terms.homotopy.groups:
+            least = min(orders[j] for j in indices)
+            first = [j for j in indices if orders[j] == least]
+            # A power of two, by which nothing is rounded.
+            size = 2 ** round(max(float(abs(leading[j]).log().mid()) for j in first) / LOG_2)
+            for j in first:
+                centre[j] = doubles(leading[j] / size, self.words)
+        return centre
+
+    def _forms(self, flint: Any, orders: tuple[int, ...], winding: int) -> Any:
+        key = (winding, *orders)
+        if key not in self._initial:
+            forms = []
+            for row in self.terms.rows:
+                least, form = NEVER, []
+                for factors, a, b in row:
+                    order = sum(k * orders[j] for j, k in factors)
+                    for c, d in ((a, order), (b, order + winding)):
+                        if c == 0 or d > least:
+                            continue
+                        if d < least:
+                            least, form = d, []
+                        form.append((factors, c))
+                if least < NEVER // 2:
+                    forms.append(form)
+            self._initial[key] = forms
+        return self._initial[key]
+
+    def _residual(
+        self, flint: Any, orders: tuple[int, ...], point: list[Any], winding: int
+    ) -> float:
+        powers: dict[tuple[int, int], Any] = {}
+        worst = 0.0
+        for form in self._forms(flint, orders, winding):
+            total, size = flint.acb(0), flint.arb(0)
+            for factors, c in form:
+                for factor in factors:
+                    if factor not in powers:
+                        powers[factor] = point[factor[0]] ** factor[1]
+                    c = c * powers[factor]
+                total += c
+                size += abs(c)
+            worst = max(worst, float(abs(total).mid() / size.mid()) if size > 0 else 0.0)
+        return worst
+
+
+def _denominator(values: np.ndarray, least: int) -> int:
+    """The first denominator from ``least`` on that all rational values share; 0 if none does."""
+    for d in range(least, LARGEST + 1):
+        if np.all(np.abs(d * values - np.rint(d * values)) <= WHOLE):
+            return d
+    return 0
+
+
+def _at_minus_one(series: Any) -> tuple[Any, float]:
+    """Value of a series at -1, and the size of its last two terms."""
+    coefficients = series.coeffs()
+    value = sum((c if m % 2 == 0 else -c for m, c in enumerate(coefficients)), 0)
+    return value, sum(float(abs(c).mid()) for c in coefficients[-2:])

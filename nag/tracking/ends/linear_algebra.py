@@ -1,0 +1,186 @@
+"""Complex LU decomposition with equilibrated rows and columns, in the arithmetic of the kernel."""
+
+from __future__ import annotations
+
+import math
+
+from nag.machine_code.lanes import any_less, fma, load, select_less, splat, square_root, store
+from nag.tracking.numbers import complex_numbers as z
+from nag.tracking.numbers import double_double as number
+from nag.tracking.numbers.error_free import power_near_inverse_root
+
+PHASE = 1.9416
+# Part of a coordinate that a correction leaves where it takes it away.
+GONE = 1e-6
+
+
+def _power_near_inverse(r, value):
+    """Powers of two near the inverses of the lanes' values; 1 where a value is none."""
+    store(r.measures, 0, value)
+    for lane in range(8):
+        size = r.measures[lane]
+        finite = size > 1e-150 and size < 1e150
+        r.measures[lane] = power_near_inverse_root(size * size) if finite else 1.0
+    return load(r.measures, 0)
+
+
+def equilibrate(s, r):
+    """Multiply columns by the sizes of the coordinates, and rows by the inverse of their largest.
+
+    Scales are powers of two, so that nothing is rounded.
+    """
+    n = s.N
+    for j in range(n):
+        power = _power_near_inverse(r, load(r.weights, j))
+        store(r.columns, j, splat(1.0) / power)
+    for i in range(n):
+        most = splat(0.0)
+        for j in range(n):
+            size = z.magnitude(z.read(r.matrix, i * n + j)) * load(r.columns, j)
+            most = z.largest(most, size)
+        power = _power_near_inverse(r, most)
+        store(r.scales, i, power)
+        for j in range(n):
+            entry = z.read(r.matrix, i * n + j)
+            z.write(r.matrix, i * n + j, z.scale(z.scale(entry, load(r.columns, j)), power))
+
+
+def _exchange(s, r, k):
+    """Bring the largest entry of column ``k`` to the diagonal, in each lane its own."""
+    n = s.N
+    best = splat(-1.0)
+    chosen = splat(float(k))
+    for i in range(k, n):
+        size = z.magnitude(z.read(r.matrix, i * n + k))
+        chosen = select_less(best, size, splat(float(i)), chosen)
+        best = select_less(best, size, size, best)
+    store(r.pivots, k, chosen)
+    quarter = splat(0.25)
+    for i in range(k + 1, n):
+        difference = chosen - splat(float(i))
+        distance = difference * difference
+        if any_less(distance, quarter):
+            for j in range(n):
+                upper = z.read(r.matrix, k * n + j)
+                lower = z.read(r.matrix, i * n + j)
+                z.write(r.matrix, k * n + j, z.choose(distance, quarter, lower, upper))
+                z.write(r.matrix, i * n + j, z.choose(distance, quarter, upper, lower))
+
+
+def factorize(s, r):
+    """Overwrite the equilibrated matrix by its factors; the diagonal holds the inverse pivots."""
+    n = s.N
+    for k in range(n):
+        _exchange(s, r, k)
+        pivot = z.inverse(z.read(r.matrix, k * n + k))
+        z.write(r.matrix, k * n + k, pivot)
+        for i in range(k + 1, n):
+            factor = z.negative(z.multiply(z.read(r.matrix, i * n + k), pivot))
+            z.write(r.matrix, i * n + k, factor)
+            for j in range(k + 1, n):
+                product = z.multiply(factor, z.read(r.matrix, k * n + j))
+                z.write(r.matrix, i * n + j, z.add(z.read(r.matrix, i * n + j), product))
+
+
+def substitute(s, r, data):
+    """Overwrite a right-hand side by the solution."""
+    n = s.N
+    for i in range(n):
+        z.write(data, i, z.scale(z.read(data, i), load(r.scales, i)))
+    half = splat(0.5)
+    for k in range(n - 1):
+        chosen = load(r.pivots, k)
+        for i in range(k + 1, n):
+            difference = chosen - splat(float(i))
+            distance = difference * difference
+            if any_less(distance, half):
+                upper = z.read(data, k)
+                lower = z.read(data, i)
+                z.write(data, k, z.choose(distance, half, lower, upper))
+                z.write(data, i, z.choose(distance, half, upper, lower))
+    for i in range(1, n):
+        total = z.read(data, i)
+        for j in range(i):
+            product = z.multiply(z.read(r.matrix, i * n + j), z.read(data, j))
+            total = z.add(total, product)
+        z.write(data, i, total)
+    for i in range(n - 1, -1, -1):
+        total = z.read(data, i)
+        for j in range(i + 1, n):
+            product = z.multiply(z.read(r.matrix, i * n + j), z.read(data, j))
+            total = z.add(total, z.negative(product))
+        z.write(data, i, z.multiply(total, z.read(r.matrix, i * n + i)))
+    for j in range(n):
+        z.write(data, j, z.scale(z.read(data, j), load(r.columns, j)))
+
+
+def vanishing(x, correction):
+    """1 in the lanes where a correction takes a tiny coordinate away altogether, 0 elsewhere.
+
+    Where equations hold a coordinate as a factor, zeros have no rounding errors to be told by.
+    """
+    size = z.magnitude(x)
+    left = z.magnitude(z.add(x, correction))
+    gone = select_less(left, splat(GONE) * size, splat(1.0), splat(0.0))
+    return select_less(size, splat(number.SMALL), gone, splat(0.0))
+
+
+def newton_correction(s, r, floor):
+    """Newton's correction into the right-hand side, rounding errors of the point, and measures.
+
+    Measures of each lane: the largest correction over its coordinate's weight; the largest over
+    its coordinate's rounding error; the largest rounding error over a coordinate that exceeds
+    it a thousandfold; and 1 if the largest coordinate of a group does not. Corrections of
+    coordinates smaller than ``floor`` count as if they were of that size.
+    """
+    n = s.N
+    for i in range(n):
+        # Phases that grow as squares cancel no smooth vector, as signs in turn would.
+        size = load(r.sizes, i) * splat(number.EPSILON * 8.0)
+        re, im = math.cos(PHASE * (i * i)), math.sin(PHASE * (i * i))
+        z.write(r.noise, i, z.exact(size * splat(re), size * splat(im)))
+    substitute(s, r, r.right)
+    substitute(s, r, r.noise)
+    zero = splat(0.0)
+    half = splat(0.5)
+    thousand = splat(1e3)
+    eta = zero
+    excess = zero
+    known = zero
+    whole = zero
+    for j in range(n):
+        size = z.magnitude(z.read(r.slots, j))
+        step = z.magnitude(z.read(r.right, j))
+        whole = whole + step
+        error = fma(size, splat(number.EPSILON), z.magnitude(z.read(r.noise, j)) + splat(1e-300))
+        # What does not exceed its rounding error may be zero along the whole path; then its
+        # Taylor coefficients are rounding errors as well, and larger.
+        unresolved = z.largest(thousand * error, splat(number.SMALL))
+        weight = select_less(thousand * error, size, size, unresolved)
+        gone = vanishing(z.read(r.slots, j), z.read(r.right, j))
+        weight = select_less(half, gone, splat(number.SMALL), weight)
+        error = select_less(half, gone, z.largest(error, step), error)
+        weight = z.largest(weight, floor)
+        store(r.errors, j, error)
+        store(r.weights, j, weight)
+        eta = z.largest(eta, step / weight)
+        excess = z.largest(excess, step / error)
+        resolved = select_less(thousand * error, size, error / size, zero)
+        known = z.largest(known, resolved)
+    unknown = zero
+    for g in range(s.groups):
+        # Coordinates have about unit norm in each group.
+        total = zero
+        for j in range(n):
+            if s.group_of[j] == g:
+                error = load(r.errors, j)
+                total = fma(error, error, total)
+        lost = select_less(splat(1e-3), square_root(total), splat(1.0), zero)
+        unknown = z.largest(unknown, lost)
+    # What is not a number is not less than anything.
+    huge = splat(1e300)
+    eta = select_less(whole, huge, eta, huge)
+    store(r.measures, 0, eta)
+    store(r.measures, 1, excess)
+    store(r.measures, 2, known)
+    store(r.measures, 3, unknown)

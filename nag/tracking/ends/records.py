@@ -1,0 +1,258 @@
+"""A homotopy and room to work as flat arrays for the kernel of the ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+from nag.algebra.number import Irrational, Number, to_mpf
+from nag.machine_code.lanes import aligned, separate
+from nag.machine_code.records import Reals, Wholes
+from nag.tracking.homotopy import Homotopy
+
+
+class Equations(NamedTuple):
+    """A homotopy; numbers have as many words as the arithmetic (see `nag.tracking.compiled.Tape`).
+
+    ``value, jacobian``: coefficients, real and imaginary part in turn. ``factors``: of part ``p``
+    the real and imaginary parts of ``a`` and ``b`` in ``a + t b``; ``A0, A1``: likewise real and
+    imaginary parts in turn. ``moving``: whether a part's factor is not 1. ``logarithm``: see
+    `composition`. ``at_end``: weights of the coefficients of a series in ``log t`` in its value at
+    t = 0, by its power series in t; ``inverses``: 1 / k.
+    """
+
+    N: int
+    rows: int
+    linear: int
+    groups: int
+    parts: int
+    value_products: int
+    products: int
+    value_blocks: int
+    jacobian_blocks: int
+    group_of: Wholes
+    first: Wholes
+    second: Wholes
+    value_place: Wholes
+    value_part: Wholes
+    value_start: Wholes
+    value_slot: Wholes
+    value: Reals
+    jacobian_place: Wholes
+    jacobian_part: Wholes
+    jacobian_start: Wholes
+    jacobian_slot: Wholes
+    jacobian: Reals
+    moving: Wholes
+    factors: Reals
+    A0: Reals
+    A1: Reals
+    logarithm: Reals
+    at_end: Reals
+    inverses: Reals
+
+
+class Room(NamedTuple):
+    """Scratch for eight paths, vectors of lanes; numbers are laid out as in `Equations`.
+
+    ``t``: where the lanes are. ``slots``: coordinates, 1 and products at the point; ``series``:
+    their Taylor coefficients in the logarithm of t, order by order from 1 on; ``change``: what a
+    coordinate's coefficient adds to them. ``factor``: of the parts at t. ``sums, lines``: Taylor
+    coefficients of the blocks, and of the linear rows' moving parts, order by order from 0 on.
+    ``matrix, right, noise``: Jacobian, and two right-hand sides. ``pivots, columns, scales``: of
+    its factors. ``sizes``: of the terms of each row. ``patch, levels``: linear forms that normalise, and
+    their values.
+    ``base``: the last accepted point; ``coordinates, logarithms``: Taylor coefficients of the
+    coordinates and of their logarithms there, order by order from 1 on; ``plain, logs``: the same
+    rounded to doubles, coordinate by coordinate from order 0 on. ``time``: t there.
+    ``weights, errors``: sizes in which corrections count, and rounding errors, of each coordinate
+    at the point; ``base_sizes``: of the coordinates
+    at the base, ``base_weights, base_errors``: as above there. ``scalars``: see the kernel.
+    ``measures``: of the last correction.
+    """
+
+    t: Reals
+    slots: Reals
+    series: Reals
+    change: Reals
+    factor: Reals
+    sums: Reals
+    lines: Reals
+    matrix: Reals
+    right: Reals
+    noise: Reals
+    pivots: Reals
+    columns: Reals
+    scales: Reals
+    sizes: Reals
+    patch: Reals
+    levels: Reals
+    base: Reals
+    time: Reals
+    coordinates: Reals
+    logarithms: Reals
+    plain: Reals
+    logs: Reals
+    weights: Reals
+    errors: Reals
+    base_sizes: Reals
+    base_weights: Reals
+    base_errors: Reals
+    scalars: Reals
+    measures: Reals
+    accepted: Reals
+
+
+# Numbers of the rows of the lanes' scalars, and of inverses of whole numbers.
+SCALARS = 18
+MOST_INVERSES = 32
+
+
+def _split(value: Fraction, count: int) -> list[float]:
+    parts = []
+    for _ in range(count):
+        parts.append(float(value))
+        value -= Fraction(parts[-1])
+    return parts
+
+
+def words(value: Number | complex, count: int, factor: Fraction = Fraction(1)) -> list[float]:
+    """Real and imaginary part of a product as sums of ``count`` doubles, the largest first."""
+    if isinstance(value, complex | float | np.complexfloating | np.floating):
+        z = complex(value)
+        return [
+            *_split(Fraction(z.real) * factor, count),
+            *_split(Fraction(z.imag) * factor, count),
+        ]
+    if isinstance(value, Irrational):
+        mantissa = to_mpf(value, 20 * count)
+        value = Fraction(*mantissa.as_integer_ratio()) if mantissa else Fraction(0)
+    return [*_split(Fraction(value) * factor, count), *[0.0] * count]
+
+
+def coefficients(homotopy: Homotopy, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients of the values and of the Jacobian in the order of the rows' tape."""
+    rows = homotopy.rows
+    key = f"words {count}"
+    if key not in rows._cache:
+        values: list[float] = []
+        blocks: list[tuple[int, int, list[float]]] = []
+        for r, (row, scale) in enumerate(zip(rows.parts, rows.scales, strict=True)):
+            inverse = 1 / Fraction(float(scale))
+            for part, terms in row:
+                derivatives: dict[int, list[float]] = {}
+                for e in sorted(terms, reverse=True):
+                    values += words(terms[e], count, inverse)
+                    for j, k in enumerate(e):
+                        if k:
+                            own = words(terms[e], count, k * inverse)
+                            derivatives.setdefault(j, []).extend(own)
+                blocks += [(r * rows.N + j, part, derivatives[j]) for j in sorted(derivatives)]
+        blocks.sort(key=lambda block: block[:2])
+        flat = [x for _, _, own in blocks for x in own]
+        rows._cache[key] = (np.array(values), np.array(flat))
+    return rows._cache[key]
+
+
+def _pairs(array: np.ndarray) -> np.ndarray:
+    flat = np.ascontiguousarray(array, dtype=np.complex128).ravel()
+    return flat.view(np.float64) if len(flat) else np.zeros(0)
+
+
+def composition(order: int) -> np.ndarray:
+    """Taylor coefficients of ``log(1 + r) ** k``: entry ``(k, m)`` is that of ``r^m``."""
+    first = np.array([0.0] + [(-1.0) ** (m + 1) / m for m in range(1, order + 1)])
+    rows = [np.eye(order + 1)[0]]
+    for _ in range(order):
+        rows.append(np.convolve(rows[-1], first)[: order + 1])
+    return np.array(rows)
+
+
+def _exact_words(numbers: Iterable[Fraction], count: int) -> np.ndarray:
+    return np.array([part for x in numbers for part in _split(x, count)])
+
+
+def _weights_at_end(order: int) -> list[Fraction]:
+    """Sums over m of ``(-1)^m`` times the coefficients of ``r^m`` in ``log(1 + r) ** k``."""
+    first = [Fraction(0)] + [Fraction((-1) ** (m + 1), m) for m in range(1, order + 1)]
+    power, weights = [Fraction(1)] + [Fraction(0)] * order, []
+    for _ in range(order + 1):
+        weights.append(sum((-1) ** m * c for m, c in enumerate(power)))
+        power = [
+            sum((power[i] * first[m - i] for i in range(m + 1)), Fraction(0))
+            for m in range(order + 1)
+        ]
+    return weights
+
+
+@cache
+def _constants(order: int, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    inverses = [Fraction(1, max(k, 1)) for k in range(MOST_INVERSES)]
+    return (
+        composition(order).ravel(),
+        _exact_words(_weights_at_end(order), count),
+        _exact_words(inverses, count),
+    )
+
+
+def equations(homotopy: Homotopy, count: int, order: int) -> Equations:
+    """The arrays of ``homotopy`` for numbers of ``count`` words."""
+    tape = homotopy.rows.tape
+    value, jacobian = coefficients(homotopy, count)
+    factors = np.array(homotopy.factors, dtype=np.complex128).reshape(-1, 2)
+    moving = (factors[:, 1] != 0) | (factors[:, 0] != 1)
+    return Equations(
+        homotopy.N,
+        len(homotopy.rows),
+        len(homotopy.A0),
+        len(homotopy.groups),
+        len(factors),
+        tape.value_products,
+        len(tape.first),
+        len(tape.value_place),
+        len(tape.jacobian_place),
+        homotopy.group_of,
+        tape.first,
+        tape.second,
+        tape.value_place,
+        tape.value_part,
+        tape.value_start,
+        tape.value_slot,
+        value,
+        tape.jacobian_place,
+        tape.jacobian_part,
+        tape.jacobian_start,
+        tape.jacobian_slot,
+        jacobian,
+        moving.astype(np.int64),
+        _pairs(factors),
+        _pairs(homotopy.A0),
+        _pairs(homotopy.A1),
+        *_constants(order, count),
+    )
+
+
+def room(homotopy: Homotopy, count: int, order: int) -> Room:
+    """Scratch for eight paths of ``homotopy`` in numbers of ``count`` words."""
+    N, tape = homotopy.N, homotopy.rows.tape
+    value_slots = N + 1 + tape.value_products
+    numbers = [
+        N + 1 + len(tape.first),
+        order * value_slots,
+        max(value_slots, order + 1),
+        len(homotopy.factors),
+        (order + 1) * len(tape.value_place),
+        (order + 1) * len(homotopy.A0),
+        N * N,
+        N,
+        N,
+    ]
+    sizes = [count, *(2 * count * k for k in numbers), N, N, N, N, 2 * N]
+    sizes += [2 * count * len(homotopy.groups)]
+    sizes += [2 * count * N, count, 2 * count * order * N, 2 * count * order * N]
+    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 5, SCALARS, 4, 1]
+    return Room(*separate(aligned(sum(sizes)), sizes))

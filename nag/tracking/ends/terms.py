@@ -1,0 +1,83 @@
+"""The terms of a homotopy as exact numbers of ball arithmetic."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.number import Irrational, Number, to_mpf
+from nag.tracking.homotopy import Homotopy
+
+# Bits of working precision for numbers of as many words.
+BITS = {2: 140, 4: 280}
+# Exponents as (coordinate, exponent) pairs, and the coefficients of 1 and of t.
+Term = tuple[tuple[tuple[int, int], ...], Any, Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Terms:
+    """The terms of all rows of a homotopy, the linear ones last."""
+
+    homotopy: Homotopy
+
+    @cached_property
+    def rows(self) -> list[list[Term]]:
+        """For each row its terms."""
+        import flint
+
+        h = self.homotopy
+        rows: list[list[Term]] = []
+        for row in h.rows.parts:
+            terms = []
+            for part, own in row:
+                a, b = (flint.acb(c) for c in h.factors[part])
+                for e, c in own.items():
+                    value = exact(c)
+                    factors = tuple((j, int(k)) for j, k in enumerate(e) if k)
+                    terms.append((factors, value * a, value * b))
+            rows.append(terms)
+        for first, second in zip(h.A0.tolist(), h.A1.tolist(), strict=True):
+            pairs = zip(first, second, strict=True)
+            rows.append([(((j, 1),), flint.acb(a), flint.acb(b)) for j, (a, b) in enumerate(pairs)])
+        return rows
+
+
+def real(parts: np.ndarray) -> Any:
+    """A sum of doubles."""
+    import flint
+
+    return sum(map(flint.arb, parts.tolist()), flint.arb(0))
+
+
+def number(parts: np.ndarray) -> Any:
+    """A complex number from sums of doubles, shape ``(2, words)``."""
+    import flint
+
+    return flint.acb(real(parts[0]), real(parts[1]))
+
+
+def doubles(z: Any, words: int) -> np.ndarray:
+    """Real and imaginary part as sums of so many doubles, shape ``(2, words)``."""
+    parts = np.zeros((2, words))
+    for k, rest in enumerate((z.real.mid(), z.imag.mid())):
+        for i in range(words):
+            parts[k, i] = float(rest)
+            rest = (rest - parts[k, i]).mid()
+    return parts
+
+
+def exact(c: Number | complex) -> Any:
+    """A coefficient, to the working precision."""
+    import flint
+
+    if isinstance(c, complex | float | np.complexfloating | np.floating):
+        return flint.acb(complex(c))
+    if isinstance(c, Irrational):
+        numerator, denominator = to_mpf(c, 100).as_integer_ratio()
+        return flint.acb(flint.fmpq(numerator, denominator))
+    c = Fraction(c)
+    return flint.acb(flint.fmpq(c.numerator, c.denominator))

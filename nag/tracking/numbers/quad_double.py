@@ -1,0 +1,111 @@
+"""Quad-double arithmetic in lanes, about 64 digits (Hida, Li & Bailey 2001), without branches."""
+
+from __future__ import annotations
+
+from nag.machine_code.lanes import load, select_less, splat, store
+from nag.tracking.numbers.error_free import (
+    quick_two_sum,
+    three_sum,
+    three_sum_rounded,
+    two_product,
+    two_sum,
+)
+
+WORDS = 4
+# Terms of the exponential series that are more than rounding errors for arguments up to 1/64.
+TERMS = 25
+# Relative size of rounding errors.
+EPSILON = 2.0**-205
+# Size, relative to the others, below which a coordinate that may be zero counts as this.
+SMALL = 2.0**-102
+
+
+def exact(x):
+    """A double as a number."""
+    zero = splat(0.0)
+    return x, zero, zero, zero
+
+
+def read(data, k):
+    """Number ``k`` of an array in memory."""
+    return load(data, 4 * k), load(data, 4 * k + 1), load(data, 4 * k + 2), load(data, 4 * k + 3)
+
+
+def write(data, k, a):
+    """Write number ``k`` of an array in memory."""
+    store(data, 4 * k, a[0])
+    store(data, 4 * k + 1, a[1])
+    store(data, 4 * k + 2, a[2])
+    store(data, 4 * k + 3, a[3])
+
+
+def same(data, k):
+    """Number ``k`` of an array of numbers that are the same in all lanes."""
+    return splat(data[4 * k]), splat(data[4 * k + 1]), splat(data[4 * k + 2]), splat(data[4 * k + 3])
+
+
+def negative(a):
+    """``-a``."""
+    zero = splat(0.0)
+    return zero - a[0], zero - a[1], zero - a[2], zero - a[3]
+
+
+def _normalized(a, b, c, d, e):
+    """The sum of five numbers of decreasing size as four that do not overlap."""
+    d, e = quick_two_sum(d, e)
+    c, d = quick_two_sum(c, d)
+    b, c = quick_two_sum(b, c)
+    a, b = quick_two_sum(a, b)
+    b, c = quick_two_sum(b, c)
+    c, d = quick_two_sum(c, d)
+    d = d + e
+    return a, b, c, d
+
+
+def add(a, b):
+    """``a + b``."""
+    s, e = two_sum(a[0], b[0])
+    t, f = two_sum(a[1], b[1])
+    u, g = two_sum(a[2], b[2])
+    v, h = two_sum(a[3], b[3])
+    t, e = two_sum(t, e)
+    u, e, f = three_sum(u, e, f)
+    v, e = three_sum_rounded(v, e, g)
+    return _normalized(s, t, u, v, e + f + h)
+
+
+def multiply(a, b):
+    """``a b``."""
+    p0, q0 = two_product(a[0], b[0])
+    p1, q1 = two_product(a[0], b[1])
+    p2, q2 = two_product(a[1], b[0])
+    p3, q3 = two_product(a[0], b[2])
+    p4, q4 = two_product(a[1], b[1])
+    p5, q5 = two_product(a[2], b[0])
+    p1, p2, q0 = three_sum(p1, p2, q0)
+    p2, q1, q2 = three_sum(p2, q1, q2)
+    p3, p4, p5 = three_sum(p3, p4, p5)
+    s0, t0 = two_sum(p2, p3)
+    s1, t1 = two_sum(q1, p4)
+    s2 = q2 + p5
+    s1, t0 = two_sum(s1, t0)
+    s2 = s2 + (t0 + t1)
+    s1 = s1 + (
+        a[0] * b[3] + a[1] * b[2] + a[2] * b[1] + a[3] * b[0] + q0 + q3 + q4 + q5
+    )
+    return _normalized(p0, p1, s0, s1, s2)
+
+
+def scale(a, power):
+    """``a`` times lanes that hold powers of two."""
+    return a[0] * power, a[1] * power, a[2] * power, a[3] * power
+
+
+def choose(a, b, x, y):
+    """``x`` in the lanes where ``a < b``, ``y`` elsewhere."""
+    return (
+        select_less(a, b, x[0], y[0]),
+        select_less(a, b, x[1], y[1]),
+        select_less(a, b, x[2], y[2]),
+        select_less(a, b, x[3], y[3]),
+    )

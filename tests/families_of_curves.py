@@ -1,0 +1,200 @@
+"""Families of curves and surfaces, all components known, and a knob that makes them hard."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import reduce
+from itertools import product
+from operator import mul
+from typing import Any
+
+import numpy as np
+from exact_counts import RATIONAL, Components
+from families_of_points import Problem, plain
+from general_position import hidden
+
+from nag.algebra.polynomial import Polynomial
+
+ONLY = ("decompose",)
+
+
+def _curves(*kinds: tuple[int, int]) -> Components:
+    """Simple curves: pairs of a degree and how many there are of it."""
+    return Counter({(1, degree, 1): count for degree, count in kinds})
+
+
+def _union(*sets: Sequence[Polynomial]) -> list[Polynomial]:
+    """All products of one generator of each; simple components where the sets are."""
+    return [reduce(mul, choice) for choice in product(*sets)]
+
+
+def _small(k: int) -> Fraction:
+    return Fraction(1, 10**k)
+
+
+def circle_power(k: int, rng: np.random.Generator) -> Problem:
+    """(x^2 + y^2 - 1)^k."""
+    x, y = RATIONAL.gens()
+    expanded = ((x**2 + y**2 - 1) ** k).to_dict()
+    terms = {(int(i), int(j)): Fraction(int(c.p)) for (i, j), c in expanded.items()}
+    circle = Polynomial(2, terms)
+    return Problem(plain(circle), Counter({(1, 2, k): 1}), ONLY)
+
+
+def lines(value: tuple[int, int], rng: np.random.Generator) -> Problem:
+    """The product of k random linear forms in n variables."""
+    n, k = value
+    x = Polynomial.variables(n)
+    forms = [
+        sum((int(c) * v for c, v in zip(rng.integers(1, 10, n), x, strict=True)), start=x[0] * 0)
+        + 10 * j
+        for j in range(k)
+    ]
+    return Problem(plain(reduce(mul, forms)), Counter({(n - 1, 1, 1): k}), ONLY)
+
+
+def far_circle(k: int, rng: np.random.Generator) -> Problem:
+    """(x - 10^k)^2 + y^2 - 1."""
+    x, y = Polynomial.variables(2)
+    return Problem(plain((x - 10**k) ** 2 + y**2 - 1), _curves((2, 1)), ONLY)
+
+
+def far_circle_and_line(k: int, rng: np.random.Generator) -> Problem:
+    """A circle at 10^k and a line beside it."""
+    x, y = Polynomial.variables(2)
+    circle = (x - 10**k) ** 2 + y**2 - 1
+    return Problem(plain(circle * (x - 10**k - 2)), _curves((2, 1), (1, 1)), ONLY)
+
+
+def far_circle_in_space(k: int, rng: np.random.Generator) -> Problem:
+    """A circle at 10^k and a line, in space, by the generators of their intersection."""
+    x, y, z = Polynomial.variables(3)
+    circle = [(x - 10**k) ** 2 + y**2 - 1, z - 3]
+    line = [x - y - 10**k - 5, y - 2 * z + 1]
+    return Problem(hidden(_union(circle, line), rng), _curves((2, 1), (1, 1)), ONLY)
+
+
+def far_skew_lines(k: int, rng: np.random.Generator) -> Problem:
+    """Two skew lines, 10^k away and at a distance of 1."""
+    x, y, z = Polynomial.variables(3)
+    first, second = [x - 10**k, y - 10**k], [x - 10**k - 1, z - 10**k]
+    return Problem(hidden(_union(first, second), rng), _curves((1, 2)), ONLY)
+
+
+def far_planes(k: int, rng: np.random.Generator) -> Problem:
+    """Two parallel planes 10^k away and a line that crosses them."""
+    x, y, z = Polynomial.variables(3)
+    form = x + 2 * y - z - 10**k
+    planes, line = [form * (form - 1)], [x - y - 10**k, y + z - 3]
+    truth = Counter({(2, 1, 1): 2, (1, 1, 1): 1})
+    return Problem(hidden(_union(planes, line), rng), truth, ONLY)
+
+
+def big_circle(k: int, rng: np.random.Generator) -> Problem:
+    """A circle of radius 10^k, and a line that is a chord of it."""
+    x, y = Polynomial.variables(2)
+    circle = x**2 + y**2 - 10 ** (2 * k)
+    return Problem(plain(circle * (x - y - 1)), _curves((2, 1), (1, 1)), ONLY)
+
+
+def close_lines(k: int, rng: np.random.Generator) -> Problem:
+    """Two parallel lines at a distance of 10^-k, not rational."""
+    x, y = Polynomial.variables(2)
+    return Problem(plain((x + 2 * y - 1) ** 2 - 2 * _small(2 * k)), _curves((1, 2)), ONLY)
+
+
+def close_circles(k: int, rng: np.random.Generator) -> Problem:
+    """Two concentric circles, the radii of which differ by 10^-k or so, not rational."""
+    x, y = Polynomial.variables(2)
+    return Problem(plain((x**2 + y**2 - 1) ** 2 - 2 * _small(2 * k)), _curves((2, 2)), ONLY)
+
+
+def close_skew_lines(k: int, rng: np.random.Generator) -> Problem:
+    """Two skew lines at a distance of 10^-k."""
+    x, y, z = Polynomial.variables(3)
+    return Problem(hidden(_union([y, z], [x, z - _small(k)]), rng), _curves((1, 2)), ONLY)
+
+
+def close_planes(k: int, rng: np.random.Generator) -> Problem:
+    """Two planes that meet at an angle of 10^-k, not rational, and a line."""
+    x, y, z = Polynomial.variables(3)
+    planes, line = [(x - 1) ** 2 - 2 * _small(2 * k) * y**2], [x + y - 3, z - y + 1]
+    truth = Counter({(2, 1, 1): 2, (1, 1, 1): 1})
+    return Problem(hidden(_union(planes, line), rng), truth, ONLY)
+
+
+def hyperbola(k: int, rng: np.random.Generator) -> Problem:
+    """x y - 10^-k."""
+    x, y = Polynomial.variables(2)
+    return Problem(hidden([x * y - _small(k)], rng), _curves((2, 1)), ONLY)
+
+
+def nearly_circle_and_line(k: int, rng: np.random.Generator) -> Problem:
+    """A cubic at 10^-k from a circle and a line."""
+    x, y = Polynomial.variables(2)
+    return Problem(plain((x**2 + y**2 - 1) * (x - 2 * y) - _small(k)), _curves((3, 1)), ONLY)
+
+
+def nearly_circles(k: int, rng: np.random.Generator) -> Problem:
+    """A quartic at 10^-k from two circles.
+
+    A multiple of x instead of x^3 would leave both parts conics to the second order.
+    """
+    x, y = Polynomial.variables(2)
+    squares = x**2 + y**2
+    return Problem(plain((squares - 1) * (squares - 4) - _small(k) * x**3), _curves((4, 1)), ONLY)
+
+
+def nearly_planes(k: int, rng: np.random.Generator) -> Problem:
+    """A quadric at 10^-k from two planes."""
+    x, y, z = Polynomial.variables(3)
+    return Problem(hidden([x * y - _small(k) * (z + 1)], rng), Counter({(2, 2, 1): 1}), ONLY)
+
+
+def nearly_lines_in_space(k: int, rng: np.random.Generator) -> Problem:
+    """A hyperbola at 10^-k from two lines, in a plane of space, and a line that is skew to it."""
+    x, y, z = Polynomial.variables(3)
+    parts = _union([x * y - _small(k), z], [x - 3, z - y - 2])
+    return Problem(hidden(parts, rng), _curves((2, 1), (1, 1)), ONLY)
+
+
+def conjugate_lines(k: int, rng: np.random.Generator) -> Problem:
+    """k lines through a point that only the complex numbers tell apart."""
+    x, y = Polynomial.variables(2)
+    return Problem(hidden([x**k - 2 * y**k], rng), _curves((1, k)), ONLY)
+
+
+def repeated_and_points(k: int, rng: np.random.Generator) -> Problem:
+    """A circle of multiplicity k and two points of multiplicity k off it."""
+    x, y = Polynomial.variables(2)
+    circle = (x**2 + y**2 - 1) ** k
+    truth = Counter({(1, 2, k): 1, (0, 1, k): 2})
+    return Problem(plain(circle * (x - y - 3) ** k, circle * (x * y - 2)), truth)
+
+
+FAR = (3, 6, 9, 12, 15)
+CLOSE = (4, 6, 8, 10, 12, 15, 20, 25)
+
+FAMILIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
+    "circle_power": (circle_power, (2, 5, 12, 50, 200)),
+    "lines": (lines, ((2, 4), (2, 8), (2, 16), (3, 4), (3, 8), (3, 16))),
+    "far_circle": (far_circle, FAR),
+    "far_circle_and_line": (far_circle_and_line, FAR),
+    "far_circle_in_space": (far_circle_in_space, FAR),
+    "far_skew_lines": (far_skew_lines, FAR),
+    "far_planes": (far_planes, FAR),
+    "big_circle": (big_circle, (2, 4, 6, 8)),
+    "close_lines": (close_lines, CLOSE),
+    "close_circles": (close_circles, CLOSE),
+    "close_skew_lines": (close_skew_lines, CLOSE),
+    "close_planes": (close_planes, CLOSE),
+    "hyperbola": (hyperbola, CLOSE),
+    "nearly_circle_and_line": (nearly_circle_and_line, CLOSE),
+    "nearly_circles": (nearly_circles, CLOSE),
+    "nearly_planes": (nearly_planes, CLOSE),
+    "nearly_lines_in_space": (nearly_lines_in_space, CLOSE),
+    "conjugate_lines": (conjugate_lines, (2, 3, 5)),
+    "repeated_and_points": (repeated_and_points, (1, 2, 3)),
+}

@@ -1,0 +1,180 @@
+"""Solve and decompose random small systems and compare with exact counts.
+
+    python tests/random_systems.py --count N --seed S [--first K] [--jobs J] [--limit SECONDS]
+        [--number NUMBER ...] [--method solve|decompose] [--journal FILE] [--all]
+
+System number K of seed S depends on these two only. An answer is right, incomplete, slow (ended
+at the limit of processor time) or wrong: called complete and not what `exact_counts` says. Where
+that says nothing, complete answers of the two methods are compared with each other: they agree or
+differ, or are unchecked. Prints the equations of systems with an answer that is wrong, an error
+or differs, one line for other answers that are not right with `--all`, and a summary. With a
+journal, a run that was cut off goes on where it stopped. Exit status 1 if an answer is wrong, an
+error or differs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from exact_counts import ZeroSet, zero_set
+from random_small import small_system
+from timed_runs import Run, timed_runs
+from verdicts import METHODS, Answer, answered, described, known, summary, verdict
+
+BAD = ("wrong", "error", "differ")
+# Systems between two notices of how far a run is.
+NOTICE = 1000
+
+
+@dataclass(frozen=True)
+class Task:
+    """A method for a system, or ``"count"``."""
+
+    seed: int
+    number: int
+    method: str
+    settings: str = "default"
+
+
+@dataclass
+class Tally:
+    """What became of all systems so far, by method."""
+
+    verdicts: dict[str, Counter[str]] = field(default_factory=dict)
+    seconds: dict[str, list[float]] = field(default_factory=dict)
+    numbers: dict[tuple[str, str], list[int]] = field(default_factory=dict)
+
+    def add(self, number: int, found: Mapping[str, tuple[str, float]]) -> None:
+        for method, (kind, seconds) in found.items():
+            self.verdicts.setdefault(method, Counter())[kind] += 1
+            self.seconds.setdefault(method, []).append(seconds)
+            if kind not in ("right", "agree"):
+                self.numbers.setdefault((method, kind), []).append(number)
+
+    def text(self) -> str:
+        lines = []
+        for method, counts in self.verdicts.items():
+            lines.append(f"{method}: {counts.total()} systems, ")
+            lines[-1] += summary(counts, self.seconds[method])
+            for (of, kind), numbers in sorted(self.numbers.items()):
+                if of == method:
+                    lines.append(f"  {kind}: {' '.join(map(str, sorted(numbers)))}")
+        return "\n".join(lines)
+
+
+def work(task: Task) -> Answer | ZeroSet | None:
+    """Count, solve or decompose."""
+    system = small_system(task.seed, task.number).system
+    if task.method == "count":
+        return zero_set(system)
+    return answered(task.method, system, settings=task.settings)
+
+
+def judged(runs: Mapping[str, Run]) -> dict[str, tuple[str, float]]:
+    """Verdict and processor time of each method, from the runs for one system."""
+    truth = runs["count"].value
+    found = {m: verdict(run, truth) for m, run in runs.items() if m != "count"}
+    open_ = [m for m, kind in found.items() if kind is None]
+    if len(open_) == len(METHODS):
+        points = [ZeroSet.of(runs[m].value.components).points for m in METHODS]
+        found = dict.fromkeys(METHODS, "agree" if points[0] == points[1] else "differ")
+    return {m: (found[m] or "unchecked", runs[m].seconds) for m in found}
+
+
+def report(runs: Mapping[str, Run], found: Mapping[str, tuple[str, float]], every: bool) -> None:
+    """Print one system, if something is to be said of it."""
+    task, truth = runs["count"].task, runs["count"].value
+    bad = any(kind in BAD for kind, _ in found.values())
+    if not bad and not every:
+        return
+    small = small_system(task.seed, task.number)
+    for method, (kind, seconds) in found.items():
+        if kind not in ("right", "agree"):
+            text = described(runs[method], truth)
+            print(f"  {task.number} ({small.kind}) {method}: {kind} ({seconds:.1f} s): {text}")
+    if bad:
+        print(f"    {', '.join(small.system.variables)}; known: {known(truth, 'decompose')}")
+        print("".join(f'    "{text}",\n' for text in small.system.text()), end="", flush=True)
+
+
+def recorded(journal: Path | None, seed: int) -> dict[int, dict[str, tuple[str, float]]]:
+    """What an earlier run found, by number; a line that was cut off is left out."""
+    earlier = {}
+    if journal is not None and journal.exists():
+        for line in journal.read_text().splitlines():
+            try:
+                entry = json.loads(line)
+                if entry["seed"] == seed:
+                    earlier[entry["number"]] = {m: tuple(v) for m, v in entry["found"].items()}
+            except (ValueError, KeyError, TypeError):
+                continue
+    return earlier
+
+
+def tasks(numbers: Sequence[int], methods: Sequence[str], of: argparse.Namespace) -> Iterator[Task]:
+    for number in numbers:
+        for method in ("count", *methods):
+            yield Task(of.seed, number, method, of.settings)
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--first", type=int, default=0, help="number of the first system")
+    parser.add_argument("--number", type=int, action="append", help="only these")
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--limit", type=float, default=30.0, help="seconds for one answer")
+    parser.add_argument("--method", choices=METHODS, help="both by default")
+    parser.add_argument("--settings", default="default")
+    parser.add_argument("--journal", type=Path, help="file that keeps what was found")
+    parser.add_argument("--all", action="store_true", help="also print what is open or slow")
+    return parser.parse_args()
+
+
+def main() -> int:
+    options = arguments()
+    methods = [options.method] if options.method else list(METHODS)
+    numbers = options.number or range(options.first, options.first + options.count)
+    earlier, tally = recorded(options.journal, options.seed), Tally()
+    for number in numbers:
+        if number in earlier:
+            tally.add(number, earlier[number])
+    left = [n for n in numbers if n not in earlier]
+    collected: dict[int, dict[str, Run]] = {}
+    done = 0
+    for run in timed_runs(
+        work,
+        tasks(left, methods, options),
+        limit=options.limit,
+        jobs=options.jobs,
+        first=Task(0, 1, "decompose"),
+    ):
+        number = run.task.number
+        runs = collected.setdefault(number, {})
+        runs[run.task.method] = run
+        if len(runs) <= len(methods):
+            continue
+        found = judged(collected.pop(number))
+        report(runs, found, options.all)
+        tally.add(number, found)
+        if options.journal is not None:
+            entry = {"seed": options.seed, "number": number, "found": found}
+            with options.journal.open("a") as file:
+                file.write(json.dumps(entry) + "\n")
+        done += 1
+        if done % NOTICE == 0:
+            print(f"{done} of {len(left)} systems", file=sys.stderr, flush=True)
+    print(tally.text())
+    bad = sum(counts[kind] for counts in tally.verdicts.values() for kind in BAD)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
