@@ -10,12 +10,14 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
+from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 from nag.algebra.expression import Budget, parse_number, parse_polynomial
+from nag.algebra.family import Family
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
@@ -24,6 +26,7 @@ from nag.algebra.tokens import is_name, names_in, nearest, quote
 from nag.case_table import CaseError, Table, kind_of, read_toml, shown
 
 if TYPE_CHECKING:
+    from nag.case_family import CaseFamily
     from nag.mechanism.graph import Mechanism
 
 __all__ = ["Case", "CaseError", "NamedPoint", "Truth", "read_case"]
@@ -37,6 +40,7 @@ _KEYS = {
         "equations",
         "groups",
         "parameters",
+        "family",
         "symmetry",
         "point",
         "truth",
@@ -90,6 +94,7 @@ class Case:
     """A case file, read and checked. Either `system` or `mechanism` is there, as `kind` says.
 
     `symmetries` are those that the file declares; each was verified exactly on the equations.
+    `family` is the one that the file declares the system to belong to.
     """
 
     title: str
@@ -101,6 +106,7 @@ class Case:
     points: tuple[NamedPoint, ...] = ()
     truth: tuple[Truth, ...] = ()
     symmetries: tuple[SignedPermutation, ...] = ()
+    family: CaseFamily | None = None
 
 
 def read_case(path: str | os.PathLike[str]) -> Case:
@@ -126,7 +132,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     if kind == "mechanism":
         mechanism = _read_mechanism(top, numbers)
         return Case(title, "mechanism", path, parameters, mechanism=mechanism, truth=truth)
-    system = _read_system(top, numbers)
+    system, family = _read_system(top, numbers)
     return Case(
         title,
         "system",
@@ -136,6 +142,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         points=_read_points(top, system, numbers),
         truth=truth,
         symmetries=_read_symmetries(top, system),
+        family=family,
     )
 
 
@@ -150,7 +157,8 @@ class _Numbers:
         return parse_number(value, self.parameters, self.budget)
 
     def polynomial(self, text: str, variables: Sequence[str]) -> Polynomial:
-        return parse_polynomial(text, variables, self.parameters, self.budget)
+        known = {k: v for k, v in self.parameters.items() if k not in variables}
+        return parse_polynomial(text, variables, known, self.budget)
 
 
 def _read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
@@ -183,7 +191,7 @@ def _read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
     return MappingProxyType({name: values[name] for name in table.values})
 
 
-def _read_system(top: Table, numbers: _Numbers) -> PolynomialSystem:
+def _read_system(top: Table, numbers: _Numbers) -> tuple[PolynomialSystem, CaseFamily | None]:
     variables = top.texts("variables", "names of variables")
     for i, name in enumerate(variables, 1):
         if not is_name(name):
@@ -195,11 +203,41 @@ def _read_system(top: Table, numbers: _Numbers) -> PolynomialSystem:
             top.fail(f"variables {i}", f"{quote(name)} is there twice; name each variable once")
         if name in numbers.parameters:
             top.fail(f"variables {i}", f"{quote(name)} is a parameter as well; rename one of them")
+    if "family" in top.values:
+        family = _read_family(top, numbers, variables)
+        polynomials = family.symmetric.original.at(family.values).polynomials
+        groups = _read_groups(top, variables)
+        return PolynomialSystem(tuple(variables), polynomials, groups=groups), family
+    equations = _read_equations(top, numbers, variables)
+    groups = _read_groups(top, variables)
+    return PolynomialSystem(tuple(variables), equations, groups=groups), None
+
+
+def _read_equations(top: Table, numbers: _Numbers, names: list[str]) -> tuple[Polynomial, ...]:
     equations = []
     for i, text in enumerate(top.texts("equations", "equations"), 1):
         with top.at(f"equations {i}"):
-            equations.append(numbers.polynomial(text, variables))
-    return PolynomialSystem(tuple(variables), tuple(equations), groups=_read_groups(top, variables))
+            equations.append(numbers.polynomial(text, names))
+    return tuple(equations)
+
+
+def _read_family(top: Table, numbers: _Numbers, variables: list[str]) -> CaseFamily:
+    from nag.case_family import family_parameters, read_family
+
+    table = top.table("family")
+    free = family_parameters(table, numbers.parameters)
+    equations = _read_equations(top, numbers, [*variables, *free])
+    if len(equations) != len(variables):
+        table.fail(
+            None,
+            f"{len(equations)} equations in {len(variables)} variables; a family has as many of "
+            "them, so leave it out",
+        )
+    values = [numbers.parameters[name] for name in free]
+    if not all(isinstance(v, Fraction) for v in values) or not all(f.exact for f in equations):
+        table.fail(None, "has irrational numbers; write rational ones, or leave it out")
+    family = Family(tuple(variables), tuple(free), equations)
+    return read_family(table, family, values, numbers.polynomial)
 
 
 def _read_groups(top: Table, variables: list[str]) -> tuple[tuple[int, ...], ...]:

@@ -91,6 +91,30 @@ class Evaluator:
         result = np.bincount(places, terms.real, size) + 1j * np.bincount(places, terms.imag, size)
         return result.reshape(len(self.coefficients), self.n)
 
+    def placed_derivatives(self, columns: int) -> PlacedDerivatives:
+        """The derivatives by the first so many variables, to be evaluated at many points."""
+        powers, places, monomials, factors = self._derivatives
+        kept = np.flatnonzero(places % self.n < columns)
+        kept = kept[np.argsort(places[kept], kind="stable")]
+        return PlacedDerivatives(
+            powers,
+            places[kept] // self.n * columns + places[kept] % self.n,
+            monomials[kept],
+            factors[kept],
+            (len(self.coefficients), columns),
+        )
+
+    def term_sizes(self, points: np.ndarray, columns: int) -> tuple[np.ndarray, np.ndarray]:
+        """Sums of the terms' absolute values, and those sums times ``d (d - 1)``, ``(P, rows)``.
+
+        ``d`` is a term's degree in the first ``columns`` variables; the second sums bound second
+        derivatives in directions that are relative to the coordinates.
+        """
+        degrees = self.exponents[:, :columns].sum(axis=1)
+        sizes = self._monomials(np.abs(np.asarray(points, dtype=complex)))
+        weights = np.abs(self.coefficients).T
+        return sizes @ weights, (sizes * (degrees * (degrees - 1))) @ weights
+
     @cached_property
     def degrees(self) -> np.ndarray:
         """Total degrees of the rows, at least one."""
@@ -101,6 +125,26 @@ class Evaluator:
         """The Jacobian with each row divided by the size that its degree lets it have."""
         size = max(1.0, float(np.abs(point).max(initial=1.0)))
         return self.jacobian(point) / size ** (self.degrees - 1)[:, None]
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedDerivatives:
+    """Terms of a Jacobian matrix of the given shape, sorted by their places in it."""
+
+    powers: _Monomials
+    places: np.ndarray
+    monomials: np.ndarray
+    factors: np.ndarray
+    shape: tuple[int, int]
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        """Jacobian matrices, shape ``(P, *shape)``, at points of shape ``(P, n)``."""
+        terms = self.powers(np.asarray(points, dtype=complex))[:, self.monomials] * self.factors
+        result = np.zeros((len(points), self.shape[0] * self.shape[1]), dtype=complex)
+        places, first = np.unique(self.places, return_index=True)
+        if len(places):
+            result[:, places] = np.add.reduceat(terms, first, axis=1)
+        return result.reshape(len(points), *self.shape)
 
 
 @dataclass(frozen=True, eq=False)

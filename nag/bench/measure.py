@@ -7,16 +7,24 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.parameter import Solved, begin_of_family, solve_family, solve_generic
+from nag.tracking.solutions import SolveResult
 from nag.tracking.solve import solve
+
+if TYPE_CHECKING:
+    from nag.case_family import CaseFamily
+
+Solver = Callable[[int], SolveResult]
 
 # Best of so many runs; a run that takes longer than LONG seconds is not repeated.
 RUNS = 3
@@ -120,15 +128,25 @@ def flop_rate() -> float:
     return float(done.stdout)
 
 
-def _best(system: PolynomialSystem, seed: int, threads: int, start: str) -> tuple[float, Any]:
+def _best(solver: Solver, threads: int) -> tuple[float, Any]:
     best, result = np.inf, None
     for _ in range(RUNS):
         begin = time.perf_counter()
-        result = solve(system, seed=seed, threads=threads, start=start)
+        result = solver(threads)
         best = min(best, time.perf_counter() - begin)
         if best > LONG:
             break
     return best, result
+
+
+def _generic(family: CaseFamily, seed: int, threads: int) -> Solved:
+    return solve_generic(
+        family.symmetric,
+        start="parameter",
+        count=family.solutions,
+        seed=seed,
+        threads=threads,
+    )
 
 
 def process_seconds(path: Path, seed: int) -> float:
@@ -151,15 +169,27 @@ def measure(
     expected: int | None,
     seed: int,
     rate: float,
-    start: str = "auto",
+    family: CaseFamily | None = None,
 ) -> Measured:
-    """Solve ``system`` warm with one and with two threads, and in a process of its own."""
+    """Solve ``system`` warm with one and with two threads, and in a process of its own.
+
+    With ``family`` it is solved by way of its family, random parameters first.
+    """
     from nag.tracking.solve import begin_of
 
-    solve(system, seed=seed, start=start)
-    seconds, result = _best(system, seed, 1, start)
-    two, _ = _best(system, seed, 2, start)
-    homotopy, tracking, steps = begin_of(system, seed, start)
+    def solver(threads: int) -> SolveResult:
+        if family is None:
+            return solve(system, seed=seed, threads=threads)
+        return solve_family(_generic(family, seed, threads), [family.values], threads=threads)[0]
+
+    if family is None:
+        solver(1)
+    seconds, result = _best(solver, 1)
+    two, _ = _best(solver, 2)
+    if family is None:
+        homotopy, tracking, steps = begin_of(system, seed)
+    else:
+        homotopy, tracking, steps = begin_of_family(_generic(family, seed, 2), family.values)
     flops = step_flops(homotopy)
     return Measured(
         case=name,

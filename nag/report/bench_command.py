@@ -102,15 +102,16 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         formulation = made.formulation if made else None
         known = [t for t in case.truth if t.dimension == 0 and t.formulation in (None, formulation)]
         system = made.system if made else case.system
-        cases.append((path, system, sum(t.count for t in known) if known else None))
+        expected = sum(t.count for t in known) if known else None
+        cases.append((path, system, expected, case.family))
     rate = flop_rate()
     programs = installed() if options.peers else []
     rows, peers = [], {}
-    for path, system, expected in cases:
+    for path, system, expected, family in cases:
         if not options.quiet:
             print(f"{path.stem} ...", file=sys.stderr, flush=True)
         try:
-            rows.append(measure(path.stem, path, system, expected, 0, rate))
+            rows.append(measure(path.stem, path, system, expected, 0, rate, family=family))
         except StartError as error:
             raise BenchError(f"{path}: {error}") from None
         peers[path.stem] = {p: run_peer(p, system, PATIENCE) for p in programs}

@@ -10,11 +10,13 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from nag.algebra.system import PolynomialSystem
     from nag.cases import Case
     from nag.mechanism.model import Model
     from nag.tracking.solutions import Solution, SolveResult
+    from nag.tracking.solve import Progress
 
-STARTS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy")
+STARTS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy", "parameter")
 # Longer lists are left to the export.
 MOST_ROWS = 40
 
@@ -29,7 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--start",
         choices=STARTS,
         default="auto",
-        help="start system (default: auto, the one with the least work)",
+        help="start system (default: auto, the one with the least work, or parameter where the "
+        "case has a [family])",
     )
 
 
@@ -42,7 +45,6 @@ def run(options: argparse.Namespace, case: Case, model: Model | None) -> tuple[l
     from nag.report.answer import system_of
     from nag.report.progress import compilation_notice, progress_line
     from nag.report.target import TargetError
-    from nag.tracking.solve import solve
     from nag.tracking.start.target import StartError
 
     started = time.perf_counter()
@@ -52,9 +54,10 @@ def run(options: argparse.Namespace, case: Case, model: Model | None) -> tuple[l
             compilation_notice(sys.stderr, options.quiet),
             progress_line(sys.stderr, options.quiet) as progress,
         ):
-            result = solve(
+            result = solve_case(
+                case,
                 system,
-                start=options.start,
+                options.start,
                 seed=options.seed,
                 threads=options.threads,
                 settings=options.settings,
@@ -71,6 +74,45 @@ def run(options: argparse.Namespace, case: Case, model: Model | None) -> tuple[l
             raise SolveError(f"--json: {error}") from None
     seconds = time.perf_counter() - started
     return solution_lines(result, case, model, seconds), result.complete
+
+
+def solve_case(
+    case: Case,
+    system: PolynomialSystem,
+    start: str,
+    *,
+    seed: int,
+    threads: int,
+    settings: str,
+    progress: Progress | None = None,
+) -> SolveResult:
+    """All isolated solutions of a case's system, by way of its family if it declares one.
+
+    Raises:
+        nag.tracking.start.target.StartError: if there is no such start for the case.
+    """
+    from nag.algebra.rational_map import MapError
+    from nag.tracking.parameter import solve_family, solve_generic
+    from nag.tracking.solve import solve
+    from nag.tracking.start.target import StartError
+
+    family = case.family
+    if start == "parameter" and family is None:
+        raise StartError("parameter: the case has no [family]; leave out --start")
+    common = {"seed": seed, "threads": threads, "settings": settings}
+    if family is None or start not in ("auto", "parameter"):
+        return solve(system, start=start, progress=progress, **common)
+    try:
+        solved = solve_generic(
+            family.symmetric,
+            start="parameter",
+            count=family.solutions,
+            progress=progress,
+            **common,
+        )
+    except MapError as error:
+        raise StartError(f"[family]: {error}") from None
+    return solve_family(solved, [family.values], **common)[0]
 
 
 def solution_lines(

@@ -5,86 +5,33 @@ Reference: Morgan & Sommese, Coefficient-parameter polynomial continuation, 1989
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from nag.algebra.family import Family
 from nag.algebra.number import Number
-from nag.algebra.polynomial import Polynomial
-from nag.algebra.system import PolynomialSystem
-from nag.tracking.compiled import compile_rows
-from nag.tracking.homotopy import Homotopy, straight_line
+from nag.algebra.symmetric_family import SymmetricFamily
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.parameter_line import parameter_line
 from nag.tracking.paths import PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.solutions import SolveResult
 from nag.tracking.solve import ends_of
-from nag.tracking.start.choice import choose
-from nag.tracking.start.target import (
-    Start,
-    StartError,
-    Target,
-    Terms,
-    group_degrees,
-    homogenized,
-    unit,
+from nag.tracking.solve_classes import (
+    SolvedClasses,
+    line_of_classes,
+    solve_classes,
+    solved_by_monodromy,
 )
+from nag.tracking.start.choice import choose
+from nag.tracking.start.family_monodromy import Progress
+from nag.tracking.start.target import Start, StartError, Target, unit
 from nag.tracking.track import track
 
-
-@dataclass(frozen=True, eq=False)
-class Family:
-    """Square systems that depend on parameters.
-
-    Attributes:
-        variables: names of the ``n`` unknowns.
-        parameters: names of the ``k`` parameters.
-        polynomials: ``n`` polynomials in the unknowns followed by the parameters.
-    """
-
-    variables: tuple[str, ...]
-    parameters: tuple[str, ...]
-    polynomials: tuple[Polynomial, ...]
-
-    def __post_init__(self) -> None:
-        for name in ("variables", "parameters", "polynomials"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
-        n, total = self.n, self.n + len(self.parameters)
-        if len(self.polynomials) != n:
-            raise ValueError(f"{len(self.polynomials)} equations for {n} unknowns")
-        if any(f.n != total for f in self.polynomials):
-            raise ValueError(f"the polynomials must be in {n} unknowns and the parameters")
-
-    @property
-    def n(self) -> int:
-        """Number of unknowns."""
-        return len(self.variables)
-
-    @property
-    def linear(self) -> bool:
-        """Whether all coefficients are polynomials of degree one in the parameters."""
-        indices = range(self.n, self.n + len(self.parameters))
-        return all(f.degree_in(indices) <= 1 for f in self.polynomials)
-
-    def terms(self, values: Sequence[Number | complex]) -> tuple[Terms, ...]:
-        """The equations' terms where the parameters have these values."""
-        result = []
-        for f in self.polynomials:
-            terms: dict[tuple[int, ...], Number | complex] = {}
-            for e, c in f.terms.items():
-                value = c if all(isinstance(v, type(c)) for v in values) else complex(c)
-                for v, k in zip(values, e[self.n :], strict=True):
-                    value = value * v**k if k else value
-                key = e[: self.n]
-                terms[key] = terms[key] + value if key in terms else value
-            result.append(terms)
-        return tuple(result)
-
-    def at(self, values: Sequence[Number]) -> PolynomialSystem:
-        """The system where the parameters have these exact values."""
-        images = [*Polynomial.variables(self.n)]
-        images += [Polynomial.constant(self.n, v) for v in values]
-        return PolynomialSystem(self.variables, [f.compose(images) for f in self.polynomials])
+__all__ = ["Family", "Solved", "solve_family", "solve_generic"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,29 +41,63 @@ class Solved:
     Attributes:
         values: the parameters, complex, shape ``(k,)``.
         points: the isolated solutions there, shape ``(P, n)``.
-        complete: whether all paths to them arrived, at regular solutions.
+        complete: whether these are all: all paths to them arrived, at regular solutions, or loops
+            find no more of them than the number that is known.
+        detail: how they were found.
+        classes: one solution of each class, where only these are followed.
     """
 
     family: Family
     values: np.ndarray
     points: np.ndarray
     complete: bool
+    detail: str = ""
+    classes: SolvedClasses | None = None
 
 
 def solve_generic(
-    family: Family,
+    family: Family | SymmetricFamily,
     *,
     start: str = "auto",
+    count: int | None = None,
     seed: int = 0,
     threads: int = 1,
     settings: Settings | str = "default",
+    progress: Progress | None = None,
 ) -> Solved:
     """Solve a family for random complex parameters.
 
+    Args:
+        family: what to solve; of a symmetric one, one solution of each class is followed, now and
+            in `solve_family`.
+        start: a start system as for `nag.tracking.solve.solve`, or ``"parameter"``: from one
+            solution, which Newton's method finds together with its parameters, by loops of the
+            family's own parameters. That takes a few paths for each solution there is, and is what
+            ``"auto"`` means for a symmetric family.
+        count: with ``"parameter"``, the known number of solutions; without it an answer is not
+            called complete, as loops prove nothing.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: number of threads.
+        settings: tracking settings, of paths from a start system.
+        progress: called with a stage, the work done and the whole work or 0.
+
     Raises:
-        StartError: if there would be too many paths.
+        StartError: if there would be too many paths, or loops have nothing to begin with.
+        nag.algebra.rational_map.MapError: if the symmetries do not fit the family.
     """
     rng = np.random.default_rng(seed)
+    given = family if isinstance(family, SymmetricFamily) else SymmetricFamily(family)
+    family = given.original
+    if start == "parameter" or (start == "auto" and len(given) > 1):
+        classes = solved_by_monodromy(given, count, rng, threads, progress)
+        return Solved(
+            family,
+            given.outer_values(classes.values),
+            given.outer(classes.members.reshape(-1, family.n)),
+            classes.complete,
+            classes.detail,
+            classes,
+        )
     values = unit(rng, len(family.parameters)) * (0.5 + rng.random(len(family.parameters)))
     target = Target(family.n, family.terms([complex(v) for v in values]))
     begin, _ = choose(target, start, (), rng, threads)
@@ -147,6 +128,11 @@ def solve_family(
             raise StartError(
                 f"target {number + 1}: {len(values)} values for {len(family.parameters)} parameters"
             )
+        if solved.classes is not None:
+            rng = np.random.default_rng([seed, number])
+            given = (solved.classes, values, rng, threads, settings, seed, name)
+            results.append(solve_classes(*given))
+            continue
         begin = _start(solved, values)
         paths = track(begin.homotopy, begin.points, settings, threads)
         reason = f"parameter homotopy: {len(begin.points)} solutions for random parameters"
@@ -155,26 +141,22 @@ def solve_family(
     return results
 
 
-def _start(solved: Solved, values: Sequence[Number]) -> Start:
-    family, n = solved.family, solved.family.n
-    groups = (tuple(range(n)),)
-    ones = np.ones((len(solved.points), 1), dtype=np.complex128)
-    points = np.hstack([ones, solved.points])
-    if family.linear:
-        first = family.terms([complex(v) for v in solved.values])
-        second = family.terms([complex(v) for v in values])
-        degrees = group_degrees(first, groups)
-        homotopy = straight_line(
-            homogenized(first, n, groups, degrees), homogenized(second, n, groups, degrees), 1.0
-        )
+def begin_of_family(
+    solved: Solved, values: Sequence[Number], settings: Settings | str = "default"
+) -> tuple[Homotopy, float, int]:
+    """The homotopy to given parameters, and the seconds and steps that tracking it takes."""
+    if solved.classes is None:
+        begin = _start(solved, values)
+        homotopy, starts = begin.homotopy, begin.points
     else:
-        # The parameters become unknowns that linear equations move along a straight line.
-        rows = compile_rows(family.polynomials)
-        k = len(family.parameters)
-        there = np.array([complex(v) for v in values])
-        A0 = np.hstack([-there[:, None], np.zeros((k, n)), np.eye(k)])
-        A1 = np.zeros_like(A0)
-        A1[:, 0] = there - solved.values
-        homotopy = Homotopy(rows, A0, A1)
-        points = np.hstack([points, np.repeat(solved.values[None], len(points), axis=0)])
-    return Start("parameter", homotopy, points, groups, solved.complete)
+        line, starts = line_of_classes(solved.classes, values)
+        homotopy = line.homotopy
+    started = time.perf_counter()
+    paths = track(homotopy, starts, settings, endgame=solved.classes is None)
+    return homotopy, time.perf_counter() - started, int(paths.steps.sum())
+
+
+def _start(solved: Solved, values: Sequence[Number]) -> Start:
+    line = parameter_line(solved.family, solved.values, values)
+    groups = (tuple(range(solved.family.n)),)
+    return Start("parameter", line.homotopy, line.starts(solved.points), groups, solved.complete)

@@ -66,8 +66,8 @@ class SolveResult:
         undecided: end points that are solutions but may or may not be isolated, ``(k, n)``.
         excluded: isolated solutions left out because one of `PolynomialSystem.nonzero` vanishes.
         paths: what became of the paths of the last attempt, by status.
-        start: ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``, or
-            ``"none"`` where nothing had to be tracked.
+        start: ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``,
+            ``"parameter"`` or ``"none"`` where nothing had to be tracked.
         reason: why that start system.
         seed: seed of the random numbers.
         settings: name of the tracking settings.

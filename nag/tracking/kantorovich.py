@@ -1,0 +1,228 @@
+"""Regular zeros of a family's systems, confirmed by the theorem of Newton and Kantorovich.
+
+Lengths are measured in each coordinate relative to its own size, so that a zero with coordinates of
+very different sizes is as good as any other; if that fails, as it does where a coordinate vanishes,
+relative to the largest one. Let beta bound the Newton step at a point, and K the
+inverse Jacobian times the second derivatives nearby. If ``2 beta K <= 1`` there is exactly one zero
+within 1 / K, and it lies within 2 beta. Bounds are computed in doubles, with an allowance for the
+rounding of the residuals; where that is too much, residuals are evaluated in more digits.
+
+Reference: Ortega & Rheinboldt, Iterative Solution of Nonlinear Equations, 1970, 12.6.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cached_property
+
+import mpmath
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator, PlacedDerivatives
+from nag.algebra.family import Family
+
+EPS = float(np.finfo(float).eps)
+# Newton steps in doubles at most, and with residuals in `DIGITS` digits.
+STEPS, FINE_STEPS, DIGITS = 8, 4, 50
+# Points at once; and how many are worth more digits, some 10 ms each.
+BLOCK, MOST_FINE = 256, 200
+# Steps that leave nothing to be gained in doubles, and those that promise convergence.
+SMALL, PROMISING = 1e-12, 1e-3
+# Second derivatives in the ball are at most so many times those at its centre, if its radius is
+# below a percent and degrees below 30.
+NEARBY = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class Confirmed:
+    """Points after Newton's method, shape ``(P, n)``, and what is known of them, shape ``(P,)``.
+
+    Attributes:
+        regular: whether there is exactly one zero within `isolation`; it is regular.
+        sizes: of the coordinates, in which distances are measured, shape ``(P, n)``.
+        accuracy: the zero's distance at most, in the coordinate where it is largest.
+        isolation: radius of the ball with one zero.
+        condition: of the Jacobian, rows and columns scaled.
+        precision: decimal digits of the residuals.
+    """
+
+    points: np.ndarray
+    regular: np.ndarray
+    sizes: np.ndarray
+    accuracy: np.ndarray
+    isolation: np.ndarray
+    condition: np.ndarray
+    precision: np.ndarray
+
+    def same(self, others: np.ndarray) -> np.ndarray:
+        """Whether the zeros near other points, shape ``(P, n)``, are those of these points."""
+        apart = np.abs(others - self.points) / self.sizes
+        return self.regular & (apart.max(axis=1) + self.accuracy <= self.isolation)
+
+
+@dataclass(frozen=True, eq=False)
+class Confirmation:
+    """Newton's method for the systems of a family with rational coefficients."""
+
+    family: Family
+
+    @cached_property
+    def _evaluator(self) -> Evaluator:
+        return Evaluator.of(self.family.polynomials, self.family.polynomials[0].n)
+
+    @cached_property
+    def _derivatives(self) -> PlacedDerivatives:
+        return self._evaluator.placed_derivatives(self.family.n)
+
+    def __call__(self, points: np.ndarray, values: np.ndarray, threads: int = 1) -> Confirmed:
+        """Newton's method from ``points``, shape ``(P, n)``, for parameters of shape ``(k,)``."""
+        blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)] or [points[:0]]
+        if len(blocks) > 1 and threads > 1:
+            self._block(points[:1], values)  # What is cached is made once.
+            with ThreadPoolExecutor(threads) as pool:
+                done = list(pool.map(lambda block: self._block(block, values), blocks))
+        else:
+            done = [self._block(block, values) for block in blocks]
+        fields = Confirmed.__dataclass_fields__
+        result = {f: np.concatenate([getattr(d, f) for d, _ in done]) for f in fields}
+        promising = np.concatenate([p for _, p in done])
+        for i in np.flatnonzero(promising)[:MOST_FINE]:
+            fine = self._fine(result["points"][i], values)
+            if fine is not None and fine.regular[0]:
+                for f in fields:
+                    result[f][i] = getattr(fine, f)[0]
+        return Confirmed(**result)
+
+    def _joined(self, points: np.ndarray, values: np.ndarray) -> np.ndarray:
+        return np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
+
+    def _scaled(
+        self, points: np.ndarray, values: np.ndarray, sizes: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The Jacobian with columns scaled by the sizes, and then rows; the rows' factors."""
+        matrix = self._derivatives(self._joined(points, values)) * sizes[:, None, :]
+        with np.errstate(divide="ignore"):
+            factor = 1 / np.abs(matrix).max(axis=2)
+        return matrix * factor[:, :, None], factor
+
+    def _block(self, points: np.ndarray, values: np.ndarray) -> tuple[Confirmed, np.ndarray]:
+        """The result in doubles, and which of the others Newton's method converges at."""
+        with np.errstate(all="ignore"):
+            finite = np.isfinite(points).all(axis=1)
+            points = np.where(finite[:, None], points, 1.0)
+            length = np.zeros(len(points))
+            going = np.flatnonzero(finite)
+            for _ in range(STEPS):
+                here = points[going]
+                matrix, factor = self._scaled(here, values, _sizes(here))
+                residual = self._evaluator.values(self._joined(here, values)) * factor
+                step = _solved(matrix, residual)
+                moved = _sizes(here) * step
+                size = np.abs(step).max(axis=1)
+                # A small coordinate may be wrong altogether where others are large.
+                near = np.abs(moved).max(axis=1) < 0.1 * (1 + np.abs(here).max(axis=1))
+                points[going[near]] = (here - moved)[near]
+                length[going] = size
+                going = going[near & (size > SMALL)]
+                if not len(going):
+                    break
+            judged = self._judged(points, values, finite, _sizes(points), None)
+            left = np.flatnonzero(finite & ~judged.regular)
+            if len(left):
+                largest = np.abs(points[left]).max(axis=1, keepdims=True)
+                sizes = np.repeat(np.where(largest > 0, largest, 1.0), points.shape[1], axis=1)
+                again = self._judged(points[left], values, finite[left], sizes, None)
+                _replace(judged, left[again.regular], again, again.regular)
+            return judged, finite & ~judged.regular & (length < PROMISING)
+
+    def _judged(
+        self,
+        points: np.ndarray,
+        values: np.ndarray,
+        finite: np.ndarray,
+        lengths: np.ndarray,
+        exact: np.ndarray | None,
+    ) -> Confirmed:
+        """Kantorovich's bounds at points; ``exact`` are residuals without rounding errors."""
+        n = self.family.n
+        matrix, factor = self._scaled(points, values, lengths)
+        inverse = _inverses(matrix)
+        z = self._joined(points, values)
+        # Derivatives in directions of these lengths are at most those where coordinates have them.
+        reach = np.maximum(np.abs(points), lengths)
+        sizes, second = self._evaluator.term_sizes(self._joined(reach, values), n)
+        residual = self._evaluator.values(z) if exact is None else exact
+        # Rounding of the residual, and of its product with the inverse.
+        noise = 8 * EPS * sizes if exact is None else n * EPS * np.abs(residual)
+        size = np.abs(inverse)
+        step = (inverse @ (residual * factor)[:, :, None])[:, :, 0]
+        beta = (np.abs(step) + (size @ (noise * factor)[:, :, None])[:, :, 0]).max(axis=1)
+        K = NEARBY * (size @ (second * factor)[:, :, None])[:, :, 0].max(axis=1)
+        condition = np.linalg.norm(inverse, axis=(1, 2)) * np.linalg.norm(matrix, axis=(1, 2))
+        finite = finite & np.isfinite(condition)
+        regular = finite & (2 * beta * K <= 1) & (beta < 1e-3)
+        return Confirmed(
+            points,
+            regular,
+            lengths,
+            np.where(regular, np.maximum(2 * beta, EPS), np.inf),
+            np.where(regular, 1 / np.maximum(K, 1e2), 0.0),
+            np.where(finite, condition, np.inf),
+            np.full(len(points), 16 if exact is None else DIGITS),
+        )
+
+    def _fine(self, point: np.ndarray, values: np.ndarray) -> Confirmed | None:
+        """The same for one point, with residuals in more digits."""
+        point = point[None]
+        with np.errstate(all="ignore"):
+            for _ in range(FINE_STEPS):
+                matrix, factor = self._scaled(point, values, _sizes(point))
+                step = _solved(matrix, self._exact(point, values) * factor)
+                if not np.abs(step).max() < 0.5:
+                    return None
+                point = point - _sizes(point) * step
+                if np.abs(step).max() < 4 * EPS:
+                    break
+            exact = self._exact(point, values)
+            return self._judged(point, values, np.ones(1, bool), _sizes(point), exact)
+
+    def _exact(self, point: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """Values of the equations in more digits, scaled as the evaluator's, shape ``(1, n)``."""
+        with mpmath.workdps(DIGITS):
+            z = [mpmath.mpc(complex(x)) for x in (*point[0], *values)]
+            result = [
+                f(z, lambda c: mpmath.mpf(c.numerator) / c.denominator)
+                / float(max(abs(c) for c in f.terms.values()))
+                for f in self.family.polynomials
+            ]
+            return np.array([[complex(v) for v in result]])
+
+
+def _replace(old: Confirmed, places: np.ndarray, new: Confirmed, kept: np.ndarray) -> None:
+    for name in Confirmed.__dataclass_fields__:
+        getattr(old, name)[places] = getattr(new, name)[kept]
+
+
+def _sizes(points: np.ndarray) -> np.ndarray:
+    """Sizes of the coordinates, none of them zero."""
+    return np.maximum(np.abs(points), 1e-30)
+
+
+def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Solutions of linear systems; not a number where a matrix is singular."""
+    try:
+        return np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
+    except np.linalg.LinAlgError:
+        return (_inverses(matrix) @ right[:, :, None])[:, :, 0]
+
+
+def _inverses(matrix: np.ndarray) -> np.ndarray:
+    try:
+        return np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        result = np.full_like(matrix, np.nan)
+        for i, m in enumerate(matrix):
+            if np.isfinite(m).all() and np.linalg.matrix_rank(m) == len(m):
+                result[i] = np.linalg.inv(m)
+        return result
