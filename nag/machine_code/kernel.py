@@ -89,13 +89,16 @@ class Kernel:
     def __call__(self, *records: Any) -> None:
         """Run it, compiled or loaded from disk first if need be.
 
+        Args:
+            records: NamedTuples, or tables made of them before.
+
         Raises:
             TypeError: if an array has not the type that its field says.
         """
         if self._call is None:
             self.prepare()
         tables = [table(r) for r in records]
-        self._call(*(words.ctypes.data for words in tables))
+        self._call(*(t.address for t in tables))
 
     def prepare(self) -> None:
         """Load it from disk, or compile it."""

@@ -78,9 +78,9 @@ _FIELDS: dict[Any, Type] = {
 _WORDS: dict[Type, Any] = {
     INT: int,
     REAL: float,
-    pointer(INT): np.dtype("i8"),
-    pointer(REAL): np.dtype("f8"),
-    pointer(COMPLEX): np.dtype("c16"),
+    pointer(INT): np.dtype("i8").str,
+    pointer(REAL): np.dtype("f8").str,
+    pointer(COMPLEX): np.dtype("c16").str,
 }
 
 
@@ -98,12 +98,23 @@ def record(cls: type) -> Record:
     return Record(cls.__name__, tuple((name, _FIELDS[hint]) for name, hint in hints.items()))
 
 
-def table(values: Any) -> np.ndarray:
-    """The words of a NamedTuple, int64; the arrays in it must outlive their use.
+@dataclass(frozen=True, eq=False)
+class Table:
+    """The words of a record that is handed over more than once; it keeps the record alive."""
+
+    words: np.ndarray
+    address: int
+    record: Any
+
+
+def table(values: Any) -> Table:
+    """The words of a NamedTuple, int64; the arrays in it must stay as they are.
 
     Raises:
         TypeError: if an array is not contiguous or has another type than its field.
     """
+    if isinstance(values, Table):
+        return values
     layout = _layout(type(values))
     words = np.zeros(len(layout), dtype=np.int64)
     doubles = words.view(np.float64)
@@ -112,12 +123,13 @@ def table(values: Any) -> np.ndarray:
             words[k] = value
         elif dtype is float:
             doubles[k] = value
-        elif value.dtype != dtype or not value.flags.c_contiguous:
-            name = f"{type(values).__name__}.{values._fields[k]}"
-            raise TypeError(f"{name} is no contiguous array of {dtype}")
         else:
-            words[k] = value.ctypes.data
-    return words
+            interface = value.__array_interface__
+            if interface["typestr"] != dtype or interface["strides"] is not None:
+                name = f"{type(values).__name__}.{values._fields[k]}"
+                raise TypeError(f"{name} is no contiguous array of {dtype}")
+            words[k] = interface["data"][0]
+    return Table(words, words.ctypes.data, values)
 
 
 @cache

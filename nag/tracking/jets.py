@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from nag.machine_code.lanes import aligned, fma, fnma, load, separate, splat, square_root, store
-from nag.machine_code.records import Reals, Wholes
+from nag.machine_code.records import Reals, Table, Wholes, table
+from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 
 
@@ -107,45 +108,63 @@ def _parts(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.ascontiguousarray(array.real), np.ascontiguousarray(array.imag)
 
 
-def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> System:
-    """The arrays of ``homotopy``; with ``weights``, shape (paths, parts), those of a toric one."""
+def _rows(rows: CompiledRows) -> tuple[Any, ...]:
+    """The arrays of compiled rows, in the order of `System` from ``first`` on."""
+    if "lanes" not in rows._cache:
+        tape = rows.tape
+        value, jacobian = tape.value_coefficient, tape.jacobian_coefficient
+        rows._cache["lanes"] = (
+            tape.first,
+            tape.second,
+            tape.value_place,
+            tape.value_part,
+            tape.value_start,
+            tape.value_slot,
+            *_parts(value),
+            _real_blocks(tape.value_start, value),
+            tape.jacobian_place,
+            tape.jacobian_part,
+            tape.jacobian_start,
+            tape.jacobian_slot,
+            *_parts(jacobian),
+            _real_blocks(tape.jacobian_start, jacobian),
+        )
+    return rows._cache["lanes"]
+
+
+def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
+    """The table of `System` for ``homotopy``; with ``weights``, (paths, parts), of a toric one."""
+    known = homotopy.__dict__.get("_system")
+    if known is not None and weights is None:
+        return known
     tape = homotopy.rows.tape
     factors = np.array(homotopy.factors, dtype=np.complex128).reshape(-1, 2)
     moving = (factors[:, 1] != 0) | (factors[:, 0] != 1) | (weights is not None)
-    value, jacobian = tape.value_coefficient, tape.jacobian_coefficient
-    return System(
-        homotopy.N,
-        len(homotopy.rows),
-        len(homotopy.A0),
-        len(homotopy.groups),
-        len(factors),
-        tape.value_products,
-        len(tape.first),
-        len(tape.value_place),
-        len(tape.jacobian_place),
-        tape.first,
-        tape.second,
-        tape.value_place,
-        tape.value_part,
-        tape.value_start,
-        tape.value_slot,
-        *_parts(value),
-        _real_blocks(tape.value_start, value),
-        tape.jacobian_place,
-        tape.jacobian_part,
-        tape.jacobian_start,
-        tape.jacobian_slot,
-        *_parts(jacobian),
-        _real_blocks(tape.jacobian_start, jacobian),
-        *_parts(factors),
-        moving.astype(np.int64),
-        *_parts(homotopy.A0),
-        *_parts(homotopy.A1),
-        homotopy.A1.any(axis=1).astype(np.int64),
-        homotopy.group_of,
-        int(weights is not None),
-        np.zeros(1) if weights is None else np.ascontiguousarray(weights, dtype=float).ravel(),
+    made = table(
+        System(
+            homotopy.N,
+            len(homotopy.rows),
+            len(homotopy.A0),
+            len(homotopy.groups),
+            len(factors),
+            tape.value_products,
+            len(tape.first),
+            len(tape.value_place),
+            len(tape.jacobian_place),
+            *_rows(homotopy.rows),
+            *_parts(factors),
+            moving.astype(np.int64),
+            *_parts(homotopy.A0),
+            *_parts(homotopy.A1),
+            homotopy.A1.any(axis=1).astype(np.int64),
+            homotopy.group_of,
+            int(weights is not None),
+            np.zeros(1) if weights is None else np.ascontiguousarray(weights, dtype=float).ravel(),
+        )
     )
+    if weights is None:
+        homotopy.__dict__["_system"] = made
+    return made
 
 
 def work(homotopy: Homotopy, order: int) -> Work:

@@ -242,11 +242,9 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     points = paths.points[regular]
     # Projectively invariant coordinates: |<v, x>|^2 for a fixed v sorts the points, so that equal
     # ones are neighbours in a window of that coordinate.
-    generator = np.random.default_rng(0)
     key = np.zeros(len(regular))
     for indices in homotopy.groups:
-        v = generator.normal(size=(2, len(indices)))
-        key += np.abs(points[:, list(indices)] @ (v[0] + 1j * v[1])) ** 2
+        key += np.abs(points[:, list(indices)] @ np.exp(1j * np.arange(len(indices)) ** 2)) ** 2
     found: set[int] = set()
     tolerance = np.maximum(1e-10, 1e3 * paths.accuracy[regular])
     for i, j in neighbours(key, np.full(len(key), 1e-6)):
