@@ -174,3 +174,27 @@ def tails(s, r, order, w):
         known = select_less(size, load(r.base_weights, j), splat(0.0), total)
         most = select_less(most, known, known, most)
     return most
+
+
+def extrapolate(s, r, order, winding):
+    """What each coordinate's logarithm is at r = 0: three complex numbers for each.
+
+    The derivative there, which is the order v, and the last term of its series; the change of the
+    logarithm from here, but for ``w v`` times its first weight, as ``v h`` does not end.
+    """
+    w = number.exact(winding)
+    for j in range(s.N):
+        slope = z.exact(splat(0.0), splat(0.0))
+        last = slope
+        change = slope
+        power = number.exact(splat(1.0))
+        for k in range(order):
+            log = z.stretch(z.read(r.logarithms, k * s.N + j), power)
+            slope = z.add(slope, z.stretch(log, number.same(s.slope_at_end, k)))
+            last = z.add(last, z.stretch(log, number.same(s.last_of_slope, k)))
+            power = number.multiply(power, w)
+            log = z.stretch(log, w)
+            change = z.add(change, z.stretch(log, number.same(s.at_end, k + 1)))
+        z.write(r.limits, 3 * j, slope)
+        z.write(r.limits, 3 * j + 1, last)
+        z.write(r.limits, 3 * j + 2, change)

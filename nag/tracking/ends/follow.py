@@ -174,7 +174,7 @@ def _follow_in(
     need = 10.0 ** -digits_of_evidence(homotopy, settings.evidence)
     later: list[int] = []
     while len(pending):
-        series = _run(homotopy, states, pending, words, settings, threads)
+        found = _run(homotopy, states, pending, words, settings, threads)
         again: list[int] = []
         for k, path in enumerate(pending.tolist()):
             states.digits[path] = DIGITS[words]
@@ -182,7 +182,7 @@ def _follow_in(
             if outcome == kernel.LOST:
                 later.append(path)
             elif outcome == kernel.LIMIT:
-                verdict = _limit(states, limits, path, series[k], need)
+                verdict = _limit(states, limits, path, found[k], need)
                 if verdict != kernel.LIMIT:
                     states.outcome[path] = kernel.LOST
                     hopeful = verdict == kernel.OPEN and states.steps[path] < MAX_STEPS
@@ -210,12 +210,12 @@ def _ambiguous(homotopy: Homotopy, states: _States, path: int, need: float) -> b
     return bool(far) and float(KNOWN * states.errors[path][far].max()) > need
 
 
-def _limit(states: _States, limits: Limits, path: int, series: np.ndarray, need: float) -> int:
+def _limit(states: _States, limits: Limits, path: int, found: np.ndarray, need: float) -> int:
     """`LIMIT` if the equations agree, `OPEN` if further in they may, `LOST` in more digits."""
     from nag.tracking.ends import kernel
 
     known, t, w = states.known(path), states.t[path, 0], int(states.winding[path])
-    limit = limits.of(states.where[path], series, known, states.t[path], w)
+    limit = limits.of(states.where[path], found, known, states.t[path], w)
     if limit is not None and limit.residual <= need and states.may_be_simple(path, limit):
         # No branch point at t = 0: Newton's method is tried at the limit before it counts.
         states.ends[path], states.tried[path] = limit.centre, 0
@@ -242,14 +242,14 @@ def _run(
     settings: Settings,
     threads: int,
 ) -> np.ndarray:
-    """Run the kernel; Taylor coefficients of the chosen paths that converged to limits."""
+    """Run the kernel; what it extrapolated for the chosen paths that converged to limits."""
     from nag.tracking.ends import kernel
 
     compiled = kernel.KERNELS[words]
     compiled.prepare()
     system = records.equations(homotopy, words, ORDER)
     batches = max(1, min(threads, len(chosen) // 8))
-    series = np.zeros((len(chosen), ORDER, homotopy.N, 2, words))
+    limits = np.zeros((len(chosen), homotopy.N, 3, 2, words))
 
     def part(first: int) -> None:
         own = chosen[first::batches]
@@ -257,7 +257,7 @@ def _run(
         whole = [np.zeros(count, dtype=np.int64) for _ in range(3)]
         points, errors = states.where[own].copy(), np.zeros((count, N))
         t, curvature = states.t[own], states.curvature[own]
-        taylor = np.zeros((count, ORDER, N, 2, words))
+        own_limits = np.zeros((count, N, 3, 2, words))
         batch = kernel.Batch(
             count,
             ORDER,
@@ -269,7 +269,7 @@ def _run(
             states.latest[own],
             *whole,
             points.reshape(-1),
-            taylor.reshape(-1),
+            own_limits.reshape(-1),
             errors.reshape(-1),
             curvature,
             MAX_STEPS,
@@ -287,14 +287,14 @@ def _run(
         states.errors[own] = errors
         states.t[own], states.curvature[own] = t, curvature
         states.tried[own] = 1
-        series[first::batches] = taylor
+        limits[first::batches] = own_limits
 
     if batches == 1:
         part(0)
     else:
         with ThreadPoolExecutor(batches) as pool:
             list(pool.map(part, range(batches)))
-    return series
+    return limits
 
 
 def _paths(homotopy: Homotopy, states: _States) -> Paths:

@@ -13,6 +13,7 @@ from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import load, select_less, splat, store
 from nag.machine_code.records import Reals, Wholes
 from nag.tracking.ends.branch import (
+    extrapolate,
     keep_series,
     predict,
     reach,
@@ -80,8 +81,8 @@ class Batch(NamedTuple):
     ``tried`` is 0; ``straight``: 0 where not to try it later; ``starts``: points of the paths, numbers as in `Equations`, shape
     (count, N, 2, words), at ``t``, shape (count, words). ``latest``: largest t at which a limit is taken for one.
     ``outcome, winding, steps``: one for each path; ``points``: like ``starts``, the end, or where
-    the path is, at ``t``; ``series``: Taylor coefficients there, of order 1 and up, shape
-    (count, order, N, 2, words); ``errors``: rounding errors of the coordinates, shape (count, N).
+    the path is, at ``t``; ``limits``: of those that have one, see
+    `extrapolate`, shape (count, N, 3, 2, words); ``errors``: rounding errors of the coordinates, shape (count, N).
     ``finite``: whether simple zeros at t = 0 are looked for. ``tail``: largest last term of a
     power series that is taken to converge.
     """
@@ -98,7 +99,7 @@ class Batch(NamedTuple):
     winding: Wholes
     steps: Wholes
     points: Reals
-    series: Reals
+    limits: Reals
     errors: Reals
     curvature: Reals
     max_steps: int
@@ -263,11 +264,8 @@ def _close(s, r, f, lane, b, outcome, data):
             error = r.errors[8 * j + lane] * f[8 * EXCESS + lane]
         b.errors[s.N * path + j] = error
     if outcome == LIMIT:
-        size = s.N + 1 + s.value_products
-        for m in range(b.order):
-            for k in range(numbers):
-                value = r.series[8 * (2 * number.WORDS * m * size + k) + lane]
-                b.series[numbers * (b.order * path + m) + k] = value
+        for k in range(3 * numbers):
+            b.limits[3 * numbers * path + k] = r.limits[8 * k + lane]
     f[8 * MODE + lane] = IDLE
 
 
@@ -391,6 +389,7 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
             _expand(s, r, b.order)
             _keep(s, r, f, b.order)
             _best_winding(s, r, b)
+            extrapolate(s, r, b.order, load(r.measures, 1))
             for lane in range(8):
                 if r.accepted[lane] > 0.5:
                     best, winding = r.measures[lane], r.measures[8 + lane]

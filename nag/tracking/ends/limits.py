@@ -55,62 +55,59 @@ class Limits:
     _initial: dict[tuple[int, ...], Any] = field(default_factory=dict)
 
     def of(
-        self, x: np.ndarray, series: np.ndarray, known: np.ndarray, t: np.ndarray, winding: int
+        self, x: np.ndarray, found: np.ndarray, known: np.ndarray, t: np.ndarray, winding: int
     ) -> Limit | None:
         """The limit of a branch.
 
         Args:
             x: coordinates at t, shape ``(N, 2, words)``.
-            series: their Taylor coefficients in log t, shape ``(order, N, 2, words)``.
+            found: what `nag.tracking.ends.branch.extrapolate` gives, shape ``(N, 3, 2, words)``.
             known: which coordinates exceed their rounding errors, shape ``(N,)``.
             t: shape ``(words,)``.
+            winding: the w of the power series in ``t^(1/w)``.
 
         Returns:
             None where the orders are no rational numbers with a common small denominator.
         """
         import flint
 
-        bits = flint.ctx.prec, flint.ctx.cap
+        bits = flint.ctx.prec
         try:
-            flint.ctx.prec, flint.ctx.cap = BITS[self.words], self.order + 1
-            return self._of(flint, x, series, known, t, winding)
+            flint.ctx.prec = BITS[self.words]
+            return self._of(flint, x, found, known, t, winding)
         finally:
-            flint.ctx.prec, flint.ctx.cap = bits
+            flint.ctx.prec = bits
 
     def _of(
         self,
         flint: Any,
         x: np.ndarray,
-        series: np.ndarray,
+        found: np.ndarray,
         known: np.ndarray,
         t: np.ndarray,
         winding: int,
     ) -> Limit | None:
-        rho = flint.acb_series([0, 1])
-        step = (rho + 1).log() * winding
-        log_t = real(t).log()
         N = self.terms.homotopy.N
-        logs: list[Any] = [None] * N
-        slopes = np.full(N, np.nan)
-        tail = 0.0
-        for j in np.flatnonzero(known).tolist():
-            numbers = [number(x[j])] + [number(c[j]) for c in series]
-            logs[j] = (flint.acb_series(numbers) / numbers[0]).log()
-            slope, last = _at_minus_one(logs[j].derivative()(step))
-            slopes[j] = complex(slope).real
-            if not abs(complex(slope).imag) <= WHOLE:
-                return None
-            tail = max(tail, last)
-        winding = _denominator(slopes[known], winding)
-        if not winding:
+        slopes, last = (found[:, i, 0].sum(axis=1) + 1j * found[:, i, 1].sum(axis=1) for i in (0, 1))
+        tail = float(np.abs(last[known]).max(initial=0.0))
+        if not np.abs(slopes[known].imag).max(initial=0.0) <= WHOLE:
+            return None
+        denominator = _denominator(slopes[known].real, winding)
+        if not denominator:
             return None
         orders = [NEVER] * N
         leading = [flint.acb(0)] * N
+        log_t = real(t).log()
+        # `extrapolate` leaves out this part of the change, times w v.
+        shift = flint.fmpq(0)
+        for m in range(1, self.order + 1):
+            shift += flint.fmpq(1, m)
         for j in np.flatnonzero(known).tolist():
-            orders[j] = round(winding * slopes[j])
-            order = flint.fmpq(orders[j], winding)
-            value, _ = _at_minus_one((logs[j] - flint.acb_series([0, order]))(step))
-            leading[j] = number(x[j]) * (value - log_t * order).exp()
+            orders[j] = round(denominator * slopes[j].real)
+            order = flint.fmpq(orders[j], denominator)
+            change = number(found[j, 2]) + winding * order * shift - log_t * order
+            leading[j] = number(x[j]) * change.exp()
+        winding = denominator
         residual = self._residual(flint, tuple(orders), leading, winding)
         centre = self._centre(orders, leading)
         parts = centre.sum(axis=2)
@@ -171,10 +168,3 @@ def _denominator(values: np.ndarray, least: int) -> int:
         if np.all(np.abs(d * values - np.rint(d * values)) <= WHOLE):
             return d
     return 0
-
-
-def _at_minus_one(series: Any) -> tuple[Any, float]:
-    """Value of a series at -1, and the size of its last two terms."""
-    coefficients = series.coeffs()
-    value = sum((c if m % 2 == 0 else -c for m, c in enumerate(coefficients)), 0)
-    return value, sum(float(abs(c).mid()) for c in coefficients[-2:])

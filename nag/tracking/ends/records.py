@@ -22,7 +22,9 @@ class Equations(NamedTuple):
     the real and imaginary parts of ``a`` and ``b`` in ``a + t b``; ``A0, A1``: likewise real and
     imaginary parts in turn. ``moving``: whether a part's factor is not 1. ``logarithm``: see
     `composition`. ``at_end``: weights of the coefficients of a series in ``log t`` in its value at
-    t = 0, by its power series in t; ``inverses``: 1 / k.
+    t = 0, by its power series in t; ``slope_at_end, last_of_slope``: likewise weights of the
+    coefficients of order 1 and up in the value of its derivative there, and in the last term of that;
+    ``inverses``: 1 / k.
     """
 
     N: int
@@ -53,6 +55,8 @@ class Equations(NamedTuple):
     A1: Reals
     logarithm: Reals
     at_end: Reals
+    slope_at_end: Reals
+    last_of_slope: Reals
     inverses: Reals
 
 
@@ -72,7 +76,8 @@ class Room(NamedTuple):
     ``weights, errors``: sizes in which corrections count, and rounding errors, of each coordinate
     at the point; ``base_sizes``: of the coordinates
     at the base, ``base_weights, base_errors``: as above there. ``scalars``: see the kernel.
-    ``measures``: of the last correction.
+    ``measures``: of the last correction. ``limits``: see
+    `nag.tracking.ends.branch.extrapolate`.
     """
 
     t: Reals
@@ -105,6 +110,7 @@ class Room(NamedTuple):
     scalars: Reals
     measures: Reals
     accepted: Reals
+    limits: Reals
 
 
 # Numbers of the rows of the lanes' scalars, and of inverses of whole numbers.
@@ -176,27 +182,26 @@ def _exact_words(numbers: Iterable[Fraction], count: int) -> np.ndarray:
     return np.array([part for x in numbers for part in _split(x, count)])
 
 
-def _weights_at_end(order: int) -> list[Fraction]:
-    """Sums over m of ``(-1)^m`` times the coefficients of ``r^m`` in ``log(1 + r) ** k``."""
+def _logarithm_powers(order: int) -> list[list[Fraction]]:
+    """`composition`, exactly."""
     first = [Fraction(0)] + [Fraction((-1) ** (m + 1), m) for m in range(1, order + 1)]
-    power, weights = [Fraction(1)] + [Fraction(0)] * order, []
-    for _ in range(order + 1):
-        weights.append(sum((-1) ** m * c for m, c in enumerate(power)))
-        power = [
-            sum((power[i] * first[m - i] for i in range(m + 1)), Fraction(0))
-            for m in range(order + 1)
-        ]
-    return weights
+    rows = [[Fraction(1)] + [Fraction(0)] * order]
+    for _ in range(order):
+        power = rows[-1]
+        products = (sum(power[i] * first[m - i] for i in range(m + 1)) for m in range(order + 1))
+        rows.append([Fraction(c) for c in products])
+    return rows
 
 
 @cache
-def _constants(order: int, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _constants(order: int, count: int) -> tuple[np.ndarray, ...]:
+    rows = _logarithm_powers(order)
+    at_end = [sum((-1) ** m * c for m, c in enumerate(row)) for row in rows]
+    slopes = [(k + 1) * sum((-1) ** m * c for m, c in enumerate(rows[k][:-1])) for k in range(order)]
+    last = [(k + 1) * rows[k][order - 1] for k in range(order)]
     inverses = [Fraction(1, max(k, 1)) for k in range(MOST_INVERSES)]
-    return (
-        composition(order).ravel(),
-        _exact_words(_weights_at_end(order), count),
-        _exact_words(inverses, count),
-    )
+    exact = (_exact_words(numbers, count) for numbers in (at_end, slopes, last, inverses))
+    return (composition(order).ravel(), *exact)
 
 
 def equations(homotopy: Homotopy, count: int, order: int) -> Equations:
@@ -254,5 +259,5 @@ def room(homotopy: Homotopy, count: int, order: int) -> Room:
     sizes = [count, *(2 * count * k for k in numbers), N, N, N, N, 2 * N]
     sizes += [2 * count * len(homotopy.groups)]
     sizes += [2 * count * N, count, 2 * count * order * N, 2 * count * order * N]
-    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 5, SCALARS, 4, 1]
+    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 5, SCALARS, 4, 1, 6 * count * N]
     return Room(*separate(aligned(sum(sizes)), sizes))
