@@ -49,6 +49,7 @@ IDLE, STEP, FINISH = 0.0, 1.0, 2.0
 OPEN, REGULAR, LIMIT, LOST, TOO_LONG = range(5)
 # Relative size of coordinates that doubles do not know.
 FLOOR = 1e-9
+MOST_CORRECTIONS = 12
 # Corrections of so many rounding errors may be nothing else.
 STAGNANT = 1e2
 # Rows of the lanes' scalars.
@@ -143,8 +144,29 @@ def _begin(s, r, f, lane, b):
     _put(s, r, lane, b.starts, path)
 
 
+def _weigh(s, r, floor):
+    """Sizes of the coordinates by which columns are scaled."""
+    for j in range(s.N):
+        size = z.largest(z.magnitude(z.read(r.slots, j)), floor)
+        store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
+
+
+def _linearize(s, r, floor):
+    """The factorised Jacobian at the points, Newton's correction and its measures."""
+    products(s, r, s.products)
+    values(s, r)
+    jacobian(s, r)
+    equilibrate(s, r)
+    factorize(s, r)
+    newton_correction(s, r, floor)
+
+
 def _correct(s, r, f, b):
-    """Newton's method in all lanes, until each has settled or failed."""
+    """Newton's method in all lanes, until each has settled or failed.
+
+    At last everything is evaluated once more at the corrected points, whatever number of
+    corrections a lane and its neighbours took.
+    """
     for lane in range(8):
         f[8 * SETTLED + lane] = 0.0 if f[8 * MODE + lane] > IDLE else 2.0
     lay_patches(s, r)
@@ -153,16 +175,9 @@ def _correct(s, r, f, b):
     half = splat(0.5)
     nothing = z.exact(splat(0.0), splat(0.0))
     floor = select_less(load(f, BASE), half, splat(FLOOR), splat(0.0))
-    for j in range(s.N):
-        size = z.largest(z.magnitude(z.read(r.slots, j)), floor)
-        store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
-    for k in range(12):
-        products(s, r, s.products)
-        values(s, r)
-        jacobian(s, r)
-        equilibrate(s, r)
-        factorize(s, r)
-        newton_correction(s, r, floor)
+    _weigh(s, r, floor)
+    for k in range(MOST_CORRECTIONS):
+        _linearize(s, r, floor)
         settled = load(f, SETTLED)
         for j in range(s.N):
             x = z.read(r.slots, j)
@@ -172,19 +187,25 @@ def _correct(s, r, f, b):
         busy = 0
         for lane in range(8):
             if f[8 * SETTLED + lane] < 0.5:
-                f[8 * SETTLED + lane] = _judged(r, f, lane, k, b)
+                f[8 * SETTLED + lane] = _judged(r, f, lane, k)
                 if f[8 * SETTLED + lane] < 0.5:
                     busy += 1
         if busy == 0:
             break
+    _weigh(s, r, floor)
+    _linearize(s, r, floor)
+    for lane in range(8):
+        excess = r.measures[8 + lane]
+        f[8 * EXCESS + lane] = max(1.0, excess)
+        f[8 * KNOWN + lane] = r.measures[16 + lane] * f[8 * EXCESS + lane]
+        if not excess <= STAGNANT or not r.measures[24 + lane] < 0.5:
+            f[8 * SETTLED + lane] = 2.0
 
 
-def _judged(r, f, lane, k, b):
+def _judged(r, f, lane, k):
     """0 if a lane needs another correction, 1 if it has settled, 2 if it failed."""
     eta = r.measures[lane]
     excess = r.measures[8 + lane]
-    f[8 * EXCESS + lane] = max(1.0, excess)
-    f[8 * KNOWN + lane] = r.measures[16 + lane] * f[8 * EXCESS + lane]
     if not eta < 0.5 or not r.measures[24 + lane] < 0.5:
         f[8 * FIRST + lane] = 1.0 if k == 0 else f[8 * FIRST + lane]
         return 2.0
@@ -209,13 +230,14 @@ def _judged(r, f, lane, k, b):
     if theta > 0.25:
         # Corrections that do not contract any more may be a few rounding errors.
         return 1.0 if excess <= STAGNANT else 2.0
-    return 2.0 if k == 11 else 0.0
+    # The next correction is about theta^2 times this one.
+    if eta * theta * theta <= number.EPSILON:
+        return 1.0
+    return 2.0 if k == MOST_CORRECTIONS - 1 else 0.0
 
 
 def _expand(s, r, order):
     """Taylor coefficients of the path."""
-    products(s, r, s.value_products)
-    values(s, r)
     for m in range(1, order + 1):
         incomplete_slots(s, r, m)
         block_sums(s, r, m)
