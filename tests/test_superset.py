@@ -13,10 +13,9 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
 from nag.decomposition.confirm import vanishing
 from nag.decomposition.cutting import Cut
-from nag.decomposition.fibres import Tracker, moved
+from nag.decomposition.fibres import Tracker
 from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import witness_superset
-from nag.tracking.paths import Paths, PathStatus
 
 
 def polynomials(names: str, *texts: str) -> tuple[Polynomial, ...]:
@@ -43,16 +42,6 @@ def test_a_value_of_one_is_told_from_zero_beside_large_terms(size: int) -> None:
     product, shifted = polynomials("x y z w", "x*y*z*w", "x*y*z*w - 1")
     assert vanishing(cut, product, rows, point).tolist() == [True]
     assert vanishing(cut, shifted, rows, point).tolist() == [False]
-
-
-def test_an_end_at_infinity_that_is_not_known_well_counts_as_failed() -> None:
-    status = np.array([PathStatus.AT_INFINITY] * 2 + [PathStatus.REGULAR], dtype=np.int8)
-    points = np.array([[0, 1], [1e-14, 1], [1, 1]], dtype=complex)
-    accuracy = np.array([1e-10, 1e-6, 1e-15])
-    blank = {name: np.zeros(3) for name in Paths.__dataclass_fields__}
-    ends = moved(Paths(**blank | {"points": points, "status": status, "accuracy": accuracy}))
-    assert ends.failed.tolist() == [False, True, False]
-    assert (ends.counts.failed, ends.counts.at_infinity) == (1, 1)
 
 
 SADDLE, CONE, DOUBLE = "(x*y - z)", "(x*y - z^2)", "(x*y - z)^2"

@@ -27,10 +27,12 @@ MAX_WINDING = 40
 # those of the settings.
 ACCURACY, CONTRACTION = 0.1, 0.3
 # Largest last term of a power series in doubles that is taken to converge.
-TAIL = 1e-9
+TAIL = 1e-11
 # Digits to which equations with coefficients of so few digits must hold at least, and the most
 # that may be asked for.
 LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 16, 6, 58
+# The error of a limit, in last terms of its power series.
+BEYOND = 30.0
 # A coordinate is known if it exceeds its rounding error so many times.
 KNOWN = 1e3
 
@@ -318,7 +320,7 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
             points[path] = limit.point
             finite = bool((limit.point[infinite] != 0).all())
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY
-            accuracy[path] = max(2e-16, limit.tail)
+            accuracy[path] = max(2e-16, BEYOND * limit.tail)
     points = homotopy.normalized(points)
     condition = np.full(P, np.inf)
     regular = np.flatnonzero(status == PathStatus.REGULAR)
