@@ -1,0 +1,124 @@
+"""Ends that doubles leave doubtful: balls, proofs, limits and their evidence."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+import pytest
+
+from nag.algebra.polynomial import Polynomial
+from nag.tracking.compiled import compile_rows
+from nag.tracking.ends.follow import digits_of_evidence, follow
+from nag.tracking.ends.inclusion import proved
+from nag.tracking.ends.limits import Limits
+from nag.tracking.ends.terms import Terms
+from nag.tracking.homotopy import Homotopy, straight_line
+from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.settings import Settings
+
+GAMMA = complex(np.exp(2j))
+
+
+def homotopy_of(polynomials: list[Polynomial]) -> tuple[Homotopy, np.ndarray]:
+    """From roots of unity, and the start points."""
+    x = Polynomial.variables(polynomials[0].n)
+    degrees = [f.degree for f in polynomials]
+    start = compile_rows([v**d - 1 for v, d in zip(x, degrees, strict=True)])
+    roots = [[np.exp(2j * np.pi * k / d) for k in range(d)] for d in degrees]
+    starts = np.array([(1, *point) for point in product(*roots)])
+    homotopy = straight_line(start, compile_rows(polynomials), GAMMA)
+    return homotopy, homotopy.normalized(starts)
+
+
+def followed(polynomials: list[Polynomial], settings: Settings | None = None) -> Paths:
+    """All paths, followed from t = 1 on in more digits than doubles have."""
+    homotopy, starts = homotopy_of(polynomials)
+    reached = np.zeros(len(starts), dtype=bool)
+    ones = np.ones(len(starts))
+    return follow(homotopy, starts, reached, starts, ones, settings or Settings())
+
+
+def test_regular_ends_are_balls_that_hold_the_zeros() -> None:
+    (x,) = Polynomial.variables(1)
+    paths = followed([x**3 - 2])
+    assert (paths.status == PathStatus.REGULAR).all()
+    for ball in paths.balls.values():
+        (a, b), (c, d) = ball.fractions()
+        size = a * a + b * b
+        re, im = (c * a + d * b) / size, (d * a - c * b) / size
+        cube = (re**3 - 3 * re * im**2, 3 * re**2 * im - im**3)
+        assert abs(cube[0] - 2) < Fraction(1, 10**28)
+        assert abs(cube[1]) < Fraction(1, 10**28)
+
+
+@pytest.mark.parametrize(("a", "b"), [(2, 1), (3, 2), (4, 1), (5, 3)])
+def test_orders_of_branches_to_infinity_are_rational(a: int, b: int) -> None:
+    # x^a y^b = 1 and x = 1: all paths but b go to infinity.
+    x, y = Polynomial.variables(2)
+    paths = followed([x**a * y**b - 1, x - 1])
+    assert len(paths.where(PathStatus.REGULAR)) == b
+    assert len(paths.where(PathStatus.AT_INFINITY)) == a
+    assert len(paths.where(PathStatus.FAILED)) == 0
+
+
+@pytest.mark.parametrize("m", [2, 3, 5])
+def test_winding_numbers_are_those_of_the_branches(m: int) -> None:
+    (x,) = Polynomial.variables(1)
+    paths = followed([(x - Fraction(1, 3)) ** m * (x + 2)])
+    singular = paths.where(PathStatus.SINGULAR)
+    assert len(singular) == m
+    assert (paths.winding[singular] == m).all()
+    points = paths.points[singular]
+    error = np.abs(points[:, 1] / points[:, 0] - 1 / 3)
+    assert (error <= 3 * paths.accuracy[singular]).all()
+
+
+@pytest.mark.parametrize("power", [6, 12, 18, 25])
+def test_solutions_far_out_are_not_taken_for_ends_at_infinity(power: int) -> None:
+    x, y = Polynomial.variables(2)
+    small = Fraction(1, 10**power)
+    paths = followed([x * y - 1 + x * x * small, x + y - 3 + y * y * small])
+    assert (paths.status == PathStatus.REGULAR).all()
+    assert len(paths.balls) == 4
+
+
+def test_zeros_that_are_not_regular_are_not_proved() -> None:
+    (x,) = Polynomial.variables(1)
+    centre = np.zeros((2, 2, 2))
+    centre[:, 0, 0] = 1.0
+    errors = np.full(2, 1e-30)
+    double, starts = homotopy_of([(x - 1) ** 2])
+    simple, _ = homotopy_of([(x - 1) * (x + 1)])
+    assert not proved(Terms(double), centre, errors)
+    assert proved(Terms(simple), centre, errors)
+    assert len(starts) == 2
+
+
+def test_a_box_without_a_zero_is_not_proved() -> None:
+    (x,) = Polynomial.variables(1)
+    homotopy, _ = homotopy_of([x**2 - 2])
+    centre = np.zeros((2, 2, 2))
+    centre[0, 0, 0], centre[1, 0, 0] = 1.0, 1.4142135623730951
+    assert not proved(Terms(homotopy), centre, np.full(2, 1e-30))
+    assert proved(Terms(homotopy), centre, np.full(2, 1e-15))
+
+
+def test_evidence_grows_with_the_digits_of_the_coefficients() -> None:
+    (x,) = Polynomial.variables(1)
+    few, _ = homotopy_of([x**2 - 2])
+    many, _ = homotopy_of([x**2 - Fraction(123456789012347, 10**14)])
+    assert digits_of_evidence(few, 0) == 16
+    assert digits_of_evidence(many, 0) == 25
+    assert digits_of_evidence(few, 60) == 58
+
+
+def test_orders_that_are_no_rational_numbers_give_no_limit() -> None:
+    (x,) = Polynomial.variables(1)
+    homotopy, _ = homotopy_of([x**2 - 2])
+    limits = Limits(Terms(homotopy), 2, 14)
+    point, found = np.zeros((2, 2, 2)), np.zeros((2, 3, 2, 2))
+    point[:, 0, 0] = 1.0
+    found[1, 0, 0, 0] = np.sqrt(2) / 3
+    assert limits.of(point, found, np.ones(2, dtype=bool), np.array([1e-3, 0.0]), 1) is None

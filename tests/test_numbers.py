@@ -1,0 +1,101 @@
+"""Double-double and quad-double arithmetic in lanes agrees with ball arithmetic to its last digits."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple
+
+import flint
+import numpy as np
+import pytest
+
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.lanes import aligned
+from nag.machine_code.records import Reals
+from nag.tracking.ends.records import _constants, words
+from nag.tracking.numbers import complex_numbers as z
+from nag.tracking.numbers import double_double, quad_double
+
+ARITHMETICS = (double_double, quad_double)
+
+
+class Operands(NamedTuple):
+    a: Reals
+    b: Reals
+    inverses: Reals
+    results: Reals
+
+
+def operations(x: Operands) -> None:
+    a = z.read(x.a, 0)
+    b = z.read(x.b, 0)
+    z.write(x.results, 0, z.add(a, b))
+    z.write(x.results, 1, z.multiply(a, b))
+    z.write(x.results, 2, z.inverse(a))
+    z.write(x.results, 3, z.add(a, z.negative(b)))
+    z.write(x.results, 4, z.exponential(a, x.inverses))
+
+
+KERNELS = {m.WORDS: Kernel(operations, None, {"number": m}) for m in ARITHMETICS}
+
+
+def ball(parts: np.ndarray) -> flint.acb:
+    """The number in one lane, shape ``(2 words,)``."""
+    half = len(parts) // 2
+    sums = [sum(map(flint.arb, p.tolist()), flint.arb(0)) for p in (parts[:half], parts[half:])]
+    return flint.acb(*sums)
+
+
+def computed(count: int, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Results of the operations, shape ``(5, 2 words, 8)``."""
+    memory = [aligned(2 * count) for _ in range(2)]
+    for place, values in zip(memory, (a, b), strict=True):
+        place[:] = values.ravel()
+    results = aligned(10 * count)
+    KERNELS[count](Operands(*memory, _constants(14, count)[-1], results))
+    return results.reshape(5, 2 * count, 8)
+
+
+def random_numbers(count: int, rng: np.random.Generator, size: float) -> np.ndarray:
+    """Eight complex numbers with all their words in use, shape ``(2 words, 8)``."""
+    lanes = np.zeros((2 * count, 8))
+    for lane in range(8):
+        for part in range(2):
+            digits = "".join(map(str, rng.integers(0, 10, 80)))
+            value = Fraction(int(digits), 10**80) * Fraction(size) * int(rng.choice([-1, 1]))
+            lanes[part * count : (part + 1) * count, lane] = words(value, count)[:count]
+    return lanes
+
+
+@pytest.mark.parametrize("arithmetic", ARITHMETICS)
+@pytest.mark.parametrize("size", [1e-3, 1.0, 30.0])
+def test_operations_are_exact_to_rounding(arithmetic, size: float) -> None:
+    count, rng = arithmetic.WORDS, np.random.default_rng(3)
+    a, b = random_numbers(count, rng, size), random_numbers(count, rng, size)
+    results = computed(count, a, b)
+    with flint.ctx.workprec(600):
+        for lane in range(8):
+            x, y = ball(a[:, lane]), ball(b[:, lane])
+            expected = (x + y, x * y, 1 / x, x - y, x.exp())
+            scales = (abs(x) + abs(y), abs(x * y), abs(1 / x), abs(x) + abs(y), abs(x.exp()))
+            for k, (value, scale) in enumerate(zip(expected, scales, strict=True)):
+                # Halving and squaring an exponential's argument loses a few digits.
+                factor = 2**16 if k == 4 else 32
+                error = abs(ball(results[k, :, lane]) - value) / scale
+                assert float(error.mid()) < factor * arithmetic.EPSILON
+
+
+@pytest.mark.parametrize("arithmetic", ARITHMETICS)
+def test_words_do_not_overlap(arithmetic) -> None:
+    count, rng = arithmetic.WORDS, np.random.default_rng(5)
+    results = computed(count, random_numbers(count, rng, 1.0), random_numbers(count, rng, 1.0))
+    parts = results[:2].reshape(4, count, 8)
+    for larger, smaller in zip(parts.swapaxes(0, 1)[:-1], parts.swapaxes(0, 1)[1:], strict=True):
+        assert (np.abs(smaller) <= np.spacing(np.abs(larger))).all()
+
+
+def test_words_of_a_rational_number_add_up_to_it() -> None:
+    third = words(Fraction(1, 3), 4)
+    assert abs(sum(map(Fraction, third[:4])) - Fraction(1, 3)) < Fraction(1, 2**210)
+    assert third[4:] == [0.0] * 4
+    assert words(0.1 + 2j, 2, Fraction(3)) == [*words(Fraction(0.1) * 3, 2)[:2], 6.0, 0.0]
