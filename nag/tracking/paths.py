@@ -77,6 +77,7 @@ class Paths:
         steps: predictor steps, rejected ones included, of all arithmetics.
         precision: decimal digits of the arithmetic used: 16, 32 or 64.
         reason: `Reason` of a failure, 0 otherwise.
+        simple: whether the end is a regular zero, be it at infinity.
         balls: regular ends that were found in more digits, by index.
     """
 
@@ -88,6 +89,7 @@ class Paths:
     steps: np.ndarray
     precision: np.ndarray
     reason: np.ndarray
+    simple: np.ndarray
     balls: Mapping[int, Ball] = field(default_factory=dict)
 
     def same(self, homotopy: Homotopy, i: int, j: int) -> bool:

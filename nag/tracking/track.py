@@ -221,35 +221,41 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> Paths:
     accuracy[failed] = np.inf
     winding = np.where(failed, 0, 1)
     digits = np.where(failed, 16, 32).astype(np.int16)
-    return Paths(points, status, winding, accuracy, condition, raw.steps, digits, reason)
+    return Paths(
+        points, status, winding, accuracy, condition, raw.steps, digits, reason, ~failed
+    )
 
 
 def _without(paths: Paths, lost: np.ndarray) -> Paths:
     """The same, with the paths at ``lost`` failed."""
     status, reason = paths.status.copy(), paths.reason.copy()
     status[lost], reason[lost] = PathStatus.FAILED, Reason.ENDGAME
-    return replace(paths, status=status, reason=reason)
+    simple = paths.simple & (status != PathStatus.FAILED)
+    return replace(paths, status=status, reason=reason, simple=simple)
 
 
 def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
-    """Indices of the paths with regular ends that coincide with another one's.
+    """Indices of the paths with regular ends, finite or at infinity, that are another one's too.
 
-    Two ends coincide if they do in all digits that both are known to.
+    Two ends coincide if they do in all digits that both are known to. A limit that is reached
+    without winding is compared with the regular ends as well.
     """
-    regular = paths.where(PathStatus.REGULAR)
-    if len(regular) < 2:
-        return regular[:0]
-    points = paths.points[regular]
+    ended = paths.status != PathStatus.FAILED
+    chosen = np.flatnonzero(paths.simple | (ended & (paths.winding == 1)))
+    if len(chosen) < 2 or not paths.simple.any():
+        return chosen[:0]
+    points = paths.points[chosen]
     # Projectively invariant coordinates: |<v, x>|^2 for a fixed v sorts the points, so that equal
     # ones are neighbours in a window of that coordinate.
-    key = np.zeros(len(regular))
+    key = np.zeros(len(chosen))
     for indices in homotopy.groups:
         key += np.abs(points[:, list(indices)] @ np.exp(1j * np.arange(len(indices)) ** 2)) ** 2
     found: set[int] = set()
-    tolerance = np.maximum(1e-10, 1e3 * paths.accuracy[regular])
+    tolerance = np.maximum(1e-10, 1e3 * paths.accuracy[chosen])
     for i, j in neighbours(key, np.full(len(key), 1e-6)):
         close = _distances(homotopy, points[i], points[j]) <= np.maximum(tolerance[i], tolerance[j])
-        for a, b in zip(regular[i[close]].tolist(), regular[j[close]].tolist(), strict=True):
+        close &= paths.simple[chosen[i]] | paths.simple[chosen[j]]
+        for a, b in zip(chosen[i[close]].tolist(), chosen[j[close]].tolist(), strict=True):
             if paths.same(homotopy, a, b):
                 found |= {a, b}
     return np.array(sorted(found), dtype=np.int64)

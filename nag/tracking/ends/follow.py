@@ -41,13 +41,15 @@ KNOWN = 1e3
 class _States:
     """Where the paths are, and what is known of their ends.
 
-    ``where, t``: the last safe points; ``found``: regular ends; ``limits``: others. ``straight``: 0
+    ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well; ``found``: regular ends; ``limits``: others. ``straight``: 0
     where Newton's method at t = 0 is of no use; ``asked``: in how many words it was tried at a
     limit.
     """
 
     where: np.ndarray
     t: np.ndarray
+    safe: np.ndarray
+    safe_t: np.ndarray
     latest: np.ndarray
     curvature: np.ndarray
     ends: np.ndarray
@@ -67,6 +69,8 @@ class _States:
         P, N = safe.shape
         whole = [np.zeros(P, dtype=np.int64) for _ in range(4)]
         return cls(
+            _in_words(safe),
+            np.stack([t, np.zeros(P)], axis=1),
             _in_words(safe),
             np.stack([t, np.zeros(P)], axis=1),
             np.ones(P),
@@ -168,9 +172,11 @@ def _follow_in(
     have = states.where.shape[-1]
     if have < words:
         room = ((0, 0), (0, 0), (0, 0), (0, words - have))
-        states.where = np.pad(states.where, room)
         states.ends = np.pad(states.ends, room)
-        states.t = np.pad(states.t, room[2:])
+        states.safe = np.pad(states.safe, room)
+        states.safe_t = np.pad(states.safe_t, room[2:])
+        # The next arithmetic starts from what is known well.
+        states.where, states.t = states.safe.copy(), states.safe_t.copy()
     terms = Terms(homotopy)
     limits = Limits(terms, words, ORDER)
     need = 10.0 ** -digits_of_evidence(homotopy, settings.evidence)
@@ -258,6 +264,7 @@ def _run(
         count, N = len(own), homotopy.N
         whole = [np.zeros(count, dtype=np.int64) for _ in range(3)]
         points, errors = states.where[own].copy(), np.zeros((count, N))
+        safe, safe_t = states.safe[own].copy(), states.safe_t[own].copy()
         t, curvature = states.t[own], states.curvature[own]
         own_limits = np.zeros((count, N, 3, 2, words))
         batch = kernel.Batch(
@@ -271,6 +278,8 @@ def _run(
             states.latest[own],
             *whole,
             points.reshape(-1),
+            safe.reshape(-1),
+            safe_t.reshape(-1),
             own_limits.reshape(-1),
             errors.reshape(-1),
             curvature,
@@ -287,6 +296,7 @@ def _run(
         states.found |= {int(own[k]): points[k] for k in np.flatnonzero(regular)}
         states.where[own[~regular]] = points[~regular]
         states.errors[own] = errors
+        states.safe[own], states.safe_t[own] = safe, safe_t
         states.t[own], states.curvature[own] = t, curvature
         states.tried[own] = 1
         limits[first::batches] = own_limits
@@ -336,5 +346,6 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
         states.steps,
         states.digits.astype(np.int16),
         np.where(failed, Reason.ENDGAME, Reason.NONE).astype(np.int8),
+        states.outcome == kernel.REGULAR,
         balls,
     )

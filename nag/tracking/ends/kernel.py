@@ -52,6 +52,9 @@ FLOOR = 1e-9
 MOST_CORRECTIONS = 12
 # Corrections of so many rounding errors may be nothing else.
 STAGNANT = 1e2
+# Largest product of the rounding error of a point and Newton's constant that is lost, and that
+# leaves a point safe enough to start from.
+LOSING, SAFE = 1e-3, 1e-6
 # Rows of the lanes' scalars.
 (
     MODE,
@@ -72,7 +75,8 @@ STAGNANT = 1e2
     REJECTED,
     WANTED,
     EXCESS,
-) = range(18)
+    SAVED,
+) = range(19)
 
 
 class Batch(NamedTuple):
@@ -82,7 +86,8 @@ class Batch(NamedTuple):
     ``tried`` is 0; ``straight``: 0 where not to try it later; ``starts``: points of the paths, numbers as in `Equations`, shape
     (count, N, 2, words), at ``t``, shape (count, words). ``latest``: largest t at which a limit is taken for one.
     ``outcome, winding, steps``: one for each path; ``points``: like ``starts``, the end, or where
-    the path is, at ``t``; ``limits``: of those that have one, see
+    the path is, at ``t``; ``safe, safe_t``: likewise the last
+    point that is known well; ``limits``: of those that have one, see
     `extrapolate`, shape (count, N, 3, 2, words); ``errors``: rounding errors of the coordinates, shape (count, N).
     ``finite``: whether simple zeros at t = 0 are looked for. ``tail``: largest last term of a
     power series that is taken to converge.
@@ -100,6 +105,8 @@ class Batch(NamedTuple):
     winding: Wholes
     steps: Wholes
     points: Reals
+    safe: Reals
+    safe_t: Reals
     limits: Reals
     errors: Reals
     curvature: Reals
@@ -123,7 +130,7 @@ def _set_time(r, lane, t, path, zero):
 
 def _fill(s, r, f, lane, path, b):
     """Put a path into a lane."""
-    for k in range(18):
+    for k in range(19):
         f[8 * k + lane] = 0.0
     f[8 * PATH + lane] = path
     f[8 * TRIED + lane] = 1e-2
@@ -263,7 +270,24 @@ def _keep(s, r, f, order):
         store(r.base_errors, j, select_less(half, accepted, error, known))
     time = number.read(r.time, 0)
     number.write(r.time, 0, number.choose(half, accepted, number.read(r.t, 0), time))
+    _keep_safe(s, r, f)
     keep_series(s, r, order)
+
+
+def _keep_safe(s, r, f):
+    """Keep the bases that are known so well that the next arithmetic may start from them."""
+    half = splat(0.5)
+    for lane in range(8):
+        curvature = max(f[8 * CURVATURE + lane], 1.0)
+        r.measures[lane] = 0.0
+        if r.accepted[lane] > 0.5 and f[8 * KNOWN + lane] * curvature <= SAFE:
+            r.measures[lane] = 1.0
+            f[8 * SAVED + lane] = 1.0
+    safe = load(r.measures, 0)
+    for j in range(s.N):
+        z.write(r.safe, j, z.choose(half, safe, z.read(r.base, j), z.read(r.safe, j)))
+    time = number.choose(half, safe, number.read(r.time, 0), number.read(r.safe_time, 0))
+    number.write(r.safe_time, 0, time)
 
 
 def _close(s, r, f, lane, b, outcome, data):
@@ -280,6 +304,11 @@ def _close(s, r, f, lane, b, outcome, data):
         if outcome != REGULAR:
             for k in range(number.WORDS):
                 b.t[number.WORDS * path + k] = r.time[8 * k + lane]
+    if f[8 * SAVED + lane] > 0.5:
+        for k in range(numbers):
+            b.safe[numbers * path + k] = r.safe[8 * k + lane]
+        for k in range(number.WORDS):
+            b.safe_t[number.WORDS * path + k] = r.safe_time[8 * k + lane]
     for j in range(s.N):
         error = r.base_errors[8 * j + lane]
         if outcome == REGULAR:
@@ -326,7 +355,7 @@ def _advance(s, r, f, lane, b, best, winding):
     f[8 * BASE + lane] = 1.0
     f[8 * REJECTED + lane] = 0.0
     curvature = max(f[8 * CURVATURE + lane], 1.0)
-    if f[8 * KNOWN + lane] * curvature > 1e-3:
+    if f[8 * KNOWN + lane] * curvature > LOSING:
         _close(s, r, f, lane, b, LOST, r.base)
         return
     converged_here = best <= b.tail
@@ -400,7 +429,7 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
                 _rejected(s, r, f, lane, b)
             elif mode == FINISH:
                 curvature = max(f[8 * CURVATURE + lane], 1.0)
-                if f[8 * KNOWN + lane] * curvature <= 1e-3:
+                if f[8 * KNOWN + lane] * curvature <= LOSING:
                     _close(s, r, f, lane, b, REGULAR, r.slots)
                 else:
                     _rejected(s, r, f, lane, b)

@@ -98,6 +98,8 @@ class Room(NamedTuple):
     levels: Reals
     base: Reals
     time: Reals
+    safe: Reals
+    safe_time: Reals
     coordinates: Reals
     logarithms: Reals
     plain: Reals
@@ -114,7 +116,7 @@ class Room(NamedTuple):
 
 
 # Numbers of the rows of the lanes' scalars, and of inverses of whole numbers.
-SCALARS = 18
+SCALARS = 19
 MOST_INVERSES = 32
 
 
@@ -258,6 +260,6 @@ def room(homotopy: Homotopy, count: int, order: int) -> Room:
     ]
     sizes = [count, *(2 * count * k for k in numbers), N, N, N, N, 2 * N]
     sizes += [2 * count * len(homotopy.groups)]
-    sizes += [2 * count * N, count, 2 * count * order * N, 2 * count * order * N]
+    sizes += [2 * count * N, count, 2 * count * N, count, 2 * count * order * N, 2 * count * order * N]
     sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 5, SCALARS, 4, 1, 6 * count * N]
     return Room(*separate(aligned(sum(sizes)), sizes))
