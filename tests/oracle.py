@@ -1,8 +1,8 @@
-"""A path tracker in plain Python, one path at a time, in doubles or in mpmath.
+"""A path tracker in plain Python, an oracle for the tests of the kernels.
 
-The mathematics of the kernels in their simplest form: Runge-Kutta predictor, Newton corrector,
-Cauchy endgame. In doubles it is what tests compare the kernels with; in mpmath it tracks the few
-paths that doubles cannot.
+One path at a time, in doubles: Runge-Kutta predictor, Newton corrector, Cauchy endgame. It has
+nothing in common with the kernels but the mathematics: other predictor, other endgame, and no
+arithmetic but Python's.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import mpmath
 import numpy as np
 
-from nag.algebra.number import Irrational, to_mpf
 from nag.tracking.homotopy import Homotopy
 
 Vector = list[Any]
 Matrix = list[Vector]
+# Corrections that are rounding errors.
+FLOOR = 1e-14
 
 
 @dataclass(frozen=True)
@@ -41,10 +41,9 @@ class _Lost(Exception):
 
 @dataclass
 class _Path:
-    """One homotopy in one arithmetic, and the number of steps taken so far."""
+    """One homotopy, and the number of steps taken so far."""
 
     homotopy: Homotopy
-    digits: int
     tolerance: float
     max_steps: int
     steps: int = 0
@@ -52,18 +51,9 @@ class _Path:
     def __post_init__(self) -> None:
         rows = self.homotopy.rows
         self.terms = [
-            [(part, [(self.number(c) / s, e) for e, c in terms.items()]) for part, terms in row]
+            [(part, [(complex(c) / s, e) for e, c in terms.items()]) for part, terms in row]
             for row, s in zip(rows.parts, rows.scales.tolist(), strict=True)
         ]
-        self.floor = 10.0 ** (1 - self.digits) if self.digits > 16 else 1e-14
-
-    def number(self, value: Any) -> Any:
-        if self.digits <= 16:
-            return complex(value)
-        if isinstance(value, complex | np.complexfloating):
-            return mpmath.mpc(complex(value))
-        exact = isinstance(value, Irrational) or hasattr(value, "numerator")
-        return mpmath.mpc(to_mpf(value, self.digits) if exact else value)
 
     def rows(self, x: Vector, t: Any) -> tuple[Vector, Vector, Matrix]:
         """Values, derivatives with respect to t, and Jacobian of all rows but the patches."""
@@ -71,7 +61,7 @@ class _Path:
         for row in self.terms:
             value, slope, gradient = 0, 0, [0] * len(x)
             for part, terms in row:
-                a, b = (self.number(c) for c in self.homotopy.factors[part])
+                a, b = self.homotopy.factors[part]
                 factor = a + t * b
                 for c, exponents in terms:
                     used = [(j, k) for j, k in enumerate(exponents) if k]
@@ -89,9 +79,8 @@ class _Path:
             slopes.append(slope)
             jacobian.append(gradient)
         for a_row, b_row in zip(self.homotopy.A0, self.homotopy.A1, strict=True):
-            constant = [self.number(c) for c in a_row]
-            moving = [self.number(c) for c in b_row]
-            row = [a + t * b for a, b in zip(constant, moving, strict=True)]
+            moving = b_row.tolist()
+            row = [a + t * b for a, b in zip(a_row.tolist(), moving, strict=True)]
             values.append(sum(r * v for r, v in zip(row, x, strict=True)))
             slopes.append(sum(r * v for r, v in zip(moving, x, strict=True)))
             jacobian.append(row)
@@ -124,7 +113,7 @@ class _Path:
             size = float(_norm(correction))
             x = self.normalized(_plus(x, correction))
             first = size if first is None else first
-            if size <= self.floor or (previous is not None and size > 0.5 * previous):
+            if size <= FLOOR or (previous is not None and size > 0.5 * previous):
                 break
             previous = size
         return x, first, size
@@ -190,31 +179,18 @@ def track_one(
     homotopy: Homotopy,
     start: np.ndarray,
     *,
-    digits: int = 16,
     tolerance: float = 1e-5,
-    endgame: bool = True,
-    end_exponent: int = 1,
     max_winding: int = 20,
     max_steps: int = 5000,
 ) -> OracleEnd:
-    """Track one path from t = 1 to t = 0, see `nag.tracking.track.track`.
-
-    Args:
-        digits: 16 for doubles, more for mpmath.
-    """
-    with mpmath.workdps(max(digits, 16)):
-        path = _Path(homotopy, digits, tolerance, max_steps)
-        x = [path.number(v) for v in start]
-        one = path.number(1)
-        try:
-            x, _, _ = path.newton(x, one)
-            if not endgame:
-                x = path.follow(x, one, 0 * one)
-                _, _, last = path.newton(x, 0 * one)
-                return _end(path, x, max(last, path.floor), 1)
-            return _cauchy(path, x, one, end_exponent, max_winding)
-        except (_Lost, ZeroDivisionError):
-            return _end(path, x, float("inf"), 0)
+    """Track one path from t = 1 to t = 0, see `nag.tracking.track.track`."""
+    path = _Path(homotopy, tolerance, max_steps)
+    x: Vector = start.tolist()
+    try:
+        x, _, _ = path.newton(x, 1)
+        return _cauchy(path, x, 1, max_winding)
+    except (_Lost, ZeroDivisionError):
+        return _end(path, x, float("inf"), 0)
 
 
 def _end(path: _Path, x: Vector, error: float, winding: int) -> OracleEnd:
@@ -222,35 +198,34 @@ def _end(path: _Path, x: Vector, error: float, winding: int) -> OracleEnd:
     return OracleEnd(path.homotopy.normalized(point)[0], error, winding, path.steps)
 
 
-def _cauchy(path: _Path, x: Vector, t: Any, d: int, max_winding: int) -> OracleEnd:
+def _cauchy(path: _Path, x: Vector, t: Any, max_winding: int) -> OracleEnd:
     """Cauchy endgame: the mean round a closed loop whose modes of negative order vanish."""
     samples_per_loop = 8
-    turn = cmath.pi * 2 / (samples_per_loop * d)
-    last = len(x) - 1 if d > 1 else len(x)
+    turn = cmath.pi * 2 / samples_per_loop
     best: tuple[float, Vector, int] | None = None
     for level in range(1, 12):
-        radius = 0.1 ** (level / d)
-        goal = path.number(radius / (1 + radius))
+        radius = 0.1**level
+        goal = radius / (1 + radius)
         x = path.follow(x, t, goal)
         t = goal
-        patch = [v.conjugate() for v in x[:last]]
+        patch = [v.conjugate() for v in x]
         samples = [_in_patch(path, x, patch)]
         y, here = x, t
         for k in range(1, samples_per_loop * max_winding + 1):
-            s = path.number(cmath.rect(radius, k * turn))
+            s = cmath.rect(radius, k * turn)
             s = s / (1 + s)
             y = path.follow(y, here, s)
             here = s
             sample = _in_patch(path, y, patch)
             spread = max((_norm(_plus(s, samples[0], -1)) for s in samples), default=0)
-            closed = _norm(_plus(sample, samples[0], -1)) <= 1e-6 * spread + 100 * path.floor
+            closed = _norm(_plus(sample, samples[0], -1)) <= 1e-6 * spread + 100 * FLOOR
             if k % samples_per_loop == 0 and closed:
                 break
             samples.append(sample)
         else:
             continue
         mean, ratio, error = _modes(samples)
-        error = max(error, path.floor)
+        error = max(error, FLOOR)
         if ratio < 1e-6 or error < 1e-12:
             if best is not None and error >= best[0]:
                 break
@@ -259,16 +234,15 @@ def _cauchy(path: _Path, x: Vector, t: Any, d: int, max_winding: int) -> OracleE
                 break
     if best is None:
         return _end(path, x, float("inf"), 0)
-    return _end(path, [*best[1], *([0] * (len(x) - last))], best[0], best[2])
+    return _end(path, best[1], best[0], best[2])
 
 
 def _in_patch(path: _Path, x: Vector, patch: Vector) -> Vector:
     """Coordinates scaled so that each group's patch is 1."""
-    result = list(x[: len(patch)])
+    result = list(x)
     for indices in path.homotopy.groups:
-        inside = [j for j in indices if j < len(patch)]
-        scale = sum(patch[j] * x[j] for j in inside)
-        for j in inside:
+        scale = sum(patch[j] * x[j] for j in indices)
+        for j in indices:
             result[j] = x[j] / scale
     return result
 

@@ -1,9 +1,13 @@
-"""The double-double arithmetic of the kernels against exact fractions."""
+"""The arithmetics of the kernels, of 32 and of 64 digits, against exact fractions."""
+
+from __future__ import annotations
 
 from fractions import Fraction
+from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -11,7 +15,10 @@ from nag.algebra.number import square_root
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import aligned, load, store
 from nag.machine_code.records import Reals
-from nag.tracking.precision import add, multiply, split, two_product, two_sum
+from nag.tracking.ends.records import words
+from nag.tracking.numbers import double_double, quad_double
+from nag.tracking.numbers import double_double as number
+from nag.tracking.numbers.error_free import two_product, two_sum
 
 
 class Pairs(NamedTuple):
@@ -20,57 +27,81 @@ class Pairs(NamedTuple):
     result: Reals
 
 
-def all_operations(p: Pairs) -> None:
-    """Results of all four operations on eight pairs of double-doubles."""
-    ah, al, bh, bl = load(p.a, 0), load(p.a, 1), load(p.b, 0), load(p.b, 1)
-    h, low = two_sum(ah, bh)
+def transformations(p: Pairs) -> None:
+    """Sum and product of eight pairs of doubles, and their errors."""
+    a, b = load(p.a, 0), load(p.b, 0)
+    h, low = two_sum(a, b)
     store(p.result, 0, h)
     store(p.result, 1, low)
-    h, low = two_product(ah, bh)
+    h, low = two_product(a, b)
     store(p.result, 2, h)
     store(p.result, 3, low)
-    h, low = add(ah, al, bh, bl)
-    store(p.result, 4, h)
-    store(p.result, 5, low)
-    h, low = multiply(ah, al, bh, bl)
-    store(p.result, 6, h)
-    store(p.result, 7, low)
 
 
-_run = Kernel(all_operations, None)
+def operations(p: Pairs) -> None:
+    """Sum and product of eight pairs of numbers."""
+    a, b = number.read(p.a, 0), number.read(p.b, 0)
+    number.write(p.result, 0, number.add(a, b))
+    number.write(p.result, 1, number.multiply(a, b))
 
 
+TRANSFORMATIONS = Kernel(transformations, None)
+OPERATIONS = {
+    arithmetic: Kernel(operations, None, {"number": arithmetic})
+    for arithmetic in (double_double, quad_double)
+}
 moderate = st.floats(min_value=-1e100, max_value=1e100).filter(lambda v: v == 0 or abs(v) > 1e-100)
 tail = st.floats(min_value=-0.5, max_value=0.5)
 
 
-@settings(deadline=None)
-@given(st.lists(st.tuples(moderate, tail, moderate, tail), min_size=8, max_size=8))
-def test_transformations_lose_nothing_and_operations_keep_32_digits(pairs):
-    a, b, result = aligned(2), aligned(2), aligned(8)
-    for lane, (x, dx, y, dy) in enumerate(pairs):
-        a[lane], b[lane] = x, y
-        a[8 + lane], b[8 + lane] = dx * np.spacing(abs(x)), dy * np.spacing(abs(y))
-    _run(Pairs(a, b, result))
+@settings(deadline=None, derandomize=True)
+@given(st.lists(st.tuples(moderate, moderate), min_size=8, max_size=8))
+def test_transformations_lose_nothing(pairs: list[tuple[float, float]]) -> None:
+    a, b, result = aligned(1), aligned(1), aligned(4)
+    a[:], b[:] = zip(*pairs, strict=True)
+    TRANSFORMATIONS(Pairs(a, b, result))
     exact = [Fraction(v) for v in result]
+    for lane, (x, y) in enumerate(pairs):
+        assert exact[lane] + exact[8 + lane] == Fraction(x) + Fraction(y)
+        assert result[lane] == x + y
+        assert exact[16 + lane] + exact[24 + lane] == Fraction(x) * Fraction(y)
+        assert result[16 + lane] == x * y
+
+
+def expansion(leading: float, tails: list[float], count: int) -> list[float]:
+    """Doubles of decreasing size, each at most half a unit in the last place of the one before."""
+    parts = [leading]
+    for t in tails[: count - 1]:
+        parts.append(t * float(np.spacing(abs(parts[-1]))) if parts[-1] else 0.0)
+    return parts
+
+
+numbers = st.tuples(moderate, st.lists(tail, min_size=3, max_size=3))
+
+
+@pytest.mark.parametrize(("arithmetic", "bits"), [(double_double, 99), (quad_double, 203)])
+@settings(deadline=None, derandomize=True)
+@given(pairs=st.lists(st.tuples(numbers, numbers), min_size=8, max_size=8))
+def test_sums_and_products_keep_their_digits(arithmetic: ModuleType, bits: int, pairs) -> None:
+    count = arithmetic.WORDS
+    a, b, result = aligned(count), aligned(count), aligned(2 * count)
+    for lane, pair in enumerate(pairs):
+        for data, (leading, tails) in zip((a, b), pair, strict=True):
+            data[lane::8] = expansion(leading, tails, count)
+    OPERATIONS[arithmetic](Pairs(a, b, result))
+    error = Fraction(1, 2**bits)
     for lane in range(8):
-        x, y = Fraction(a[lane]), Fraction(b[lane])
-        assert exact[lane] + exact[8 + lane] == x + y
-        assert result[lane] == a[lane] + b[lane]
-        assert exact[16 + lane] + exact[24 + lane] == x * y
-        assert result[16 + lane] == a[lane] * b[lane]
-        x, y = x + Fraction(a[8 + lane]), y + Fraction(b[8 + lane])
-        error = abs(exact[32 + lane] + exact[40 + lane] - (x + y))
-        assert error <= Fraction(1, 2**100) * abs(x + y)
-        error = abs(exact[48 + lane] + exact[56 + lane] - x * y)
-        assert error <= Fraction(1, 2**99) * abs(x * y)
+        x, y = (sum(map(Fraction, data[lane::8])) for data in (a, b))
+        total = sum(map(Fraction, result[lane : 8 * count : 8]))
+        product = sum(map(Fraction, result[8 * count + lane :: 8]))
+        assert abs(total - (x + y)) <= error * abs(x + y)
+        assert abs(product - x * y) <= error * abs(x * y)
 
 
-def test_split_keeps_what_a_double_loses():
-    high, low = split(Fraction(1, 3), 4.0)
-    exact = Fraction(1, 12)
-    assert high == complex(float(exact))
-    assert abs(Fraction(high.real) + Fraction(low.real) - exact) < Fraction(1, 2**106)
-    high, low = split(square_root(Fraction(2)))
-    root = Fraction(high.real) + Fraction(low.real)
-    assert abs(root * root - 2) < Fraction(1, 2**100)
+@pytest.mark.parametrize(("count", "bits"), [(2, 106), (4, 212)])
+def test_words_keep_what_a_double_loses(count: int, bits: int) -> None:
+    parts = words(Fraction(1, 3), count, Fraction(1, 4))
+    assert parts[0] == 1 / 12 and parts[count:] == [0.0] * count
+    assert abs(sum(map(Fraction, parts)) - Fraction(1, 12)) < Fraction(1, 2**bits)
+    root = sum(map(Fraction, words(square_root(Fraction(2)), count)))
+    assert abs(root * root - 2) < Fraction(1, 2 ** (bits - 8))

@@ -13,7 +13,7 @@ from systems import system
 
 from nag.algebra.branches import branches
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.factoring import common_factor, factored, product, square_free_part
+from nag.algebra.factoring import factored, product
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 
@@ -46,27 +46,9 @@ def test_the_factors_multiply_to_the_polynomial_up_to_a_constant(parts) -> None:
     assert all(factored(p) == ((p, 1),) for p, _ in found)
 
 
-@given(polynomials, polynomials, polynomials)
-@settings(derandomize=True, deadline=None, max_examples=60)
-def test_the_common_factor_holds_what_was_multiplied_into_both(f, g, h) -> None:
-    if not (f * h or g * h):
-        return
-    common = {p for p, _ in factored(common_factor([f * h, g * h]))}
-    assert {p for p, _ in factored(h)} <= common
-
-
-def test_a_square_free_part_has_every_factor_once() -> None:
-    x, y = Polynomial.variables(2)
-    f = (x * x + y * y - 1) ** 12 * (x - y) ** 3
-    assert factored(square_free_part(f)) == tuple((p, 1) for p, _ in factored(f))
-    assert square_free_part(x * y - 1) == x * y - 1
-
-
 def test_irrational_coefficients_are_left_as_they_are() -> None:
     f = parse_polynomial("sqrt(2)*x^2*y", ("x", "y"))
     assert factored(f) == ((f, 1),)
-    with pytest.raises(ValueError, match="exact"):
-        common_factor([f])
 
 
 def test_huge_coefficients_still_fit_into_doubles() -> None:

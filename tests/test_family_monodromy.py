@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from evaluated import values
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.family import Family
@@ -152,12 +153,12 @@ def test_a_line_of_parameters_has_the_systems_between() -> None:
         for t in (0.0, 0.3, 1.0):
             z = line.starts(x)
             z[:, 1 + of.n :] = t
-            values = line.homotopy.values(z, t)[0]
-            values[: of.n] *= line.homotopy.rows.scales
+            found = values(line.homotopy, z, t)[0]
+            found[: of.n] *= line.homotopy.rows.scales
             between = t * first + (1 - t) * second
             wanted = [f([*x[0], *between], float) for f in of.polynomials]
-            assert np.abs(values[: of.n] - wanted).max() < 1e-12
-            assert not values[of.n :].any()
+            assert np.abs(found[: of.n] - wanted).max() < 1e-12
+            assert not found[of.n :].any()
 
 
 def test_scalings_carry_solutions_to_solutions() -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from evaluated import values
 
 from nag.cases import read_case
 from nag.tracking.start import monodromy as module
@@ -56,7 +57,7 @@ def test_the_search_ends_with_all_solutions_by_the_trace_alone(name: str) -> Non
     assert row is not None
     assert len(start.points) == mixed_cells(enlarged(each, row), rng).mixed_volume
     points = start.homotopy.normalized(start.points)
-    assert np.abs(start.homotopy.values(points, 1.0)).max() < 1e-12
+    assert np.abs(values(start.homotopy, points, 1.0)).max() < 1e-12
     assert "trace" in start.detail
 
 

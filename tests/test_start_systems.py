@@ -6,6 +6,7 @@ from math import comb, prod
 
 import numpy as np
 import pytest
+from evaluated import jacobian, patch, values
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -38,14 +39,14 @@ EIGENVALUES = target("l a b", "2*a + b - l*a", "a - 3*b - l*b", "3*a + 5*b - 1")
 
 def residual_at_start(start: Start) -> float:
     points = start.homotopy.normalized(start.points)
-    return float(np.abs(start.homotopy.values(points, 1.0)).max(initial=0.0))
+    return float(np.abs(values(start.homotopy, points, 1.0)).max(initial=0.0))
 
 
 def are_distinct_and_regular(start: Start) -> bool:
     homotopy = start.homotopy
     points = homotopy.normalized(start.points)
-    jacobian = np.concatenate([homotopy.jacobian(points, 1.0), homotopy.patch(points)], axis=1)
-    smallest = np.linalg.svd(jacobian, compute_uv=False)[:, -1]
+    rows = np.concatenate([jacobian(homotopy, points, 1.0), patch(homotopy, points)], axis=1)
+    smallest = np.linalg.svd(rows, compute_uv=False)[:, -1]
     affine = start.affine(points)
     apart = np.linalg.norm(affine[:, None] - affine[None], axis=2)
     apart += np.eye(len(affine))
@@ -152,10 +153,9 @@ def test_a_generic_start_has_its_points_as_zeros() -> None:
     system = target("x y z w", *equations)
     start = total_degree(system, np.random.default_rng(5), generic=True)
     assert len(start.points) == 3 * 2 * 4
-    values = start.homotopy.values(start.points, 1.0)
-    assert np.abs(values).max() < 1e-12
+    assert np.abs(values(start.homotopy, start.points, 1.0)).max() < 1e-12
     affine = start.affine(start.points)
     distances = np.abs(affine[:, None] - affine[None]).max(axis=2) + np.eye(len(affine))
     assert distances.min() > 1e-3
-    jacobian = start.homotopy.jacobian(start.points, 1.0)[:, :, 1:]
-    assert np.linalg.svd(jacobian, compute_uv=False).min() > 1e-3
+    square = jacobian(start.homotopy, start.points, 1.0)[:, :, 1:]
+    assert np.linalg.svd(square, compute_uv=False).min() > 1e-3

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from evaluated import values
 
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
@@ -37,7 +38,7 @@ def residual_coefficients(homotopy: Homotopy, coefficients: np.ndarray) -> np.nd
     """Coefficients of ``H(x(1 + h), 1 + h)`` as a polynomial in h, a row for each order."""
     h = np.exp(2j * np.pi * np.arange(SAMPLES) / SAMPLES)
     points = (h[:, None] ** np.arange(ORDER + 1)) @ coefficients
-    return np.fft.fft(homotopy.values(points, 1 + h), axis=0) / SAMPLES
+    return np.fft.fft(values(homotopy, points, 1 + h), axis=0) / SAMPLES
 
 
 def homotopy_and_start(case: str) -> tuple[Homotopy, np.ndarray]:
@@ -56,7 +57,7 @@ def homotopy_and_start(case: str) -> tuple[Homotopy, np.ndarray]:
     A1 = np.array([[0.3, 1j, -0.4, 0.2 + 0.1j]])
     A0 = np.array([[0.5, 0.1, 0.7j, -1.0]])
     A0[0, 0] -= (A0[0] + A1[0]) @ start / start[0]
-    rows = first.select([0, 1]), second.select([0, 1])
+    rows = compile_rows(begin[:2]), compile_rows(goal[:2])
     return straight_line(*rows, gamma, A0, A1), start
 
 

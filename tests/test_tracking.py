@@ -5,6 +5,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from evaluated import jacobian, patch, values
 from oracle import track_one
 
 from nag.algebra.polynomial import Polynomial
@@ -137,8 +138,8 @@ def hypersurface_section(f, seed):
     A1[-1] = [*(slices[-1] * np.exp(2j * np.pi * generator.random())), -1]
     point = np.linalg.svd(slices)[2][-1].conj()
     homogeneous = compile_rows([f])
-    patch = Homotopy(homogeneous, np.zeros((n - 1, n + 1)))
-    value = patch.values(point[None], 0)[0, 0] * homogeneous.scales[0]
+    section = Homotopy(homogeneous, np.zeros((n - 1, n + 1)))
+    value = values(section, point[None], 0)[0, 0] * homogeneous.scales[0]
     root = value ** (1 / d)
     starts = [[*point, root * np.exp(2j * np.pi * k / d)] for k in range(d)]
     return Homotopy(rows, A0, A1), np.array(starts)
@@ -236,8 +237,8 @@ def test_singular_values_are_those_of_the_jacobian():
     homotopy, starts = total_degree(katsura(4), 0)
     points = homotopy.normalized(starts)
     found = refine(homotopy, None, points, t=1.0, iterations=0)
-    jacobian = np.concatenate([homotopy.jacobian(points, 1.0), homotopy.patch(points)], axis=1)
-    exact = np.linalg.svd(jacobian, compute_uv=False)
+    rows = np.concatenate([jacobian(homotopy, points, 1.0), patch(homotopy, points)], axis=1)
+    exact = np.linalg.svd(rows, compute_uv=False)
     assert np.allclose(found.before, exact[:, -1], rtol=0.2)
     assert np.allclose(found.size, np.linalg.norm(exact, axis=1), rtol=1e-12)
 

@@ -48,17 +48,23 @@ class AlgebraicZero:
     @cached_property
     def point(self) -> np.ndarray:
         """The zero to the precision of doubles in every coordinate, shape ``(n,)``."""
+        return np.array([complex(c) for c in self.known_to(DOUBLE_BITS)], dtype=complex)
+
+    def known_to(self, wanted: int) -> list[Any]:
+        """Balls (FLINT's ``acb``) that hold the coordinates, each of so many bits if possible."""
         bits = LEAST_BITS
+        while bits < min(wanted, MOST_BITS):
+            bits *= 2
         while True:
             balls = self.balls(bits)
             if bits >= MOST_BITS or all(
-                c.is_zero() or c.rel_accuracy_bits() >= DOUBLE_BITS for c in balls
+                c.is_zero() or c.rel_accuracy_bits() >= wanted for c in balls
             ):
-                return np.array([complex(c) for c in balls], dtype=complex)
+                return balls
             bits *= 2
 
     def balls(self, bits: int) -> list[Any]:
-        """Balls (FLINT's ``acb``) that hold the coordinates, computed with so many bits."""
+        """Balls that hold the coordinates, computed with so many bits."""
         import flint
 
         with flint.ctx.workprec(bits):

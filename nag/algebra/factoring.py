@@ -5,7 +5,7 @@ FLINT is loaded when the first polynomial is factored, and not before.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -78,35 +78,8 @@ def factored(f: Polynomial) -> Factors:
     return tuple((over.factor_polynomial(p), k) for p, k in over.factors(over.of(f)))
 
 
-def square_free_part(f: Polynomial) -> Polynomial:
-    """The product of the distinct irreducible factors of ``f``; ``f`` itself if they are simple.
-
-    A polynomial with irrational coefficients is left as it is.
-    """
-    found = factored(f)
-    if all(k == 1 for _, k in found):
-        return f
-    return product([p for p, _ in found], f.n)
-
-
 def product(factors: Iterable[Polynomial], n: int) -> Polynomial:
     result = Polynomial.constant(n, 1)
     for p in factors:
         result = result * p
     return result
-
-
-def common_factor(polynomials: Sequence[Polynomial]) -> Polynomial:
-    """The greatest common divisor of exact polynomials, not all of them zero.
-
-    Raises:
-        ValueError: if one has irrational coefficients, or there is none but zero.
-    """
-    kept = [f for f in polynomials if f]
-    if not kept or not all(f.exact for f in kept):
-        raise ValueError("a greatest common divisor is of exact polynomials that are not zero")
-    over = ring(kept[0].n)
-    result = over.of(kept[0])
-    for f in kept[1:]:
-        result = result.gcd(over.of(f))
-    return over.factor_polynomial(result)

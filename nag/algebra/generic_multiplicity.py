@@ -26,7 +26,7 @@ def generic_multiplicity(
     codimension: int,
     vanishes: Callable[[Polynomial], bool | None],
     independent: Callable[[Sequence[Polynomial]], bool],
-    by_local_ring: Callable[[Sequence[Polynomial]], int | None],
+    by_local_ring: Callable[[Sequence[Polynomial]], int],
 ) -> int:
     """Multiplicity of the component through a generic point of it; 0 if it was not found.
 
@@ -43,7 +43,7 @@ def generic_multiplicity(
         vanishes: whether a polynomial vanishes on the component; None if that is not known.
         independent: whether gradients of polynomials certainly are, at a generic point.
         by_local_ring: computes the dimension of the local ring of some generators at a generic
-            point, on a slice of complementary dimension.
+            point, on a slice of complementary dimension; 0 if it was not found.
     """
     unknown = False
 
@@ -60,7 +60,7 @@ def generic_multiplicity(
     if exact is not None:
         return exact
     if ideal.intersections(codimension) > MOST_INTERSECTIONS:
-        return by_local_ring(ideal.generators) or 0
+        return by_local_ring(ideal.generators)
     total = 0
     for factors in itertools.product(*ideal.monomials):
         chosen = [*ideal.coordinates, *(p for p, _ in factors)]

@@ -47,6 +47,19 @@ def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     return abs(_middle(f(z, _number))).mid() / bound if bound else arb(0)
 
 
+def all_vanish(equations: Sequence[Polynomial], point: Sequence[Any]) -> bool:
+    """Whether equations vanish at a point of FLINT's ``acb``, known to `DIGITS` digits.
+
+    Args:
+        equations: in the first variables.
+    """
+    import flint
+
+    with flint.ctx.workdps(DIGITS):
+        vanishing = flint.arb(VANISHES)
+        return all(_relative(f, point[: f.n]) < vanishing for f in equations)
+
+
 def vanish(
     equations: Sequence[Polynomial],
     square: Sequence[Polynomial],
@@ -102,5 +115,4 @@ def vanish(
         moved = max((float(abs(x - complex(y))) for x, y in zip(point, z, strict=True)), default=0)
         if moved > NEAR * (1 + float(np.linalg.norm(z))):
             return None
-        vanishing = arb(VANISHES)
-        return all(_relative(f, point[: f.n]) < vanishing for f in equations)
+        return all_vanish(equations, point)

@@ -99,13 +99,6 @@ class SignedPermutation:
             return point[..., list(self.sources)] * _as_array(self.signs)
         return [s * point[k] for s, k in zip(self.signs, self.sources, strict=True)]
 
-    def of_rows(self, matrix: Any) -> Any:
-        """Rows of linear forms, shape ``(d, n)``, whose values at images are those at the points.
-
-        The image of the slice ``A x = b`` is ``of_rows(A) x = b``.
-        """
-        return self.of_point(matrix)
-
     def of_polynomial(self, f: Polynomial) -> Polynomial:
         """The polynomial ``x -> f(g x)``."""
         terms: dict[Exponents, Any] = {}

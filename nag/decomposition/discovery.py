@@ -66,7 +66,7 @@ def _on_rows(
     counts = PathCounts()
     if fibre.dimension == 0:
         return fibre.points[0], counts
-    for attempt in range(ATTEMPTS):
+    for _attempt in range(ATTEMPTS):
         there, spent = carried([fibre], rows, target, complex(unit_complex(rng)), tracker)
         counts += spent
         if there is not None:

@@ -95,7 +95,7 @@ def on_flag(
     counts = PathCounts()
     if len(rows) == 0:
         return fibres, counts
-    for attempt in range(ATTEMPTS):
+    for _attempt in range(ATTEMPTS):
         gamma = complex(unit_complex(rng))
         there, spent = carried(fibres, rows, flag[: len(rows)], gamma, tracker)
         counts += spent

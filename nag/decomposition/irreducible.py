@@ -35,7 +35,7 @@ def _differences(
     fibres: Sequence[Fibre], rows: np.ndarray, rng: np.random.Generator, tracker: Tracker
 ) -> tuple[np.ndarray | None, PathCounts]:
     counts = PathCounts()
-    for attempt in range(ATTEMPTS):
+    for _attempt in range(ATTEMPTS):
         differences, spent = second_differences(fibres, rows, rng, tracker)
         counts += spent
         if differences is not None:
@@ -48,7 +48,7 @@ def _elsewhere(
 ) -> tuple[np.ndarray | None, PathCounts]:
     """Second differences of the same points carried to another generic slice."""
     counts = PathCounts()
-    for attempt in range(ATTEMPTS):
+    for _attempt in range(ATTEMPTS):
         target = random_rows(rng, len(rows), rows.shape[1] - 1)
         there, spent = carried(fibres, rows, target, complex(unit_complex(rng)), tracker)
         counts += spent

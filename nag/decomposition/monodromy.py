@@ -70,7 +70,7 @@ def loop(
     """
     counts = PathCounts()
     points = np.vstack([fibre.x for fibre in fibres])
-    for attempt in range(ATTEMPTS):
+    for _attempt in range(ATTEMPTS):
         middle = random_rows(rng, len(rows), rows.shape[1] - 1)
         out, back = unit_complex(rng, 2)
         there, spent = carried(fibres, rows, middle, complex(out), tracker)

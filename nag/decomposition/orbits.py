@@ -276,7 +276,7 @@ def _around(
     """Where a loop of slices carries some points; None if that is not clear."""
     counts, rows = PathCounts(), points.rows
     fibres, start = points.chosen(start)
-    for attempt in range(ATTEMPTS):
+    for _attempt in range(ATTEMPTS):
         middle = random_rows(points.rng, len(rows), rows.shape[1] - 1)
         out, back = points.gamma(), points.gamma()
         there, spent = carried(fibres, rows, middle, out, points.tracker)
@@ -296,7 +296,7 @@ def _linear_on_two_slices(points: _Points, indices: np.ndarray) -> tuple[bool, P
     """Whether the trace of some points is linear, on their slice and on another one."""
     counts, rows = PathCounts(), points.rows
     fibres, _ = points.chosen(indices)
-    for attempt in range(ATTEMPTS):
+    for _attempt in range(ATTEMPTS):
         differences, spent = second_differences(fibres, rows, points.rng, points.tracker)
         counts += spent
         if differences is None:

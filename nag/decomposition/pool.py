@@ -155,7 +155,7 @@ def completed(
     counts, complete = PathCounts(), set[int]()
     if len(rows) == 0:
         return pool, set(pool.labels), counts
-    for k in range(MOST_LOOPS):
+    for _k in range(MOST_LOOPS):
         if progress is not None:
             progress("completing", len(complete), len(set(pool.labels)))
         active = [i for i, label in enumerate(pool.labels) if label not in complete]

@@ -127,7 +127,7 @@ def table(values: Any) -> Table:
             interface = value.__array_interface__
             if interface["typestr"] != dtype or interface["strides"] is not None:
                 name = f"{type(values).__name__}.{values._fields[k]}"
-                raise TypeError(f"{name} is no contiguous array of {np.dtype(dtype)}")
+                raise TypeError(f"{name} is no contiguous array of {np.dtype(dtype).name}")
             words[k] = interface["data"][0]
     return Table(words, words.ctypes.data, values)
 

@@ -19,11 +19,10 @@ from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
-from nag.algebra.local_ring import local_dimension
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
-from nag.tracking.singular_ends import corank_at
+from nag.numerics.singular_point import Place, analyse
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
 from nag.tracking.zero_values import vanish_at_zero
 
@@ -31,6 +30,8 @@ from nag.tracking.zero_values import vanish_at_zero
 NONZERO = 1e-6
 # Solutions that may be the same, found in two branches: relative distance.
 NEAR = 1e-7
+# Bits of the coordinates of exact zeros whose local rings are looked at.
+BITS = 400
 
 Tracked = Callable[[PolynomialSystem], SolveResult]
 
@@ -297,17 +298,17 @@ def _near(each: _Found, others: Sequence[_Found]) -> bool:
 
 def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
     """The multiplicity of a solution in the scheme of all equations; 0 if it was not found."""
-    x = each.solution.point
-    known = max(1e3 * each.solution.accuracy, 1e-12)
+    x, accuracy = each.solution.point, each.solution.accuracy
 
     def independent(polynomials: Sequence[Polynomial]) -> bool:
         if each.zero is not None and all(f.exact for f in polynomials):
             return each.zero.independent(polynomials)
-        error = known * (1 + float(np.abs(x).max(initial=0.0)))
+        error = max(1e3 * accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
         return independent_gradients(polynomials, x, error)
 
-    def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
-        evaluator = Evaluator.of(generators, len(x))
-        return local_dimension(evaluator, x, lambda s, k: corank_at(s, k, known))
+    def by_local_ring(generators: Sequence[Polynomial]) -> int:
+        at, error = (x, accuracy) if each.zero is None else (each.zero.known_to(BITS), 2.0**-BITS)
+        end = analyse(generators, at, error, np.random.default_rng(0))
+        return end.multiplicity if end.place is Place.ISOLATED else 0
 
     return generic_multiplicity(equations, len(x), each.vanishes, independent, by_local_ring)

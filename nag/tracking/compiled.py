@@ -90,33 +90,6 @@ class CompiledRows:
         """The arrays for the kernels."""
         return _tape(self)
 
-    def select(self, indices: Iterable[int]) -> CompiledRows:
-        """The rows at ``indices``, in that order."""
-        indices = list(indices)
-        return CompiledRows(
-            self.N,
-            tuple(self.parts[i] for i in indices),
-            self.groups,
-            self.infinity,
-            self.degrees[indices],
-        )
-
-    def join(self, other: CompiledRows) -> CompiledRows:
-        """The rows of both, one after the other; both live in the same coordinates.
-
-        Raises:
-            ValueError: if the coordinates or groups differ.
-        """
-        if (self.N, self.groups, self.infinity) != (other.N, other.groups, other.infinity):
-            raise ValueError("rows in different coordinates cannot be joined")
-        return CompiledRows(
-            self.N,
-            self.parts + other.parts,
-            self.groups,
-            self.infinity,
-            np.concatenate([self.degrees, other.degrees]),
-        )
-
 
 def compile_rows(
     polynomials: Sequence[Polynomial],

@@ -85,57 +85,6 @@ class Homotopy:
             points[:, list(indices)] = block / np.linalg.norm(block, axis=1, keepdims=True)
         return points
 
-    def patch(self, points: np.ndarray) -> np.ndarray:
-        """Patch rows: each group's coordinates conjugated, shape ``(P, groups, N)``."""
-        rows = np.zeros((len(points), len(self.groups), self.N), dtype=np.complex128)
-        for g, indices in enumerate(self.groups):
-            rows[:, g, list(indices)] = points[:, list(indices)].conj()
-        return rows
-
-    def values(self, points: np.ndarray, t: complex | np.ndarray) -> np.ndarray:
-        """Values of polynomial and linear rows, in the precision of ``points`` (P, N)."""
-        tape = self.rows.tape
-        t = np.broadcast_to(np.asarray(t, dtype=points.dtype), (len(points),))
-        slots = _slots(tape, points, tape.value_products)
-        result = np.zeros((len(points), len(self.rows) + len(self.A0)), dtype=points.dtype)
-        for b, (row, part) in enumerate(zip(tape.value_place, tape.value_part, strict=True)):
-            q = slice(tape.value_start[b], tape.value_start[b + 1])
-            total = slots[:, tape.value_slot[q]] @ tape.value_coefficient[q].astype(points.dtype)
-            a, c = self.factors[part]
-            result[:, row] += (a + t * c) * total
-        m = len(self.rows)
-        for k in range(len(self.A0)):
-            row = self.A0[k].astype(points.dtype) + t[:, None] * self.A1[k].astype(points.dtype)
-            result[:, m + k] = (row * points).sum(axis=1)
-        return result
-
-    def jacobian(self, points: np.ndarray, t: complex | np.ndarray) -> np.ndarray:
-        """Jacobian of polynomial and linear rows, shape ``(P, rows, N)``, complex128."""
-        tape = self.rows.tape
-        points = np.asarray(points, dtype=np.complex128)
-        t = np.broadcast_to(np.asarray(t, dtype=np.complex128), (len(points),))
-        slots = _slots(tape, points, len(tape.first))
-        result = np.zeros((len(points), len(self.rows) + len(self.A0), self.N), np.complex128)
-        for b, (place, part) in enumerate(
-            zip(tape.jacobian_place, tape.jacobian_part, strict=True)
-        ):
-            q = slice(tape.jacobian_start[b], tape.jacobian_start[b + 1])
-            total = slots[:, tape.jacobian_slot[q]] @ tape.jacobian_coefficient[q]
-            a, c = self.factors[part]
-            result[:, place // self.N, place % self.N] += (a + t * c) * total
-        result[:, len(self.rows) :] = self.A0 + t[:, None, None] * self.A1
-        return result
-
-
-def _slots(tape, points: np.ndarray, products: int) -> np.ndarray:
-    P, N = points.shape
-    slots = np.empty((P, N + 1 + products), dtype=points.dtype)
-    slots[:, :N] = points
-    slots[:, N] = 1
-    for k in range(products):
-        slots[:, N + 1 + k] = slots[:, tape.first[k]] * slots[:, tape.second[k]]
-    return slots
-
 
 def straight_line(
     start: CompiledRows,

@@ -133,17 +133,3 @@ def substitute_adjoint(n, ar, ai, pivots, br, bi):
                 a, b = 8 * k + lane, 8 * p + lane
                 br[a], br[b] = br[b], br[a]
                 bi[a], bi[b] = bi[b], bi[a]
-
-
-def pivot_ratio(n, ar, ai, lane):
-    """Smallest over largest pivot in one lane: a cheap hint at the condition."""
-    low, high = 1e300, 0.0
-    for k in range(n):
-        a = ar[8 * (k * n + k) + lane]
-        b = ai[8 * (k * n + k) + lane]
-        size = a * a + b * b
-        low = min(low, size)
-        high = max(high, size)
-    if not low > 0.0:
-        return 0.0
-    return (low / high) ** 0.5 if high < 1e300 else 0.0

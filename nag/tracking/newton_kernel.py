@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
@@ -9,16 +10,11 @@ import numpy as np
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import aligned, fma, load, splat, square_root, store
 from nag.machine_code.records import Complexes, Reals
+from nag.tracking.ends.records import words
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jets import System, Work, factors_at, jacobian, normalize, products
 from nag.tracking.linear_algebra import factorize, substitute, substitute_adjoint
-from nag.tracking.precision import (
-    add_complex,
-    load_complex,
-    multiply_complex,
-    split,
-    store_complex,
-)
+from nag.tracking.numbers import complex_numbers as z
 
 
 class Low(NamedTuple):
@@ -50,18 +46,18 @@ class Refinement(NamedTuple):
 def low_parts(homotopy: Homotopy) -> Low:
     """What `newton_batch` needs besides the arrays of the homotopy."""
     rows = homotopy.rows
-    low = rows.__dict__.get("_low")
-    if low is None:
+    if "low" not in rows._cache:
         parts = []
         for row, scale in zip(rows.parts, rows.scales, strict=True):
+            inverse = 1 / Fraction(float(scale))
             for _, terms in row:
-                parts += [split(terms[e], scale)[1] for e in sorted(terms, reverse=True)]
-        low = np.array(parts, dtype=np.complex128)
-        rows.__dict__["_low"] = low
+                parts += [words(terms[e], 2, inverse)[1::2] for e in sorted(terms, reverse=True)]
+        rows._cache["low"] = np.array(parts).reshape(-1, 2).T.copy()
+    re, im = rows._cache["low"]
     size = homotopy.N + 1 + rows.tape.value_products
     return Low(
-        np.ascontiguousarray(low.real),
-        np.ascontiguousarray(low.imag),
+        re,
+        im,
         aligned(4 * size),
         aligned(4 * max(homotopy.N, 1)),
     )
@@ -72,42 +68,36 @@ def _residual(s, w, low):
     zero = splat(0.0)
     slots = low.slots
     total = low.total
-    size = s.N + 1 + s.value_products
-    store_complex(slots, size, s.N, (splat(1.0), zero, zero, zero))
+    nothing = z.exact(zero, zero)
+    z.write(slots, s.N, z.exact(splat(1.0), zero))
     for q in range(s.value_products):
-        x = load_complex(slots, size, s.first[q])
-        y = load_complex(slots, size, s.second[q])
-        store_complex(slots, size, s.N + 1 + q, multiply_complex(x, y))
-    nothing = (zero, zero, zero, zero)
+        x = z.read(slots, s.first[q])
+        y = z.read(slots, s.second[q])
+        z.write(slots, s.N + 1 + q, z.multiply(x, y))
     for k in range(s.N):
-        store_complex(total, s.N, k, nothing)
+        z.write(total, k, nothing)
     for b in range(s.value_blocks):
         value = nothing
         for q in range(s.value_start[b], s.value_start[b + 1]):
-            c = (
-                splat(s.value_re[q]),
-                splat(low.value_re[q]),
-                splat(s.value_im[q]),
-                splat(low.value_im[q]),
-            )
-            x = load_complex(slots, size, s.value_slot[q])
-            value = add_complex(value, multiply_complex(c, x))
+            a = (splat(s.value_re[q]), splat(low.value_re[q]))
+            c = a, (splat(s.value_im[q]), splat(low.value_im[q]))
+            value = z.add(value, z.multiply(c, z.read(slots, s.value_slot[q])))
         part = s.value_part[b]
         if s.moving[part] != 0:
-            factor = (splat(s.factor_re[2 * part]), zero, splat(s.factor_im[2 * part]), zero)
-            value = multiply_complex(factor, value)
+            factor = z.exact(splat(s.factor_re[2 * part]), splat(s.factor_im[2 * part]))
+            value = z.multiply(factor, value)
         k = s.value_place[b]
-        store_complex(total, s.N, k, add_complex(load_complex(total, s.N, k), value))
+        z.write(total, k, z.add(z.read(total, k), value))
     for k in range(s.linear):
         value = nothing
         for j in range(s.N):
-            c = (splat(s.A0_re[k * s.N + j]), zero, splat(s.A0_im[k * s.N + j]), zero)
-            value = add_complex(value, multiply_complex(c, load_complex(slots, size, j)))
-        store_complex(total, s.N, s.rows + k, value)
+            c = z.exact(splat(s.A0_re[k * s.N + j]), splat(s.A0_im[k * s.N + j]))
+            value = z.add(value, z.multiply(c, z.read(slots, j)))
+        z.write(total, s.rows + k, value)
     for k in range(s.N):
-        value = load_complex(total, s.N, k)
-        store(w.br, k, zero - value[0])
-        store(w.bi, k, zero - value[2])
+        re, im = z.rounded(z.read(total, k))
+        store(w.br, k, zero - re)
+        store(w.bi, k, zero - im)
 
 
 def _matrix(s, w):
@@ -165,7 +155,6 @@ def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
     frobenius = batch.frobenius
     slots = low.slots
     zero = splat(0.0)
-    size = n + 1 + s.value_products
     for first in range(0, count, 8):
         for lane in range(8):
             path = min(first + lane, count - 1)
@@ -182,13 +171,11 @@ def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
             before[first + lane] = w.norms[lane]
         for step in range(iterations):
             for j in range(n):
-                x = load(w.vr, j)
-                y = load(w.vi, j)
-                store_complex(slots, size, j, (x, zero, y, zero))
+                z.write(slots, j, z.exact(load(w.vr, j), load(w.vi, j)))
             if step > 0:
                 normalize(s, w)
                 for j in range(n):
-                    store_complex(slots, size, j, (load(w.vr, j), zero, load(w.vi, j), zero))
+                    z.write(slots, j, z.exact(load(w.vr, j), load(w.vi, j)))
                 length = square_root(_matrix(s, w))
             _residual(s, w, low)
             substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)

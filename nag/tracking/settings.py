@@ -13,7 +13,7 @@ class Settings:
         tolerance: largest first Newton correction after a prediction, relative to the point; the
             tests that saw no path jump used at most 1e-4.
         newton: estimated relative error at which the corrector stops between the ends.
-        newton_end: the same where a path arrives, at t = 0 or at a sample of the endgame.
+        newton_end: the same where a path arrives, at its safe point or at t = 0.
         contraction: largest ratio of the second to the first Newton correction after a prediction;
             it bounds the part that the first one takes of the distance to any other path.
         order: of the Taylor coefficients.

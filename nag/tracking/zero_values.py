@@ -6,10 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import vanish
+from nag.algebra.high_precision import DIGITS, all_vanish
 from nag.algebra.polynomial import Polynomial
-from nag.tracking.singular_ends import sharpened
+from nag.numerics.singular_point import Place, analyse
 
 
 def vanish_at_zero(
@@ -23,14 +22,10 @@ def vanish_at_zero(
     The zero is made regular by deflation where it is multiple, and computed to 100 digits. None if
     that does not succeed.
     """
-    import scipy.linalg
+    from nag.numerics.digits import point, working
 
-    found = sharpened(equations, x, accuracy, np.random.default_rng(0))
-    if found is None:
+    end = analyse(equations, x, accuracy, np.random.default_rng(0))
+    if end.place is not Place.ISOLATED:
         return None
-    jacobian = Evaluator.of(found.polynomials, len(found.z)).jacobian(found.z)
-    _, _, pivots = scipy.linalg.qr(jacobian.T, mode="economic", pivoting=True)
-    chosen = sorted(int(p) for p in pivots[: len(found.z)])
-    square = [found.polynomials[i] for i in chosen]
-    none = np.zeros((0, 1 + len(found.z)))
-    return vanish(polynomials, square, none, jacobian[chosen], found.z)
+    with working(DIGITS):
+        return all_vanish(polynomials, point(end.digits))
