@@ -47,6 +47,20 @@ def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     return abs(_middle(f(z, _number))).mid() / bound if bound else arb(0)
 
 
+def vanish_at(equations: Sequence[Polynomial], point: Sequence[tuple[str, str]]) -> bool:
+    """Whether equations vanish at a point known to `DIGITS` digits.
+
+    Args:
+        point: real and imaginary parts of the coordinates as decimals.
+    """
+    import flint
+
+    with flint.ctx.workdps(DIGITS + 10):
+        z = [_middle(flint.acb(flint.arb(re), flint.arb(im))) for re, im in point]
+        vanishing = flint.arb(VANISHES)
+        return all(_relative(f, z[: f.n]) < vanishing for f in equations)
+
+
 def vanish(
     equations: Sequence[Polynomial],
     square: Sequence[Polynomial],

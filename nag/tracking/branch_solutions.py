@@ -19,13 +19,11 @@ from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
-from nag.algebra.local_ring import local_dimension
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
-from nag.tracking.singular_ends import corank_at
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
-from nag.tracking.zero_values import vanish_at_zero
+from nag.tracking.zero_values import multiplicity_at_zero, vanish_at_zero
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
 NONZERO = 1e-6
@@ -307,7 +305,6 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
         return independent_gradients(polynomials, x, error)
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
-        evaluator = Evaluator.of(generators, len(x))
-        return local_dimension(evaluator, x, lambda s, k: corank_at(s, k, known))
+        return multiplicity_at_zero(generators, x, each.solution.accuracy)
 
     return generic_multiplicity(equations, len(x), each.vanishes, independent, by_local_ring)
