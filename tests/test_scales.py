@@ -10,6 +10,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
 from nag.decomposition.witness import Decomposition
+from nag.tracking.solve import solve
 
 CONIC, LINE, POINT = (1, 2, 1), (1, 1, 1), (0, 1, 1)
 
@@ -47,6 +48,78 @@ def test_scale_does_not_change_the_answer(
     answer = decomposed(variables, equations, seed)
     assert answer.complete
     assert kinds(answer) == Counter(expected)
+
+
+UNEVEN = [
+    (
+        # Two zeros are 2e-16 apart, in the smallest of three small coordinates.
+        [
+            "-9/10*x^3 + y^2*z/2000 + 47/500*x*y + 6600000*x - 9/10000",
+            "-6000*x^3*y - 7/100*x^3*z + x^2*z^2/5 - x*y^2*z/400 - 18000*x*z^2",
+            "9/10000*x^2 + 57/100000*y*z + 80*x + 12000*y",
+        ],
+        15,
+    ),
+    (
+        # One zero is of size 1e31, 1e5 and 1e19.
+        [
+            "-3/20000*x^2*y^2 + 800000*x*y^2*z - 50*x^2*y - 45000*x*y^2 - 9/1000*x*y*z + 760*x*y "
+            "+ 850000",
+            "-1800000*x^2*y*z^2 + 6000*x*y^4 - 20/9*x*y^2*z^2 + 11/20*x^3*z - 30000*x + 1/50000",
+            "7*x*y^2*z + 40000*z^3",
+        ],
+        33,
+    ),
+]
+
+
+@pytest.mark.parametrize(("equations", "count"), UNEVEN)
+def test_simple_solutions_with_uneven_coordinates_stay_simple(
+    equations: list[str], count: int
+) -> None:
+    names = ("x", "y", "z")
+    system = PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
+    found = solve(system)
+    assert found.complete
+    assert Counter(s.multiplicity for s in found.solutions) == Counter({1: count})
+
+
+@pytest.mark.parametrize(
+    ("equations", "count"),
+    [
+        (
+            [
+                "7600*x^2 + 2/5*y^2 - 3/10*z^2 + 61/10",
+                "17*x^2*z + 30*x^2 + 40*x*y - 750*y^2 - 610*z^2 + 70",
+                "7/10*x^2*y^2 - 500*x*y^2*z + 20*y*z^3 + 42*x^3 + 400*y^2*z - 14/5",
+            ],
+            24,
+        ),
+        (
+            [
+                "-9*x^2 + x*z/2500 + y/5000",
+                "30*x*y - 7/100*y*z - 3/25*z - 39/100",
+                "-57000*x^4 - 3/5*y^4 + 8*x^2*z - 7/100*x^2 - 7000*x*z - 31",
+            ],
+            12,
+        ),
+        (
+            # A zero of one branch, x = 5e-24, is next to one of the branch x = 0.
+            [
+                "-900*x^2*y^2*z + 60*x*y*z^3",
+                "-90*x^2*y*z^2 + 4*x*y^4 - 9/100*y^4*z - 11/20*x*z - 2*y*z + 80",
+                "-35*x*z^2 + y^2*z/10 + 100*z^3 - 25/2*x*z - 7/100*y + 90",
+            ],
+            36,
+        ),
+    ],
+)
+def test_points_with_uneven_coordinates_are_confirmed_as_simple(
+    equations: list[str], count: int
+) -> None:
+    answer = decomposed("x y z", equations, 0)
+    assert answer.complete
+    assert kinds(answer) == Counter({POINT: count})
 
 
 @pytest.mark.parametrize(

@@ -47,17 +47,18 @@ def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     return abs(_middle(f(z, _number))).mid() / bound if bound else arb(0)
 
 
-def all_vanish(equations: Sequence[Polynomial], point: Sequence[Any]) -> bool:
-    """Whether equations vanish at a point of FLINT's ``acb``, known to `DIGITS` digits.
+def vanish_at(equations: Sequence[Polynomial], point: Sequence[tuple[str, str]]) -> bool:
+    """Whether equations vanish at a point known to `DIGITS` digits.
 
     Args:
-        equations: in the first variables.
+        point: real and imaginary parts of the coordinates as decimals.
     """
     import flint
 
-    with flint.ctx.workdps(DIGITS):
+    with flint.ctx.workdps(DIGITS + 10):
+        z = [_middle(flint.acb(flint.arb(re), flint.arb(im))) for re, im in point]
         vanishing = flint.arb(VANISHES)
-        return all(_relative(f, point[: f.n]) < vanishing for f in equations)
+        return all(_relative(f, z[: f.n]) < vanishing for f in equations)
 
 
 def vanish(
@@ -115,4 +116,5 @@ def vanish(
         moved = max((float(abs(x - complex(y))) for x, y in zip(point, z, strict=True)), default=0)
         if moved > NEAR * (1 + float(np.linalg.norm(z))):
             return None
-        return all_vanish(equations, point)
+        vanishing = arb(VANISHES)
+        return all(_relative(f, point[: f.n]) < vanishing for f in equations)

@@ -67,7 +67,7 @@ class _Component:
             fibre = component_fibres(self.system, self.witness)[0]
         except ValueError:
             return None
-        return bool(vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0])
+        return vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0]
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,14 +7,16 @@ from collections.abc import Sequence
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import vanish
+from nag.algebra.high_precision import vanish, vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.cutting import ON, Cut
+from nag.decomposition.multiplicity import ACCURACY
 from nag.decomposition.slices import padded
+from nag.numerics.singular_point import Place, analyse
 
 # Above this singular value a zero of as many equations as unknowns needs no confirmation.
 REGULAR = 1e-5
-# Residuals in doubles below this are rounding.
+# Values in doubles below this, beside their terms, are rounding.
 CERTAIN = 1e-14
 
 
@@ -30,22 +32,30 @@ def confirmed(cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np
     return _at_zero(cut, equations, rows, z) is True
 
 
-def vanishing(cut: Cut, f: Polynomial, rows: np.ndarray, points: np.ndarray) -> np.ndarray:
+def vanishing(cut: Cut, f: Polynomial, rows: np.ndarray, points: np.ndarray) -> list[bool | None]:
     """At which zeros of ``cut`` on the slice, shape ``(P, n + aux)``, ``f`` vanishes.
 
-    Values that doubles cannot tell from zero for certain are computed to 100 digits: at large
-    points a value of one may be small beside its terms.
+    Values that are no rounding errors of their terms are computed to 100 digits: at large points a
+    value of one may be small beside its terms, and a small coordinate need not be zero. None where
+    that does not succeed.
     """
-    residuals = Evaluator.of([f], cut.n).residuals(points[:, : cut.n])[:, 0]
-    result = residuals < ON
-    for i in np.flatnonzero(result & (residuals > CERTAIN)):
-        result[i] = _at_zero(cut, [f], rows, points[i]) is not False
-    return result
+    evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
+    small = evaluator.residuals(x)[:, 0] < ON
+    rounding = np.abs(evaluator.values(x)) <= CERTAIN * evaluator.absolute(x)
+    return [
+        bool(near) and (bool(certain) or _at_zero(cut, [f], rows, z))
+        for near, certain, z in zip(small, rounding[:, 0], points, strict=True)
+    ]
 
 
 def _at_zero(
     cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np.ndarray
 ) -> bool | None:
     """Whether equations vanish at the zero of ``cut`` near ``z``; None if none was found there."""
-    jacobian = cut.evaluator.jacobian(z)
-    return vanish(equations, cut.polynomials, padded(rows, 1 + len(z)), jacobian, z)
+    jacobian, slices = cut.evaluator.jacobian(z), padded(rows, 1 + len(z))
+    answer = vanish(equations, cut.polynomials, slices, jacobian, z)
+    if answer is not None or cut.aux:
+        return answer
+    # Coordinates may differ too much in size for Newton's method with an inverse in doubles.
+    zero = analyse(cut.polynomials, z, ACCURACY, np.random.default_rng(0), slices)
+    return vanish_at(equations, zero.digits) if zero.place is Place.ISOLATED else None

@@ -56,11 +56,21 @@ def _multidegree(
     return degrees, counts
 
 
-def _coranks(evaluator: Evaluator, x: np.ndarray) -> list[int]:
-    result = []
+def _coranks(
+    equations: Equations, rows: np.ndarray, x: np.ndarray, regular: bool, rng: np.random.Generator
+) -> list[int]:
+    """Coranks of the Jacobian at points on the slice ``rows``, shape ``(P, n)``.
+
+    Where the slice cuts the component in ``regular`` points, and doubles say otherwise, as they do
+    where coordinates differ much in size, digits decide.
+    """
+    d, result = len(rows), []
     for point in x:
-        s = np.linalg.svd(evaluator.balanced_jacobian(point), compute_uv=False)
-        result.append(numerical_corank(s, len(point), 1e-9))
+        s = np.linalg.svd(equations.evaluator.balanced_jacobian(point), compute_uv=False)
+        corank = numerical_corank(s, len(point), 1e-9)
+        if regular and corank != d and multiplicity(equations.polynomials, rows, point, rng) == 1:
+            corank = d
+        result.append(corank)
     return result
 
 
@@ -102,7 +112,7 @@ def checked_witness_set(
     order = np.lexsort((x.imag[:, 0], x.real[:, 0])) if x.shape[1] else np.arange(len(x))
     y, x = y[order], x[order]
     residual = float(original.residuals(x).max(initial=0.0))
-    coranks = _coranks(reduced.evaluator, y)
+    coranks = _coranks(reduced, rows, y, not chosen[0].cut.levels, rng)
     reasons = [found.reason] if found.reason else []
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
@@ -114,8 +124,6 @@ def checked_witness_set(
     if scheme and not multiple:
         nearest = y[np.linalg.norm(y, axis=1).argmin()]
         multiple = multiplicity(reduced.polynomials, rows, nearest, rng)
-        # A simple zero would have been seen by its corank.
-        multiple *= multiple > 1
     if scheme and coranks[0] != d and not chosen[0].cut.levels:
         reasons.append("its points are regular and singular at once: zeros too close")
     if scheme and multiple == 0:

@@ -103,7 +103,9 @@ def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracke
     ends: dict[int, list[tuple[Cut, Moved]]] = {}
     for d in sorted(sections.fibres, reverse=True):
         for fibre in sections.fibres[d]:
-            on = vanishing(fibre.cut, f, sections.flag[:d], fibre.points)
+            found = vanishing(fibre.cut, f, sections.flag[:d], fibre.points)
+            # A point where that is left open is found out by the final checks.
+            on = np.array([there is not False for there in found], dtype=bool)
             if on.any():
                 kept.setdefault(d, []).append(fibre.only(on))
             if d > 0 and f.degree > 0 and not on.all():

@@ -22,9 +22,8 @@ from nag.algebra.generic_multiplicity import generic_multiplicity, independent_g
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
-from nag.numerics.singular_point import Place, analyse
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
-from nag.tracking.zero_values import vanish_at_zero
+from nag.tracking.zero_values import multiplicity_at_zero, vanish_at_zero
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
 NONZERO = 1e-6
@@ -306,9 +305,8 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
         error = max(1e3 * accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
         return independent_gradients(polynomials, x, error)
 
-    def by_local_ring(generators: Sequence[Polynomial]) -> int:
+    def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
         at, error = (x, accuracy) if each.zero is None else (each.zero.known_to(BITS), 2.0**-BITS)
-        end = analyse(generators, at, error, np.random.default_rng(0))
-        return end.multiplicity if end.place is Place.ISOLATED else 0
+        return multiplicity_at_zero(generators, at, error)
 
     return generic_multiplicity(equations, len(x), each.vanishes, independent, by_local_ring)
