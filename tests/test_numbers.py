@@ -1,4 +1,4 @@
-"""Double-double and quad-double arithmetic in lanes agrees with ball arithmetic to its last digits."""
+"""Double-double and quad-double arithmetic in lanes agrees with ball arithmetic to rounding."""
 
 from __future__ import annotations
 

@@ -221,9 +221,7 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> Paths:
     accuracy[failed] = np.inf
     winding = np.where(failed, 0, 1)
     digits = np.where(failed, 16, 32).astype(np.int16)
-    return Paths(
-        points, status, winding, accuracy, condition, raw.steps, digits, reason, ~failed
-    )
+    return Paths(points, status, winding, accuracy, condition, raw.steps, digits, reason, ~failed)
 
 
 def _without(paths: Paths, lost: np.ndarray) -> Paths:

@@ -141,7 +141,7 @@ def _at_zero(s, data, q, order, m, lane):
 
 
 def tail_at_end(s, r, order, lane):
-    """Size of the last terms of the coordinates' power series in t, at t = 0, over their weights."""
+    """Size of the last terms at t = 0 of the coordinates' power series in t, over their weights."""
     most = 0.0
     for j in range(s.N):
         q = 2 * j * (order + 1)

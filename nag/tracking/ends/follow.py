@@ -41,9 +41,9 @@ KNOWN = 1e3
 class _States:
     """Where the paths are, and what is known of their ends.
 
-    ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well; ``found``: regular ends; ``limits``: others. ``straight``: 0
-    where Newton's method at t = 0 is of no use; ``asked``: in how many words it was tried at a
-    limit.
+    ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
+    ``found``: regular ends; ``limits``: others. ``straight``: 0 where Newton's method at t = 0 is
+    of no use; ``asked``: in how many words it was tried at a limit.
     """
 
     where: np.ndarray

@@ -82,15 +82,17 @@ LOSING, SAFE = 1e-3, 1e-6
 class Batch(NamedTuple):
     """Paths to be followed, and where their results go.
 
-    ``ends``: points at which to try Newton's method at t = 0 first, like ``starts``, if
-    ``tried`` is 0; ``straight``: 0 where not to try it later; ``starts``: points of the paths, numbers as in `Equations`, shape
-    (count, N, 2, words), at ``t``, shape (count, words). ``latest``: largest t at which a limit is taken for one.
-    ``outcome, winding, steps``: one for each path; ``points``: like ``starts``, the end, or where
-    the path is, at ``t``; ``safe, safe_t``: likewise the last
-    point that is known well; ``limits``: of those that have one, see
-    `extrapolate`, shape (count, N, 3, 2, words); ``errors``: rounding errors of the coordinates, shape (count, N).
-    ``finite``: whether simple zeros at t = 0 are looked for. ``tail``: largest last term of a
-    power series that is taken to converge.
+    ``starts``: points of the paths, numbers as in `Equations`, shape (count, N, 2, words), at
+    ``t``, shape (count, words). ``ends``: points at which to try Newton's method at t = 0 first,
+    like ``starts``, if ``tried`` is 0; ``straight``: 0 where not to try it later. ``latest``:
+    largest t at which a limit is taken for one.
+    ``outcome, winding, steps``: one for each path. ``points``: like ``starts``, the end, or where
+    the path is, at ``t``; ``safe, safe_t``: likewise the last point that is known well.
+    ``limits``: of those that have one, see `extrapolate`, shape (count, N, 3, 2, words).
+    ``errors``: rounding errors of the coordinates, shape (count, N). ``curvature``: estimate of
+    Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
+    contraction of Newton's method after it; ``tail``: largest last term of a power series that is
+    taken to converge.
     """
 
     count: int

@@ -88,7 +88,9 @@ class Limits:
         winding: int,
     ) -> Limit | None:
         N = self.terms.homotopy.N
-        slopes, last = (found[:, i, 0].sum(axis=1) + 1j * found[:, i, 1].sum(axis=1) for i in (0, 1))
+        slopes, last = (
+            found[:, i, 0].sum(axis=1) + 1j * found[:, i, 1].sum(axis=1) for i in (0, 1)
+        )
         tail = float(np.abs(last[known]).max(initial=0.0))
         if not np.abs(slopes[known].imag).max(initial=0.0) <= WHOLE:
             return None

@@ -23,8 +23,8 @@ class Equations(NamedTuple):
     imaginary parts in turn. ``moving``: whether a part's factor is not 1. ``logarithm``: see
     `composition`. ``at_end``: weights of the coefficients of a series in ``log t`` in its value at
     t = 0, by its power series in t; ``slope_at_end, last_of_slope``: likewise weights of the
-    coefficients of order 1 and up in the value of its derivative there, and in the last term of that;
-    ``inverses``: 1 / k.
+    coefficients of order 1 and up in the value of its derivative there, and in that one's last
+    term; ``inverses``: 1 / k.
     """
 
     N: int
@@ -68,15 +68,15 @@ class Room(NamedTuple):
     coordinate's coefficient adds to them. ``factor``: of the parts at t. ``sums, lines``: Taylor
     coefficients of the blocks, and of the linear rows' moving parts, order by order from 0 on.
     ``matrix, right, noise``: Jacobian, and two right-hand sides. ``pivots, columns, scales``: of
-    its factors. ``sizes``: of the terms of each row. ``patch, levels``: linear forms that normalise, and
-    their values.
-    ``base``: the last accepted point; ``coordinates, logarithms``: Taylor coefficients of the
-    coordinates and of their logarithms there, order by order from 1 on; ``plain, logs``: the same
-    rounded to doubles, coordinate by coordinate from order 0 on. ``time``: t there.
-    ``weights, errors``: sizes in which corrections count, and rounding errors, of each coordinate
-    at the point; ``base_sizes``: of the coordinates
-    at the base, ``base_weights, base_errors``: as above there. ``scalars``: see the kernel.
-    ``measures``: of the last correction. ``limits``: see
+    its factors. ``sizes``: of the terms of each row. ``patch, levels``: linear forms that
+    normalise, and their values. ``base``: the last accepted point, ``time``: t there;
+    ``safe, safe_time``: the last base that was known well, and t there. ``coordinates,
+    logarithms``: Taylor coefficients of the coordinates and of their logarithms at the base, order
+    by order from 1 on; ``plain, logs``: the same rounded to doubles, coordinate by coordinate from
+    order 0 on. ``weights, errors``: sizes in which corrections count, and rounding errors, of each
+    coordinate at the point; ``base_sizes``: of the coordinates at the base, ``base_weights,
+    base_errors``: as above there. ``scalars``: see the kernel. ``measures``: of the last
+    correction. ``accepted``: 1 in the lanes whose step is accepted. ``limits``: see
     `nag.tracking.ends.branch.extrapolate`.
     """
 
@@ -199,7 +199,9 @@ def _logarithm_powers(order: int) -> list[list[Fraction]]:
 def _constants(order: int, count: int) -> tuple[np.ndarray, ...]:
     rows = _logarithm_powers(order)
     at_end = [sum((-1) ** m * c for m, c in enumerate(row)) for row in rows]
-    slopes = [(k + 1) * sum((-1) ** m * c for m, c in enumerate(rows[k][:-1])) for k in range(order)]
+    slopes = [
+        (k + 1) * sum((-1) ** m * c for m, c in enumerate(rows[k][:-1])) for k in range(order)
+    ]
     last = [(k + 1) * rows[k][order - 1] for k in range(order)]
     inverses = [Fraction(1, max(k, 1)) for k in range(MOST_INVERSES)]
     exact = (_exact_words(numbers, count) for numbers in (at_end, slopes, last, inverses))
@@ -260,6 +262,13 @@ def room(homotopy: Homotopy, count: int, order: int) -> Room:
     ]
     sizes = [count, *(2 * count * k for k in numbers), N, N, N, N, 2 * N]
     sizes += [2 * count * len(homotopy.groups)]
-    sizes += [2 * count * N, count, 2 * count * N, count, 2 * count * order * N, 2 * count * order * N]
+    sizes += [
+        2 * count * N,
+        count,
+        2 * count * N,
+        count,
+        2 * count * order * N,
+        2 * count * order * N,
+    ]
     sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 5, SCALARS, 4, 1, 6 * count * N]
     return Room(*separate(aligned(sum(sizes)), sizes))
