@@ -1,1 +1,48 @@
-"""Homotopy path tracking: predictor, corrector, endgame, precision."""
+"""Homotopy path tracking: predictor, corrector, ends in as many digits as they need.
+
+In order of reading: `compiled` and `homotopy` (what is tracked), `kernel` (a straight run in
+doubles), `track` (its ends judged), `ends` (the doubtful ones, followed in more digits), `start`
+(start systems), `solve` (all isolated solutions), `parameter` (families of systems).
+
+Thresholds that decide something about an end. ``python tests/measure_thresholds.py`` measures how
+far what they judge lies from those that are marked with a star. Where a threshold is safe on one
+side only, it stands on that side: what does not pass is followed in more digits, not dismissed.
+
+====================  =======  =====================================================================
+name                  value    what it decides, and why there
+====================  =======  =====================================================================
+track.PROOF *         1e5      Smallest singular value over the last Newton step of a regular end in
+                               doubles. Kantorovich's theorem asks for a few times the second
+                               derivatives; what fails gets 32 digits.
+track.INFINITE *      1e-26    Homogenising coordinates of regular ends at infinity; residuals in
+                               double-double leave about 1e-32 of what is zero.
+track.RESIDUAL *      1e-29    Such a coordinate is known to exceed zero where it exceeds this over
+                               the smallest singular value.
+track.AT_INFINITY     1e-10    The same for systems with generic coefficients, whose paths are
+                               counted against what is known.
+kernel.ROUNDING       1e-9     Newton corrections in doubles that need not contract any more.
+kernel.PATIENCE       12       Steps behind the safe point before a path that does not get on goes
+                               to more digits.
+ends.follow.KNOWN *   1e3      A coordinate over its rounding error that is not zero.
+ends.follow.TAIL      1e-11    Last terms of a path's power series that is taken to converge, for
+                               the winding number in question.
+ends.follow           16       Digits to which the exact equations' terms of least order must cancel
+.LEAST_EVIDENCE *              at a limit, so that coefficients that doubles rounded would show.
+                               No gap: a limit that does not pass is looked for further in.
+ends.follow           6        Equations with coefficients of more digits than this need so many
+.ROUND_NUMBERS                 digits more.
+ends.follow           58       More cannot be asked of 64 digits.
+.MOST_EVIDENCE
+ends.limits.WHOLE *   1e-3     How far an order of a coordinate may be from a rational number.
+ends.inclusion.WIDER  64       Rounding errors in the radius of the box in which Krawczyk's test
+                               proves one zero; it must hold the errors of the values there.
+ends.kernel.STAGNANT  1e2      Rounding errors in a correction that need not contract any more.
+ends.kernel.FLOOR     1e-9     Coordinates that a start in doubles does not know.
+ends.linear_algebra   1e-6     What a correction leaves of a coordinate that it takes away: a zero
+.GONE                          along the whole path.
+solve.ON *            1e-9     Residual of the equations, relative to their terms, at a solution: a
+                               zero of some combinations of the equations only is larger.
+clusters.SAME         1e-8     Distance of ends that are looked at together: no decision, as what is
+                               one and what is several is seen in 150 digits (`nag.numerics`).
+====================  =======  =====================================================================
+"""

@@ -1,0 +1,147 @@
+"""How far the numbers that the ends of paths are judged by lie from their thresholds.
+
+    python tests/measure_thresholds.py [--case FILE ...] [--seeds 0:3]
+
+Solves the systems by paths, and prints for each threshold of the table in `nag.tracking` how many
+values it let pass and how many not, how many decades the nearest of each lie from it, and how many
+lie within a decade of it. A threshold is a good one where hardly any do: then another value of it
+would give the same answers.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections import defaultdict
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+
+import nag
+from nag.cases import read_case
+from nag.tracking import solve as solving
+from nag.tracking import track as tracking
+from nag.tracking.ends import follow, limits
+from nag.tracking.paths import PathStatus
+
+CASES = Path(__file__).parents[1] / "cases"
+BENCHMARKS = """
+    caprasse cbms1 cyclic-5 cyclic-6 eco-8 griewank-osborne inverse-6r inverse-6r-clustered
+    katsura-6 kss-5 mth191 noon-5 planar-3-rpr reimer-5 stewart-gough
+""".split()
+# Values that stand for none at all.
+NONE = 1e-300
+
+
+class Measured:
+    """Values beside a threshold, by its name."""
+
+    def __init__(self) -> None:
+        self.values: dict[str, list[np.ndarray]] = defaultdict(list)
+        self.limits: dict[str, float] = {}
+
+    def add(self, name: str, limit: float, values: Any) -> None:
+        found = np.asarray(values, dtype=float).ravel()
+        self.limits[name] = limit
+        self.values[name].append(found[np.isfinite(found)])
+
+    def lines(self) -> list[str]:
+        head = f"{'threshold':<34}{'value':>9}{'below':>9}{'nearest':>9}{'above':>9}{'nearest':>9}"
+        lines = [f"{head}{'within 1':>10}"]
+        for name, limit in self.limits.items():
+            decades = np.log10(np.maximum(np.concatenate(self.values[name]), NONE) / limit)
+            below, above = decades[decades <= 0], decades[decades > 0]
+            low = f"{below.max():.1f}" if len(below) else "-"
+            high = f"+{above.min():.1f}" if len(above) else "-"
+            near = int((np.abs(decades) < 1).sum())
+            lines.append(
+                f"{name:<34}{limit:>9.0e}{len(below):>9}{low:>9}{len(above):>9}{high:>9}{near:>10}"
+            )
+        return lines
+
+
+def around(original: Callable[..., Any], note: Callable[..., None]) -> Callable[..., Any]:
+    """``original``, with its result and arguments handed to ``note`` as well."""
+
+    def wrapped(*arguments: Any, **options: Any) -> Any:
+        result = original(*arguments, **options)
+        note(result, *arguments)
+        return result
+
+    return wrapped
+
+
+def watched(measured: Measured) -> ExitStack:
+    """A context in which what is compared with thresholds is measured."""
+
+    def refined(sharp: Any, homotopy: Any, *_: Any) -> None:
+        close = sharp.error < 1e-12
+        ratio = sharp.smallest / sharp.error
+        measured.add("PROOF", tracking.PROOF, ratio[close])
+        proved = close & (ratio > tracking.PROOF)
+        sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
+        measured.add("INFINITE (regular ends)", tracking.INFINITE, sizes[proved])
+        errors = tracking.RESIDUAL / np.maximum(sharp.smallest, 1e-300)
+        measured.add("RESIDUAL (size over error)", 1.0, (sizes / errors)[proved])
+
+    def known(_: Any, states: Any, path: int) -> None:
+        errors = states.errors[path]
+        sizes = np.abs(states.point(path))[errors > 0] / errors[errors > 0]
+        measured.add("KNOWN", follow.KNOWN, sizes)
+
+    def initial_forms(limit: Any, *_: Any) -> None:
+        if limit is not None:
+            need = 10.0**-follow.LEAST_EVIDENCE
+            measured.add("LEAST_EVIDENCE (residuals)", need, limit.residual)
+
+    def denominator(found: int, slopes: np.ndarray, least: int) -> None:
+        multiples = np.arange(least, limits.LARGEST + 1)[:, None] * slopes
+        off = np.abs(multiples - np.rint(multiples)).max(axis=1, initial=0.0)
+        measured.add("WHOLE", limits.WHOLE, off[: found - least + 1] if found else off)
+
+    def values(found: np.ndarray, *_: Any) -> None:
+        measured.add("ON", solving.ON, found)
+
+    def judged(paths: Any, *_: Any) -> None:
+        regular = paths.status == PathStatus.REGULAR
+        measured.add("steps of regular ends", 1e-12, paths.accuracy[regular])
+
+    stack = ExitStack()
+    for owner, name, note in [
+        (tracking, "refine", refined),
+        (tracking, "_attempt", judged),
+        (follow._States, "known", known),
+        (limits.Limits, "of", initial_forms),
+        (limits, "_denominator", denominator),
+        (solving, "_residuals", values),
+    ]:
+        stack.enter_context(patch.object(owner, name, around(getattr(owner, name), note)))
+    return stack
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--case", action="append", type=Path)
+    parser.add_argument("--seeds", default="0:3", help="first:last+1")
+    options = parser.parse_args()
+    files = options.case or [
+        *sorted((CASES / "hard").glob("*.toml")),
+        *(CASES / "benchmarks" / f"{name}.toml" for name in BENCHMARKS),
+    ]
+    measured = Measured()
+    with watched(measured):
+        for file in files:
+            case = read_case(file)
+            system = case.system or nag.model(case.mechanism).system
+            for seed in range(*map(int, options.seeds.split(":"))):
+                result = solving.solve(system, seed=seed)
+                answer = "complete" if result.complete else "not complete"
+                print(f"{file.stem} seed {seed}: {len(result.solutions)}, {answer}", flush=True)
+    print("\n".join(measured.lines()))
+
+
+if __name__ == "__main__":
+    main()
