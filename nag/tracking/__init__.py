@@ -14,10 +14,10 @@ name                  value    what it decides, and why there
 track.PROOF *         1e5      Smallest singular value over the last Newton step of a regular end in
                                doubles. Kantorovich's theorem asks for a few times the second
                                derivatives; what fails gets 32 digits.
-track.INFINITE *      1e-26    Homogenising coordinates of regular ends at infinity; residuals in
-                               double-double leave about 1e-32 of what is zero.
 track.RESIDUAL *      1e-29    Such a coordinate is known to exceed zero where it exceeds this over
                                the smallest singular value.
+track.ALIKE           1e-9     Leading coefficients of branches that are compared once more, with
+                               shorter steps: a jump does not survive those, two branches do.
 track.AT_INFINITY     1e-10    The same for systems with generic coefficients, whose paths are
                                counted against what is known.
 kernel.ROUNDING       1e-9     Newton corrections in doubles that need not contract any more.
@@ -37,6 +37,9 @@ ends.limits.WHOLE *   1e-3     How far an order of a coordinate may be from a ra
 ends.inclusion.WIDER  64       Rounding errors in the radius of the box in which Krawczyk's test
                                proves one zero; it must hold the errors of the values there.
 ends.kernel.STAGNANT  1e2      Rounding errors in a correction that need not contract any more.
+ends.kernel.LOSING    1e-3     Rounding error times Newton's constant at which an arithmetic is given
+                               up; at 1e-6 (SAFE) a point is kept for the next one to start from.
+ends.follow.BEYOND    30       Error of a limit in last terms of its series.
 ends.kernel.FLOOR     1e-9     Coordinates that a start in doubles does not know.
 ends.linear_algebra   1e-6     What a correction leaves of a coordinate that it takes away: a zero
 .GONE                          along the whole path.
