@@ -112,6 +112,15 @@ def test_simple_solutions_with_uneven_coordinates_stay_simple(
             ],
             36,
         ),
+        (
+            # Five pairs differ in a coordinate of 1e-6 only, beside one of 4e6.
+            [
+                "-10*x^3 - 7/10*x^2*z - y*z/7000 + 67/10*y - 1300000",
+                "-y^4*z/12 - 61/10000*x^4 - y^2*z^2/75 + 71/10*y^3 - 37/100",
+                "4100000*x^3 - 2/15*x^2 + 3/10*z - 3/50000",
+            ],
+            23,
+        ),
     ],
 )
 def test_points_with_uneven_coordinates_are_confirmed_as_simple(

@@ -293,7 +293,7 @@ def _in_scheme(system: PolynomialSystem, components: Sequence[_Component]) -> li
             witness,
             multiplicity=multiple,
             residual=residual,
-            corank=_corank(original, witness.points[0]),
+            corank=witness.dimension if multiple == 1 else _corank(original, witness.points[0]),
             status=Status.UNDECIDED if reasons else witness.status,
             note="; ".join(reasons),
         )

@@ -85,6 +85,10 @@ class _Candidates:
     singular: list[list[tuple[np.ndarray, float]]]
 
 
+def _near(points: np.ndarray, x: np.ndarray) -> bool:
+    return bool((np.linalg.norm(points - x, axis=1) < SAME * (1 + np.linalg.norm(x))).any())
+
+
 def _collect(
     pieces: Sequence[tuple[Cut, Moved]], n: int, d: int, nonzero: Evaluator
 ) -> _Candidates:
@@ -95,13 +99,10 @@ def _collect(
         x = ends.points[:, :n]
         allowed = ends.finite.copy()
         allowed[allowed] &= ~forbidden(nonzero, x[allowed], ends.accuracy[allowed])
-        chosen = []
-        for i in np.flatnonzero(allowed & ends.regular):
-            scale = 1 + np.linalg.norm(x[i])
-            if not (np.linalg.norm(seen - x[i], axis=1) < SAME * scale).any():
-                chosen.append(i)
-                seen = np.vstack([seen, x[i]])
+        # The tracker has seen that ends of one piece are distinct.
+        chosen = [i for i in np.flatnonzero(allowed & ends.regular) if not _near(seen, x[i])]
         if chosen:
+            seen = np.vstack([seen, x[chosen]])
             fibres.append(Fibre(cut, d, ends.points[chosen]))
         rest = allowed & ~ends.regular
         singular.append(x[rest])
@@ -178,7 +179,7 @@ class _Stage:
         mask = np.ones(len(fibre), dtype=bool)
         for i, x in enumerate(fibre.x):
             answer = Membership.FOREIGN
-            if (np.linalg.norm(same - x, axis=1) < SAME * (1 + np.linalg.norm(x))).any():
+            if _near(same, x):
                 answer = Membership.MEMBER
             for higher in sorted((e for e in kept if e > d), reverse=True):
                 if answer is not Membership.FOREIGN:
