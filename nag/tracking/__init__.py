@@ -37,7 +37,7 @@ ends.limits.WHOLE *   1e-3     How far an order of a coordinate may be from a ra
 ends.inclusion.WIDER  64       Rounding errors in the radius of the box in which Krawczyk's test
                                proves one zero; it must hold the errors of the values there.
 ends.kernel.STAGNANT  1e2      Rounding errors in a correction that need not contract any more.
-ends.kernel.LOSING    1e-3     Rounding error times Newton's constant at which an arithmetic is given
+ends.kernel.LOSING    1e-3     Rounding error times Newton's constant at which an arithmetic gives
                                up; at 1e-6 (SAFE) a point is kept for the next one to start from.
 ends.follow.BEYOND    30       Error of a limit in last terms of its series.
 ends.kernel.FLOOR     1e-9     Coordinates that a start in doubles does not know.
