@@ -28,10 +28,23 @@ from nag.tracking.ends import follow, limits
 from nag.tracking.paths import PathStatus
 
 CASES = Path(__file__).parents[1] / "cases"
-BENCHMARKS = """
-    caprasse cbms1 cyclic-5 cyclic-6 eco-8 griewank-osborne inverse-6r inverse-6r-clustered
-    katsura-6 kss-5 mth191 noon-5 planar-3-rpr reimer-5 stewart-gough
-""".split()
+BENCHMARKS = [
+    "caprasse",
+    "cbms1",
+    "cyclic-5",
+    "cyclic-6",
+    "eco-8",
+    "griewank-osborne",
+    "inverse-6r",
+    "inverse-6r-clustered",
+    "katsura-6",
+    "kss-5",
+    "mth191",
+    "noon-5",
+    "planar-3-rpr",
+    "reimer-5",
+    "stewart-gough",
+]
 # Values that stand for none at all.
 NONE = 1e-300
 

@@ -14,12 +14,11 @@ name                  value    what it decides, and why there
 track.PROOF *         1e5      Smallest singular value over the last Newton step of a regular end in
                                doubles. Kantorovich's theorem asks for a few times the second
                                derivatives; what fails gets 32 digits.
-track.INFINITE *      1e-26    Homogenising coordinates of regular ends at infinity; residuals in
-                               double-double leave about 1e-32 of what is zero.
+track.INFINITE *      1e-26    Homogenising coordinates of regular ends at infinity, which are found
+                               with residuals in double-double.
 track.RESIDUAL *      1e-29    Such a coordinate is known to exceed zero where it exceeds this over
                                the smallest singular value.
-track.AT_INFINITY     1e-10    The same for systems with generic coefficients, whose paths are
-                               counted against what is known.
+track.AT_INFINITY     1e-10    The same in `track_regular`, for systems of generic coefficients.
 kernel.ROUNDING       1e-9     Newton corrections in doubles that need not contract any more.
 kernel.PATIENCE       12       Steps behind the safe point before a path that does not get on goes
                                to more digits.
@@ -29,8 +28,8 @@ ends.follow.TAIL      1e-11    Last terms of a path's power series that is taken
 ends.follow           16       Digits to which the exact equations' terms of least order must cancel
 .LEAST_EVIDENCE *              at a limit, so that coefficients that doubles rounded would show.
                                No gap: a limit that does not pass is looked for further in.
-ends.follow           6        Equations with coefficients of more digits than this need so many
-.ROUND_NUMBERS                 digits more.
+ends.follow           6        Digits of coefficients that ask for no more; each further one asks for
+.ROUND_NUMBERS                 one more.
 ends.follow           58       More cannot be asked of 64 digits.
 .MOST_EVIDENCE
 ends.limits.WHOLE *   1e-3     How far an order of a coordinate may be from a rational number.
