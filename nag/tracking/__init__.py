@@ -28,7 +28,7 @@ ends.follow.TAIL      1e-11    Last terms of a path's power series that is taken
 ends.follow           16       Digits to which the exact equations' terms of least order must cancel
 .LEAST_EVIDENCE *              at a limit, so that coefficients that doubles rounded would show.
                                No gap: a limit that does not pass is looked for further in.
-ends.follow           6        Digits of coefficients that ask for no more; each further one asks for
+ends.follow           6        Digits of coefficients that ask for no more; each further asks for
 .ROUND_NUMBERS                 one more.
 ends.follow           58       More cannot be asked of 64 digits.
 .MOST_EVIDENCE
