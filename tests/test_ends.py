@@ -37,7 +37,7 @@ def followed(polynomials: list[Polynomial], settings: Settings | None = None) ->
     homotopy, starts = homotopy_of(polynomials)
     reached = np.zeros(len(starts), dtype=bool)
     ones = np.ones(len(starts))
-    return follow(homotopy, starts, reached, starts, ones, settings or Settings())
+    return follow(homotopy, starts, reached, reached, starts, ones, settings or Settings())
 
 
 def test_regular_ends_are_balls_that_hold_the_zeros() -> None:

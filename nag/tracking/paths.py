@@ -65,6 +65,20 @@ class Ball:
 
 
 @dataclass(frozen=True, eq=False)
+class Branch:
+    """What a path is near its end: a power series in ``t ** (1 / winding)``, by its first terms.
+
+    Attributes:
+        orders: of the coordinates, in units of ``1 / winding``.
+        logs: logarithms of their leading coefficients over one of each group, shape ``(N,)``.
+    """
+
+    winding: int
+    orders: tuple[int, ...]
+    logs: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class Paths:
     """Ends of ``P`` paths.
 
@@ -79,6 +93,7 @@ class Paths:
         reason: `Reason` of a failure, 0 otherwise.
         simple: whether the end is a regular zero, be it at infinity.
         balls: regular ends that were found in more digits, by index.
+        branches: the branches to other ends, by index.
     """
 
     points: np.ndarray
@@ -91,6 +106,7 @@ class Paths:
     reason: np.ndarray
     simple: np.ndarray
     balls: Mapping[int, Ball] = field(default_factory=dict)
+    branches: Mapping[int, Branch] = field(default_factory=dict)
 
     def same(self, homotopy: Homotopy, i: int, j: int) -> bool:
         """Whether two ends coincide in all digits that they are known to, if both are balls."""

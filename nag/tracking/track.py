@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import numpy as np
 
@@ -25,8 +26,8 @@ PROOF = 1e5
 # Rounding errors of a homogenising coordinate that Newton's method found with residuals in
 # double-double, times the inverse of the smallest singular value.
 RESIDUAL = 1e-29
-# Homogenising coordinates of regular ends at infinity are less than this.
-INFINITE = 1e-26
+# Leading coefficients of branches that differ by less are the same.
+ALIKE = 1e-9
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -61,8 +62,11 @@ def track(
         raise ValueError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
     starts = homotopy.normalized(starts)
     paths = _attempt(homotopy, starts, chosen, threads, endgame)
-    for _ in range(chosen.retries if distinct else 0):
+    for attempt in range(chosen.retries if distinct else 0):
         jumped = collisions(homotopy, paths)
+        if attempt == 0:
+            # Branches that begin alike may be two; a jump does not survive shorter steps.
+            jumped = np.union1d(jumped, alike(paths))
         if not len(jumped):
             return paths
         chosen = tighter(chosen)
@@ -116,7 +120,7 @@ def _attempt(
     homotopy: Homotopy, starts: np.ndarray, settings: Settings, threads: int, endgame: bool
 ) -> Paths:
     raw = _run(homotopy, starts, settings, threads, endgame)
-    paths = _judged(homotopy, raw)
+    paths, regular = _judged(homotopy, raw)
     doubtful = paths.where(PathStatus.FAILED)
     doubtful = doubtful[raw.reason[doubtful] != Reason.START]
     if not len(doubtful) or settings.digits < 32:
@@ -128,6 +132,7 @@ def _attempt(
         homotopy,
         raw.points[doubtful],
         reached,
+        regular[doubtful],
         raw.safe[doubtful],
         raw.safe_t[doubtful],
         settings,
@@ -191,14 +196,19 @@ def _run(
     return raw
 
 
-def _judged(homotopy: Homotopy, raw: _Raw) -> Paths:
-    """Ends that Newton's method proves regular, finite or at infinity; the others have failed."""
+def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
+    """Finite ends that Newton's method proves regular; the others have failed.
+
+    Also which ends are regular ones of the homogenised system, shape ``(P,)``: whether those that
+    seem to lie at infinity do is not for doubles to say.
+    """
     P = len(raw.points)
     points = raw.points.copy()
     status = np.full(P, PathStatus.FAILED, dtype=np.int8)
     accuracy = np.full(P, np.inf)
     condition = np.full(P, np.inf)
     reason = raw.reason.astype(np.int8)
+    regular = np.zeros(P, dtype=bool)
     ended = np.flatnonzero(raw.reason == Reason.NONE)
     if len(ended):
         error = np.maximum(raw.error[ended], 1e-15)
@@ -213,15 +223,15 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> Paths:
         condition[ended] = sharp.condition
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
         known = sizes > RESIDUAL / np.maximum(sharp.smallest, 1e-300)
-        far = sizes <= INFINITE
-        status[ended[proved & ~far & known]] = PathStatus.REGULAR
-        status[ended[proved & far & ~known]] = PathStatus.AT_INFINITY
+        status[ended[proved & known]] = PathStatus.REGULAR
+        regular[ended[proved]] = True
     failed = status == PathStatus.FAILED
     reason[failed & (reason == Reason.NONE)] = Reason.ENDGAME
     accuracy[failed] = np.inf
     winding = np.where(failed, 0, 1)
     digits = np.where(failed, 16, 32).astype(np.int16)
-    return Paths(points, status, winding, accuracy, condition, raw.steps, digits, reason, ~failed)
+    paths = Paths(points, status, winding, accuracy, condition, raw.steps, digits, reason, ~failed)
+    return paths, regular
 
 
 def _without(paths: Paths, lost: np.ndarray) -> Paths:
@@ -259,6 +269,27 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     return np.array(sorted(found), dtype=np.int64)
 
 
+def alike(paths: Paths) -> np.ndarray:
+    """Indices of the paths whose branches have the orders and leading coefficients of another's."""
+    kinds: dict[tuple[Fraction, ...], list[int]] = {}
+    for path, branch in paths.branches.items():
+        ratios = tuple(Fraction(k, branch.winding) for k in branch.orders)
+        kinds.setdefault(ratios, []).append(path)
+    found: set[int] = set()
+    for members in kinds.values():
+        if len(members) < 2:
+            continue
+        indices = np.array(members)
+        logs = np.array([paths.branches[path].logs for path in members])
+        key = (logs.real + np.cos(logs.imag)) @ np.cos(np.arange(logs.shape[1]) ** 2)
+        for i, j in neighbours(key, np.full(len(key), 1e-6)):
+            difference = logs[i] - logs[j]
+            turns = np.abs(np.exp(1j * difference.imag) - 1)
+            same = np.maximum(np.abs(difference.real), turns).max(axis=1) < ALIKE
+            found.update(indices[i[same]].tolist(), indices[j[same]].tolist())
+    return np.array(sorted(found), dtype=np.int64)
+
+
 def _distances(homotopy: Homotopy, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Distances of projective points of unit norm, shape ``(P,)``; the largest of the groups."""
     largest = np.zeros(len(x))
@@ -275,13 +306,14 @@ def merged(old: Paths, new: Paths, indices: np.ndarray) -> Paths:
     """``old`` with the paths at ``indices`` replaced; steps add up."""
     fields = {}
     for name in old.__dataclass_fields__:
-        if name == "balls":
+        if name in ("balls", "branches"):
             continue
         array = getattr(old, name).copy()
         values = getattr(new, name)
         array[indices] = array[indices] + values if name == "steps" else values
         fields[name] = array
     replaced = set(indices.tolist())
-    balls = {i: ball for i, ball in old.balls.items() if i not in replaced}
-    balls |= {int(indices[i]): ball for i, ball in new.balls.items()}
-    return replace(old, balls=balls, **fields)
+    for name in ("balls", "branches"):
+        kept = {i: end for i, end in getattr(old, name).items() if i not in replaced}
+        fields[name] = kept | {int(indices[i]): end for i, end in getattr(new, name).items()}
+    return replace(old, **fields)

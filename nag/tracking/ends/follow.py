@@ -14,7 +14,7 @@ from nag.tracking.ends.limits import Limit, Limits
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
-from nag.tracking.paths import Ball, Paths, PathStatus, Reason
+from nag.tracking.paths import Ball, Branch, Paths, PathStatus, Reason
 from nag.tracking.settings import Settings
 
 # Order of the Taylor coefficients.
@@ -43,7 +43,8 @@ class _States:
 
     ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
     ``found``: regular ends; ``limits``: others. ``straight``: 0 where Newton's method at t = 0 is
-    of no use; ``asked``: in how many words it was tried at a limit.
+    of no use; ``regular``: where the first trial needs no proof; ``asked``: in how many words it
+    was tried at a limit.
     """
 
     where: np.ndarray
@@ -55,6 +56,7 @@ class _States:
     ends: np.ndarray
     tried: np.ndarray
     straight: np.ndarray
+    regular: np.ndarray
     asked: np.ndarray
     outcome: np.ndarray
     winding: np.ndarray
@@ -78,6 +80,7 @@ class _States:
             _in_words(ends),
             np.where(reached, 0, 1),
             np.ones(P, dtype=np.int64),
+            np.zeros(P, dtype=bool),
             np.zeros(P, dtype=np.int64),
             *whole,
             np.zeros((P, N)),
@@ -111,6 +114,7 @@ def follow(
     homotopy: Homotopy,
     ends: np.ndarray,
     reached: np.ndarray,
+    regular: np.ndarray,
     safe: np.ndarray,
     t: np.ndarray,
     settings: Settings,
@@ -121,6 +125,7 @@ def follow(
     Args:
         homotopy: what to track.
         ends: where straight runs in doubles ended, at t = 0 where ``reached``, shape ``(P, N)``.
+        regular: which of these ends are known to be regular ones, be they at infinity.
         safe: points of the paths at ``t``, shape ``(P, N)``.
         settings: how many digits may be used, and how many are evidence.
         threads: number of threads; the result does not depend on it.
@@ -129,6 +134,7 @@ def follow(
         The paths; those whose ends ask for more digits have failed.
     """
     states = _States.of(ends, reached, safe, t)
+    states.regular[:] = regular
     pending = np.arange(len(safe))
     for words, digits in DIGITS.items():
         if not len(pending) or digits > settings.digits:
@@ -197,7 +203,8 @@ def _follow_in(
                     (again if hopeful else later).append(path)
             elif outcome == kernel.REGULAR:
                 centre = states.found[path]
-                if not proved(terms, centre, states.errors[path]):
+                trusted = states.regular[path] and states.steps[path] == 1
+                if not trusted and not proved(terms, centre, states.errors[path]):
                     # Newton's method converged, but not to a regular zero: go on without it.
                     states.straight[path] = 0
                     again.append(path)
@@ -317,6 +324,7 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
     status = np.full(P, PathStatus.FAILED, dtype=np.int8)
     accuracy = np.full(P, np.inf)
     balls: dict[int, Ball] = {}
+    branches: dict[int, Branch] = {}
     infinite = list(homotopy.infinity)
     for path in range(P):
         points[path] = states.point(path)
@@ -328,6 +336,7 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
         elif states.outcome[path] == kernel.LIMIT:
             limit = states.limits[path]
             points[path] = limit.point
+            branches[path] = Branch(limit.winding, limit.orders, limit.branch)
             finite = bool((limit.point[infinite] != 0).all())
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY
             accuracy[path] = max(2e-16, BEYOND * limit.tail)
@@ -348,4 +357,5 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
         np.where(failed, Reason.ENDGAME, Reason.NONE).astype(np.int8),
         states.outcome == kernel.REGULAR,
         balls,
+        branches,
     )

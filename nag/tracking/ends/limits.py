@@ -33,6 +33,8 @@ class Limit:
         point: leading coefficients as doubles, 0 for coordinates that vanish beside those of
             least order in their group, shape ``(N,)``; ``centre``: the same in all digits, shape
             ``(N, 2, words)``.
+        branch: logarithms of all leading coefficients over the first of least order in their
+            group, 0 for coordinates that are not known, shape ``(N,)``.
         tail: size of the last terms of the power series.
         residual: largest value of an initial form over the sum of its terms.
     """
@@ -41,6 +43,7 @@ class Limit:
     winding: int
     point: np.ndarray
     centre: np.ndarray
+    branch: np.ndarray
     tail: float
     residual: float
 
@@ -114,7 +117,8 @@ class Limits:
         centre = self._centre(orders, leading)
         parts = centre.sum(axis=2)
         point = parts[:, 0] + 1j * parts[:, 1]
-        return Limit(tuple(orders), winding, point, centre, tail, residual)
+        branch = self._branch(orders, leading)
+        return Limit(tuple(orders), winding, point, centre, branch, tail, residual)
 
     def _centre(self, orders: list[int], leading: list[Any]) -> np.ndarray:
         centre = np.zeros((self.terms.homotopy.N, 2, self.words))
@@ -126,6 +130,15 @@ class Limits:
             for j in first:
                 centre[j] = doubles(leading[j] / size, self.words)
         return centre
+
+    def _branch(self, orders: list[int], leading: list[Any]) -> np.ndarray:
+        logs = np.zeros(self.terms.homotopy.N, dtype=np.complex128)
+        for indices in self.terms.homotopy.groups:
+            first = min(indices, key=lambda j: (orders[j], j))
+            for j in indices:
+                if orders[j] < NEVER:
+                    logs[j] = complex((leading[j] / leading[first]).log())
+        return logs
 
     def _forms(self, flint: Any, orders: tuple[int, ...], winding: int) -> Any:
         key = (winding, *orders)
