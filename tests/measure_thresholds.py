@@ -96,7 +96,6 @@ def watched(measured: Measured) -> ExitStack:
         measured.add("PROOF", tracking.PROOF, ratio[close])
         proved = close & (ratio > tracking.PROOF)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
-        measured.add("INFINITE (regular ends)", tracking.INFINITE, sizes[proved])
         errors = tracking.RESIDUAL / np.maximum(sharp.smallest, 1e-300)
         measured.add("RESIDUAL (size over error)", 1.0, (sizes / errors)[proved])
 
