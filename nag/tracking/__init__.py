@@ -14,7 +14,7 @@ name                  value    what it decides, and why there
 track.PROOF *         1e5      Smallest singular value over the last Newton step of a regular end in
                                doubles. Kantorovich's theorem asks for a few times the second
                                derivatives; what fails gets 32 digits.
-track.RESIDUAL *      1e-29    A homogenising coordinate of a regular end in doubles, with residuals in
+track.RESIDUAL *      1e-29    A homogenising coordinate of a regular end in doubles, residuals in
                                double-double, exceeds zero where it exceeds this over the
                                smallest singular value. Others get 32 digits.
 track.ALIKE           1e-9     Leading coefficients of branches that are the same: such paths may
