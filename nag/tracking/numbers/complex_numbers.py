@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nag.machine_code.lanes import fma, fnma, select_less, splat, square_root
+from nag.machine_code.lanes import fma, select_less, splat, square_root
 from nag.tracking.numbers import double_double as number
 
 # An exponential's argument is halved so often before its series is summed.
@@ -93,11 +93,6 @@ def magnitude(a):
     """Absolute value as a double."""
     re, im = rounded(a)
     return square_root(fma(re, re, im * im))
-
-
-def double_multiply(ar, ai, br, bi):
-    """Product of complex doubles in lanes."""
-    return fnma(ai, bi, ar * br), fma(ai, br, ar * bi)
 
 
 def largest(a, b):
