@@ -14,22 +14,13 @@ name                  value    what it decides, and why there
 track.PROOF *         1e5      Smallest singular value over the last Newton step of a regular end in
                                doubles. Kantorovich's theorem asks for a few times the second
                                derivatives; what fails gets 32 digits.
-<<<<<<< HEAD
-track.RESIDUAL *      1e-29    Such a coordinate is known to exceed zero where it exceeds this over
-                               the smallest singular value.
-track.ALIKE           1e-9     Leading coefficients of branches that are compared once more, with
-                               shorter steps: a jump does not survive those, two branches do.
-track.AT_INFINITY     1e-10    The same for systems with generic coefficients, whose paths are
-                               counted against what is known.
-=======
 track.RESIDUAL *      1e-29    A homogenising coordinate of a regular end in doubles, residuals in
                                double-double, exceeds zero where it exceeds this over the
                                smallest singular value. Others get 32 digits.
-track.ALIKE           1e-9     Leading coefficients of branches that are the same: such paths may
-                               have jumped.
+track.ALIKE           1e-9     Leading coefficients of branches that are compared once more, with
+                               shorter steps: a jump does not survive those, two branches do.
 track.AT_INFINITY     1e-10    Homogenising coordinates of finite zeros in `track_regular`, whose
                                systems have generic coefficients.
->>>>>>> 0f00dad90ba99bfde266e01b6d5f7d93b1fd0ae5
 kernel.ROUNDING       1e-9     Newton corrections in doubles that need not contract any more.
 kernel.PATIENCE       12       Steps behind the safe point before a path that does not get on goes
                                to more digits.
