@@ -24,10 +24,12 @@ from nag.decomposition.fibres import Tracker
 from nag.decomposition.frame import Frame
 from nag.decomposition.membership import Membership, component_fibres, is_member
 from nag.decomposition.moving import witness_at
-from nag.decomposition.multiplicity import multiplicity
+from nag.decomposition.multiplicity import ACCURACY, multiplicity
 from nag.decomposition.slices import random_rows, to_slice
 from nag.decomposition.symmetric_images import in_orbits
 from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.numerics.singular_point import SingularEnd
+from nag.tracking.zero_values import possible_zeros, vanishes_at_all
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a point.
 NONZERO = 1e-6
@@ -66,8 +68,17 @@ class _Component:
         try:
             fibre = component_fibres(self.system, self.witness)[0]
         except ValueError:
-            return None
+            # Doubles do not see that the points are regular.
+            return vanishes_at_all(self._zeros, f)
         return vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0]
+
+    @cached_property
+    def _zeros(self) -> tuple[SingularEnd, ...]:
+        """The exact zeros on the slice that the first point may stand for."""
+        x, rows = self.witness.points[0], self.witness.slice.rows
+        accuracy = max(self.witness.accuracy, ACCURACY)
+        rng = np.random.default_rng(0)
+        return possible_zeros(self.system.polynomials, x, accuracy, rng, rows)
 
 
 @dataclass(frozen=True, eq=False)

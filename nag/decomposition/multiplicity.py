@@ -8,7 +8,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.slices import padded
-from nag.numerics.singular_point import Place, analyse
+from nag.tracking.zero_values import multiplicity_of_all, possible_zeros
 
 # How well points are known that were sharpened in doubles, by a deflation that may be badly
 # conditioned.
@@ -20,7 +20,8 @@ def multiplicity(
 ) -> int:
     """Multiplicity of the zero ``x`` of ``polynomials`` on the slice ``rows``; 0 if not found.
 
-    ``x`` must be known to rounding. See `nag.numerics.singular_point.analyse`.
+    ``x`` must be known to rounding. Where it may stand for any of several zeros, it is what they
+    all have. See `nag.numerics.singular_point.analyse`.
     """
-    end = analyse(polynomials, x, ACCURACY, rng, padded(rows, 1 + len(x)))
-    return end.multiplicity if end.place is Place.ISOLATED else 0
+    zeros = possible_zeros(polynomials, x, ACCURACY, rng, padded(rows, 1 + len(x)))
+    return multiplicity_of_all(zeros) or 0

@@ -22,8 +22,9 @@ from nag.algebra.generic_multiplicity import generic_multiplicity, independent_g
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
+from nag.numerics.singular_point import SingularEnd
 from nag.tracking.solutions import PathStatistics, Solution, SolveResult
-from nag.tracking.zero_values import multiplicity_at_zero, vanish_at_zero
+from nag.tracking.zero_values import multiplicity_of_all, possible_zeros, vanishes_at_all
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
 NONZERO = 1e-6
@@ -66,8 +67,15 @@ class _Found:
         image = f.compose(reduced.images)
         if follows(image, reduced):
             return True
-        y, accuracy = reduced.project(x), self.solution.accuracy
-        return vanish_at_zero(reduced.system.polynomials, y, accuracy, [image])
+        return vanishes_at_all(self._zeros, image)
+
+    @cached_property
+    def _zeros(self) -> tuple[SingularEnd, ...]:
+        """The exact zeros of the system that was tracked that this may be."""
+        assert self.elimination is not None
+        reduced, x = self.elimination, self.solution.point
+        y, rng = reduced.project(x), np.random.default_rng(0)
+        return possible_zeros(reduced.system.polynomials, y, self.solution.accuracy, rng)
 
 
 @dataclass(frozen=True, eq=False)
@@ -307,6 +315,6 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
         at, error = (x, accuracy) if each.zero is None else (each.zero.known_to(BITS), 2.0**-BITS)
-        return multiplicity_at_zero(generators, at, error)
+        return multiplicity_of_all(possible_zeros(generators, at, error, np.random.default_rng(0)))
 
     return generic_multiplicity(equations, len(x), each.vanishes, independent, by_local_ring)

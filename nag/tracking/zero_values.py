@@ -15,34 +15,33 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 
 
-def _zeros(
-    equations: Sequence[Polynomial], x: np.ndarray, accuracy: float
+def possible_zeros(
+    equations: Sequence[Polynomial],
+    x: np.ndarray,
+    accuracy: float,
+    rng: np.random.Generator,
+    slices: np.ndarray | None = None,
 ) -> tuple[SingularEnd, ...]:
-    """The isolated zeros that ``x`` may stand for; none if that is left open."""
-    end = analyse(equations, x, accuracy, np.random.default_rng(0))
+    """The isolated zeros of ``equations`` that ``x`` may stand for; none if that is left open.
+
+    They are known to 100 digits.
+
+    Args:
+        slices: further linear equations, rows on ``(1, x)``.
+    """
+    end = analyse(equations, x, accuracy, rng, slices)
     if end.place is Place.CLUSTER:
         return end.nearby
     return (end,) if end.place is Place.ISOLATED else ()
 
 
-def vanish_at_zero(
-    equations: Sequence[Polynomial],
-    x: np.ndarray,
-    accuracy: float,
-    polynomials: Sequence[Polynomial],
-) -> bool | None:
-    """Whether ``polynomials`` vanish at the isolated zero of ``equations`` near ``x``.
-
-    It is computed to 100 digits. None if that does not succeed, or they vanish at some of several
-    zeros.
-    """
-    answers = {vanish_at(polynomials, zero.digits) for zero in _zeros(equations, x, accuracy)}
+def vanishes_at_all(zeros: Sequence[SingularEnd], f: Polynomial) -> bool | None:
+    """Whether a polynomial vanishes at all zeros, or at none; None else, or if there are none."""
+    answers = {vanish_at([f], zero.digits) for zero in zeros}
     return answers.pop() if len(answers) == 1 else None
 
 
-def multiplicity_at_zero(
-    equations: Sequence[Polynomial], x: np.ndarray, accuracy: float
-) -> int | None:
-    """The multiplicity of the isolated zero of ``equations`` near ``x``; None if not found."""
-    answers = {zero.multiplicity for zero in _zeros(equations, x, accuracy)}
+def multiplicity_of_all(zeros: Sequence[SingularEnd]) -> int | None:
+    """The multiplicity of all zeros; None if they differ, or if there are none."""
+    answers = {zero.multiplicity for zero in zeros}
     return answers.pop() if len(answers) == 1 else None
