@@ -112,6 +112,8 @@ class Limits:
             order = flint.fmpq(orders[j], denominator)
             change = number(found[j, 2]) + winding * order * shift - log_t * order
             leading[j] = number(x[j]) * change.exp()
+            if not leading[j].is_finite():
+                return None
         winding = denominator
         residual = self._residual(flint, tuple(orders), leading, winding)
         centre = self._centre(orders, leading)
