@@ -96,7 +96,7 @@ class _States:
     def may_be_simple(self, path: int, limit: Limit) -> bool:
         """Whether a limit may be a regular zero, and has not been tried in as many digits."""
         words = self.where.shape[-1]
-        return limit.winding == 1 and not any(limit.orders) and self.asked[path] < words
+        return limit.winding == 1 and self.asked[path] < words
 
     def known(self, path: int) -> np.ndarray:
         """Which coordinates exceed their rounding errors."""
