@@ -118,7 +118,7 @@ def test_orders_that_are_no_rational_numbers_give_no_limit() -> None:
     (x,) = Polynomial.variables(1)
     homotopy, _ = homotopy_of([x**2 - 2])
     limits = Limits(Terms(homotopy), 2, 14)
-    point, found = np.zeros((2, 2, 2)), np.zeros((2, 3, 2, 2))
+    point, found = np.zeros((2, 2, 2)), np.zeros((2, 4, 2, 2))
     point[:, 0, 0] = 1.0
     found[1, 0, 0, 0] = np.sqrt(2) / 3
     assert limits.of(point, found, np.ones(2, dtype=bool), np.array([1e-3, 0.0]), 1) is None

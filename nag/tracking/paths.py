@@ -71,11 +71,13 @@ class Branch:
     Attributes:
         orders: of the coordinates, in units of ``1 / winding``.
         logs: logarithms of their leading coefficients over one of each group, shape ``(N,)``.
+        bends: derivatives of these logarithms' power series at t = 0, shape ``(N,)``.
     """
 
     winding: int
     orders: tuple[int, ...]
     logs: np.ndarray
+    bends: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,6 +28,8 @@ PROOF = 1e5
 RESIDUAL = 1e-29
 # Leading coefficients of branches that differ by less are the same.
 ALIKE = 1e-9
+# Their next coefficients, over the sum of their sizes.
+BENT = 1e-4
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -270,7 +272,7 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
 
 
 def alike(paths: Paths) -> np.ndarray:
-    """Indices of the paths whose branches have the orders and leading coefficients of another's."""
+    """Indices of the paths whose branches begin like another's, with the first two terms alike."""
     kinds: dict[tuple[Fraction, ...], list[int]] = {}
     for path, branch in paths.branches.items():
         ratios = tuple(Fraction(k, branch.winding) for k in branch.orders)
@@ -281,11 +283,14 @@ def alike(paths: Paths) -> np.ndarray:
             continue
         indices = np.array(members)
         logs = np.array([paths.branches[path].logs for path in members])
+        bends = np.array([paths.branches[path].bends for path in members])
         key = (logs.real + np.cos(logs.imag)) @ np.cos(np.arange(logs.shape[1]) ** 2)
         for i, j in neighbours(key, np.full(len(key), 1e-6)):
             difference = logs[i] - logs[j]
             turns = np.abs(np.exp(1j * difference.imag) - 1)
             same = np.maximum(np.abs(difference.real), turns).max(axis=1) < ALIKE
+            sizes = np.abs(bends[i]).max(axis=1) + np.abs(bends[j]).max(axis=1)
+            same &= np.abs(bends[i] - bends[j]).max(axis=1) <= BENT * sizes
             found.update(indices[i[same]].tolist(), indices[j[same]].tolist())
     return np.array(sorted(found), dtype=np.int64)
 

@@ -177,16 +177,18 @@ def tails(s, r, order, w):
 
 
 def extrapolate(s, r, order, winding):
-    """What each coordinate's logarithm is at r = 0: three complex numbers for each.
+    """What each coordinate's logarithm is at r = 0: four complex numbers for each.
 
     The derivative there, which is the order v, and the last term of its series; the change of the
-    logarithm from here, but for ``w v`` times its first weight, as ``v h`` does not end.
+    logarithm from here and its derivative with respect to r over r here, both but for ``w v`` times
+    their first weight, as ``v h`` does not end.
     """
     w = number.exact(winding)
     for j in range(s.N):
         slope = z.exact(splat(0.0), splat(0.0))
         last = slope
         change = slope
+        bend = slope
         power = number.exact(splat(1.0))
         for k in range(order):
             log = z.stretch(z.read(r.logarithms, k * s.N + j), power)
@@ -195,6 +197,8 @@ def extrapolate(s, r, order, winding):
             power = number.multiply(power, w)
             log = z.stretch(log, w)
             change = z.add(change, z.stretch(log, number.same(s.at_end, k + 1)))
-        z.write(r.limits, 3 * j, slope)
-        z.write(r.limits, 3 * j + 1, last)
-        z.write(r.limits, 3 * j + 2, change)
+            bend = z.add(bend, z.stretch(log, number.same(s.bend_at_end, k + 1)))
+        z.write(r.limits, 4 * j, slope)
+        z.write(r.limits, 4 * j + 1, last)
+        z.write(r.limits, 4 * j + 2, change)
+        z.write(r.limits, 4 * j + 3, bend)

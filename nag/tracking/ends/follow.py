@@ -264,7 +264,7 @@ def _run(
     compiled.prepare()
     system = records.equations(homotopy, words, ORDER)
     batches = max(1, min(threads, len(chosen) // 8))
-    limits = np.zeros((len(chosen), homotopy.N, 3, 2, words))
+    limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
 
     def part(first: int) -> None:
         own = chosen[first::batches]
@@ -273,7 +273,7 @@ def _run(
         points, errors = states.where[own].copy(), np.zeros((count, N))
         safe, safe_t = states.safe[own].copy(), states.safe_t[own].copy()
         t, curvature = states.t[own], states.curvature[own]
-        own_limits = np.zeros((count, N, 3, 2, words))
+        own_limits = np.zeros((count, N, 4, 2, words))
         batch = kernel.Batch(
             count,
             ORDER,
@@ -336,7 +336,7 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
         elif states.outcome[path] == kernel.LIMIT:
             limit = states.limits[path]
             points[path] = limit.point
-            branches[path] = Branch(limit.winding, limit.orders, limit.branch)
+            branches[path] = Branch(limit.winding, limit.orders, limit.branch, limit.bends)
             finite = bool((limit.point[infinite] != 0).all())
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY
             accuracy[path] = max(2e-16, BEYOND * limit.tail)

@@ -88,7 +88,7 @@ class Batch(NamedTuple):
     largest t at which a limit is taken for one.
     ``outcome, winding, steps``: one for each path. ``points``: like ``starts``, the end, or where
     the path is, at ``t``; ``safe, safe_t``: likewise the last point that is known well.
-    ``limits``: of those that have one, see `extrapolate`, shape (count, N, 3, 2, words).
+    ``limits``: of those that have one, see `extrapolate`, shape (count, N, 4, 2, words).
     ``errors``: rounding errors of the coordinates, shape (count, N). ``curvature``: estimate of
     Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
     contraction of Newton's method after it; ``tail``: largest last term of a power series that is
@@ -317,8 +317,8 @@ def _close(s, r, f, lane, b, outcome, data):
             error = r.errors[8 * j + lane] * f[8 * EXCESS + lane]
         b.errors[s.N * path + j] = error
     if outcome == LIMIT:
-        for k in range(3 * numbers):
-            b.limits[3 * numbers * path + k] = r.limits[8 * k + lane]
+        for k in range(4 * numbers):
+            b.limits[4 * numbers * path + k] = r.limits[8 * k + lane]
     f[8 * MODE + lane] = IDLE
 
 

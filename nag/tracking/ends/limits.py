@@ -35,6 +35,8 @@ class Limit:
             ``(N, 2, words)``.
         branch: logarithms of all leading coefficients over the first of least order in their
             group, 0 for coordinates that are not known, shape ``(N,)``.
+        bends: derivatives of the coordinates' logarithms with respect to ``t ** (1 / w)`` at t = 0,
+            less that of the same one of each group, shape ``(N,)``.
         tail: size of the last terms of the power series.
         residual: largest value of an initial form over the sum of its terms.
     """
@@ -44,6 +46,7 @@ class Limit:
     point: np.ndarray
     centre: np.ndarray
     branch: np.ndarray
+    bends: np.ndarray
     tail: float
     residual: float
 
@@ -64,7 +67,7 @@ class Limits:
 
         Args:
             x: coordinates at t, shape ``(N, 2, words)``.
-            found: what `nag.tracking.ends.branch.extrapolate` gives, shape ``(N, 3, 2, words)``.
+            found: what `nag.tracking.ends.branch.extrapolate` gives, shape ``(N, 4, 2, words)``.
             known: which coordinates exceed their rounding errors, shape ``(N,)``.
             t: shape ``(words,)``.
             winding: the w of the power series in ``t^(1/w)``.
@@ -114,13 +117,17 @@ class Limits:
             leading[j] = number(x[j]) * change.exp()
             if not leading[j].is_finite():
                 return None
+        bends = found[:, 3, 0].sum(axis=1) + 1j * found[:, 3, 1].sum(axis=1)
+        rates = np.array([k / denominator if k < NEVER else 0.0 for k in orders])
+        bends = np.where(known, bends - winding * self.order * rates, 0.0)
+        bends = self._relative(bends, orders) / t[0] ** (1.0 / winding)
         winding = denominator
         residual = self._residual(flint, tuple(orders), leading, winding)
         centre = self._centre(orders, leading)
         parts = centre.sum(axis=2)
         point = parts[:, 0] + 1j * parts[:, 1]
         branch = self._branch(orders, leading)
-        return Limit(tuple(orders), winding, point, centre, branch, tail, residual)
+        return Limit(tuple(orders), winding, point, centre, branch, bends, tail, residual)
 
     def _centre(self, orders: list[int], leading: list[Any]) -> np.ndarray:
         centre = np.zeros((self.terms.homotopy.N, 2, self.words))
@@ -132,6 +139,16 @@ class Limits:
             for j in first:
                 centre[j] = doubles(leading[j] / size, self.words)
         return centre
+
+    def _relative(self, values: np.ndarray, orders: list[int]) -> np.ndarray:
+        """Values less that of the first coordinate of least order in each group."""
+        result = np.zeros(len(values), dtype=np.complex128)
+        for indices in self.terms.homotopy.groups:
+            first = min(indices, key=lambda j: (orders[j], j))
+            for j in indices:
+                if orders[j] < NEVER:
+                    result[j] = values[j] - values[first]
+        return result
 
     def _branch(self, orders: list[int], leading: list[Any]) -> np.ndarray:
         logs = np.zeros(self.terms.homotopy.N, dtype=np.complex128)

@@ -24,7 +24,8 @@ class Equations(NamedTuple):
     `composition`. ``at_end``: weights of the coefficients of a series in ``log t`` in its value at
     t = 0, by its power series in t; ``slope_at_end, last_of_slope``: likewise weights of the
     coefficients of order 1 and up in the value of its derivative there, and in that one's last
-    term; ``inverses``: 1 / k.
+    term; ``bend_at_end``: of all its coefficients in its derivative with respect to
+    ``(t / here) ** (1 / w)``; ``inverses``: 1 / k.
     """
 
     N: int
@@ -57,6 +58,7 @@ class Equations(NamedTuple):
     at_end: Reals
     slope_at_end: Reals
     last_of_slope: Reals
+    bend_at_end: Reals
     inverses: Reals
 
 
@@ -203,8 +205,9 @@ def _constants(order: int, count: int) -> tuple[np.ndarray, ...]:
         (k + 1) * sum((-1) ** m * c for m, c in enumerate(rows[k][:-1])) for k in range(order)
     ]
     last = [(k + 1) * rows[k][order - 1] for k in range(order)]
+    bends = [sum(-((-1) ** m) * m * c for m, c in enumerate(row)) for row in rows]
     inverses = [Fraction(1, max(k, 1)) for k in range(MOST_INVERSES)]
-    exact = (_exact_words(numbers, count) for numbers in (at_end, slopes, last, inverses))
+    exact = (_exact_words(numbers, count) for numbers in (at_end, slopes, last, bends, inverses))
     return (composition(order).ravel(), *exact)
 
 
@@ -270,5 +273,5 @@ def room(homotopy: Homotopy, count: int, order: int) -> Room:
         2 * count * order * N,
         2 * count * order * N,
     ]
-    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 5, SCALARS, 4, 1, 6 * count * N]
+    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 5, SCALARS, 4, 1, 8 * count * N]
     return Room(*separate(aligned(sum(sizes)), sizes))
