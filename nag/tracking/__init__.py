@@ -19,7 +19,7 @@ track.RESIDUAL *      1e-29    A homogenising coordinate of a regular end in dou
                                smallest singular value. Others get 32 digits.
 track.ALIKE           1e-9     Leading coefficients of branches that are compared once more, with
                                shorter steps: a jump does not survive those, two branches do.
-track.BENT             1e-4     The same of the coefficients that follow, over the sum of their sizes.
+track.BENT            1e-4     The same of the coefficients that follow, over their sizes together.
 track.AT_INFINITY     1e-10    Homogenising coordinates of finite zeros in `track_regular`, whose
                                systems have generic coefficients.
 kernel.ROUNDING       1e-9     Newton corrections in doubles that need not contract any more.
