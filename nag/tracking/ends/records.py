@@ -123,6 +123,9 @@ MOST_INVERSES = 32
 
 
 def _split(value: Fraction, count: int) -> list[float]:
+    power_of_two = value.denominator & (value.denominator - 1) == 0
+    if power_of_two and abs(value.numerator) < 1 << 53:
+        return [float(value), *[0.0] * (count - 1)]
     parts = []
     for _ in range(count):
         parts.append(float(value))
