@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from nag.algebra.absolute_factors import is_absolutely_irreducible
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
@@ -18,11 +19,12 @@ from nag.decomposition.fibres import Tracker
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.frame import Frame
 from nag.decomposition.hypersurface import NEARER
+from nag.decomposition.irreducible import Class
 from nag.decomposition.isolated import contains, isolated_superset
-from nag.decomposition.orbits import Action, irreducible_orbits
+from nag.decomposition.orbits import Action, Orbit, irreducible_orbits
 from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
-from nag.decomposition.witness import Decomposition, Status, WitnessSet
+from nag.decomposition.witness import Decomposition, PathCounts, Status, WitnessSet
 from nag.tracking.start.scaling import scaled_terms, variable_scales
 
 # An answer that is left open is tried again with other random numbers, if that is not too long.
@@ -161,6 +163,7 @@ def _decompose_once(
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
     all_reduced = Equations(reduced.polynomials, reduced.n)
     all_original = Evaluator.of(system.polynomials, system.n)
+    irreducible = len(equations) == 1 and is_absolutely_irreducible(equations[0], rng)
     components: list[WitnessSet] = []
     for d in sorted(superset.fibres, reverse=True):
         fibres, rows = superset.fibres[d], superset.flag[:d]
@@ -168,7 +171,12 @@ def _decompose_once(
             continue
         if progress is not None:
             progress("splitting", len(components), 0)
-        orbits, spent, doubts = irreducible_orbits(fibres, rows, actions, rng, tracker)
+        if irreducible:
+            # What is proved exactly needs no loops and no trace.
+            orbits = [Orbit(Class(np.arange(sum(map(len, fibres)))))]
+            spent, doubts = PathCounts(), ()
+        else:
+            orbits, spent, doubts = irreducible_orbits(fibres, rows, actions, rng, tracker)
         counts += spent
         notes += [f"dimension {d}: {doubt}" for doubt in doubts]
         sets = []
