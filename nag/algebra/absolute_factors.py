@@ -33,6 +33,8 @@ def is_absolutely_irreducible(f: Polynomial, rng: np.random.Generator) -> bool:
     if not f.exact or f.n < 2 or not 1 <= f.degree <= MOST_DEGREE:
         return False
     plane = _on_a_plane(f, rng)
+    if any(c.denominator % PRIME == 0 for c in plane.terms.values()):
+        return False
     return plane.degree == f.degree and _closed_forms(plane) == 1
 
 
