@@ -17,16 +17,16 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.cutting import NEAR, Cut, Equations, regular_on, sharpen
 from nag.decomposition.factor import Factor, on_flag
-from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, admit
-from nag.decomposition.frame import Frame
 from nag.decomposition.hypersurface import intersect
-from nag.decomposition.membership import HIT, MISS, Membership, is_member
-from nag.decomposition.moving import orthonormal_rows
-from nag.decomposition.slices import random_rows, unit_complex
 from nag.decomposition.superset import Progress, clusters, forbidden
-from nag.decomposition.witness import PathCounts
+from nag.witness.cutting import NEAR, Cut, Equations, regular_on, sharpen
+from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
+from nag.witness.frame import Frame
+from nag.witness.membership import HIT, MISS, Membership, is_member
+from nag.witness.moving import orthonormal_rows
+from nag.witness.slices import random_rows, unit_complex
+from nag.witness.witness import PathCounts
 
 
 @dataclass(frozen=True, eq=False)

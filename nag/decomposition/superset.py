@@ -14,15 +14,15 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.cutting import ON, Cut, Equations, dyadic, leading_power
-from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, admit
 from nag.decomposition.hypersurface import (
     Crossing,
     Sections,
     crossing,
 )
-from nag.decomposition.membership import Membership, is_member
-from nag.decomposition.witness import PathCounts
+from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
+from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
+from nag.witness.membership import Membership, is_member
+from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
