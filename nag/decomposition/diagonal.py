@@ -19,7 +19,8 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.hypersurface import intersect
-from nag.decomposition.superset import Progress, clusters, forbidden
+from nag.decomposition.superset import Progress, forbidden
+from nag.numerics.coincidence import clusters
 from nag.witness.cutting import NEAR, Cut, Equations, regular_on, sharpen
 from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
 from nag.witness.frame import Frame
@@ -229,7 +230,7 @@ def _take(
     rows = result.rows[d] = product.common_rows(flag[:d], common)
     fibres = result.fibres[d] = []
     lost = 0
-    for cluster in clusters(x, accuracy):
+    for cluster in clusters(x, accuracy, SAME):
         best, error = x[cluster[0]], float(accuracy[cluster[0]])
         if admit(best, error, fibres, equations, rows, rng, deflate=False):
             for i in cluster[1:]:
