@@ -15,6 +15,7 @@ ORDER = (
     "tracking",
     "solving",
     "witness",
+    "interpolation",
     "decomposition",
     "mechanism",
     "files",

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from types import ModuleType
 
 import nag
-from nag.cli import bench, decompose, intersect, member, model, sample, solve
+from nag.cli import bench, decompose, eliminate, intersect, member, model, sample, solve
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 
 FROM_COMPONENTS = (
@@ -49,6 +49,14 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         intersect,
         "find the intersection of two components",
         f"Find the intersection of two components. {FROM_COMPONENTS}",
+    ),
+    (
+        "eliminate",
+        eliminate,
+        "find exact equations of a component in some variables",
+        "Find the exact equations that a component's points satisfy in some of the variables, and "
+        "the maps from there to the other variables, by interpolation; prove them where possible. "
+        f"{FROM_COMPONENTS}",
     ),
     (
         "solve",

@@ -1,0 +1,248 @@
+"""The image of a component in some of the variables: its equations, and the way back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.groebner import Ideal, UnfinishedBasis, ideal_of
+from nag.algebra.polynomial import Polynomial
+from nag.interpolation.essential import VariableMap, essential_variables, maps
+from nag.interpolation.point_cloud import Cloud
+from nag.interpolation.proof import (
+    FRESH_POINTS,
+    Substitution,
+    cleared_map,
+    equations_ideal,
+    largest_value,
+    proved_by_reduction,
+    substitution,
+)
+from nag.interpolation.vanishing import (
+    DIGITS,
+    Interpolated,
+    InterpolationError,
+    next_degree,
+    primitive,
+    start,
+)
+from nag.witness.cutting import numerical_corank
+
+# Where no degree is asked for, no higher one is looked at.
+MOST_DEGREE = 12
+SMALL = 1e-5
+
+
+@dataclass(frozen=True, eq=False)
+class ImageIdeal:
+    """What is known of the closure of the image of a component.
+
+    Polynomials have rational coefficients: of a component that is not kept by the conjugation of
+    complex numbers, it is the image together with its conjugate.
+
+    Attributes:
+        variables: names of all variables.
+        coordinates: indices of those that the image is in.
+        dimension: of the image.
+        component_dimension: of the component.
+        degree: degree up to which all polynomials that vanish were found.
+        generators: polynomials in the ``coordinates`` with coprime whole coefficients.
+        generator_proofs: for each, ``"substitution"``, ``"reduction"`` (proofs) or ``"points"``.
+        maps: for those of the other variables that have one.
+        map_proofs: likewise.
+        zeros: dimension and degree of the generators' common zeros; None if not known.
+        defines: whether these are the image but for sets of lower dimension; None if not known.
+        digits: in which the coefficients were recognised.
+        fresh: number of points, and the decimal logarithm of the largest value there, of a test
+            of everything at new points.
+        note: why degrees are missing; empty otherwise.
+    """
+
+    variables: tuple[str, ...]
+    coordinates: tuple[int, ...]
+    dimension: int
+    component_dimension: int
+    degree: int
+    generators: tuple[Polynomial, ...]
+    generator_proofs: tuple[str, ...]
+    maps: tuple[VariableMap, ...]
+    map_proofs: tuple[str, ...]
+    zeros: tuple[int, int] | None
+    defines: bool | None
+    digits: int
+    fresh: tuple[int, float]
+    note: str = ""
+
+    @property
+    def missing(self) -> tuple[int, ...]:
+        """Variables without a map."""
+        known = {*self.coordinates, *(m.variable for m in self.maps)}
+        return tuple(i for i in range(len(self.variables)) if i not in known)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the coordinates."""
+        return tuple(self.variables[i] for i in self.coordinates)
+
+
+def image_ideal(
+    cloud: Cloud,
+    coordinates: Sequence[int] | None = None,
+    degree: int | None = None,
+    polynomial_maps: bool = False,
+    progress: Callable[[str], None] | None = None,
+) -> ImageIdeal:
+    """Equations of the image of a component, and maps from there to the other variables.
+
+    Args:
+        coordinates: indices of variables; essential ones are chosen if there are none.
+        degree: highest degree of the equations; by default the one from which on these define the
+            image, or at least cut it down to its dimension.
+        polynomial_maps: whether only polynomial maps to the other variables are looked for.
+        progress: told what comes next.
+
+    Raises:
+        InterpolationError: if coefficients are not rational.
+        SourceError: if points cannot be sampled.
+    """
+    tell = progress or (lambda _: None)
+    if coordinates is None:
+        tell("choosing essential variables")
+        coordinates = essential_variables(cloud, polynomial_maps)
+    coordinates = tuple(coordinates)
+    dimension = cloud.image_dimension(coordinates)
+    tell("interpolating equations")
+    known, zeros, note = _equations(cloud, coordinates, dimension, degree)
+    tell("interpolating maps")
+    others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
+    found: tuple[VariableMap, ...] = ()
+    if dimension == cloud.source.dimension:
+        found = maps(cloud, known, others, polynomial=polynomial_maps)
+    generators = tuple(primitive(f) for f in known.generators)
+    tell("proving")
+    n = cloud.ambient.system.n
+    statements = [f.with_variables(n, coordinates) for f in generators]
+    statements += [cleared_map(m, n, coordinates) for m in found]
+    proofs = _proofs(cloud, coordinates, generators, found, statements)
+    worst = largest_value(cloud, statements, 2 * max(known.digits, DIGITS[0]))
+    return ImageIdeal(
+        variables=cloud.ambient.system.variables,
+        coordinates=coordinates,
+        dimension=dimension,
+        component_dimension=cloud.source.dimension,
+        degree=known.degree,
+        generators=generators,
+        generator_proofs=tuple(proofs[: len(generators)]),
+        maps=found,
+        map_proofs=tuple(proofs[len(generators) :]),
+        zeros=zeros and (zeros.dimension, zeros.degree),
+        defines=None if zeros is None else _defines(known, zeros, dimension),
+        digits=known.digits,
+        fresh=(FRESH_POINTS, worst),
+        note=note,
+    )
+
+
+def _equations(
+    cloud: Cloud, coordinates: tuple[int, ...], dimension: int, degree: int | None
+) -> tuple[Interpolated, Ideal | None, str]:
+    """All equations up to a degree, the ideal of them, and why some are missing."""
+    known, k = start(coordinates), len(coordinates)
+    names = [cloud.ambient.system.variables[i] for i in coordinates]
+    zeros: Ideal | None = ideal_of((), names)
+    if dimension == k and degree is None:
+        return known, zeros, ""
+    while known.degree < (degree or MOST_DEGREE):
+        try:
+            after = next_degree(cloud, known)
+        except InterpolationError as error:
+            if not known.degree or "rational" in str(error):
+                raise
+            return known, zeros, str(error)
+        fresh = len(after.generators) > len(known.generators)
+        known = after
+        if fresh:
+            zeros = _zeros(known, names)
+        if degree is not None or not _cuts(cloud, known, dimension):
+            continue
+        if zeros is None or _defines(known, zeros, dimension) is not False:
+            return known, zeros, ""
+    note = "" if degree is not None else f"degrees up to {MOST_DEGREE} do not cut out the image"
+    return known, zeros, note
+
+
+def _zeros(known: Interpolated, names: Sequence[str]) -> Ideal | None:
+    try:
+        return ideal_of(known.generators, names)
+    except UnfinishedBasis:
+        return None
+
+
+def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
+    """Whether the generators' gradients at a random point leave the image's tangents alone."""
+    k = len(known.coordinates)
+    if len(known.generators) < k - dimension:
+        return False
+    point = cloud.samples(1)[0].x
+    base = [cloud.ambient.images[i](list(point), complex) for i in known.coordinates]
+    rows = [[f.derivative(i)(base, complex) for i in range(k)] for f in known.generators]
+    gradients = np.array([np.array(row) / max(1e-300, np.linalg.norm(row)) for row in rows])
+    singular = np.linalg.svd(gradients.reshape(len(rows), k), compute_uv=False)
+    return numerical_corank(singular, k, SMALL) == dimension
+
+
+def _defines(known: Interpolated, zeros: Ideal, dimension: int) -> bool | None:
+    """Whether the generators' zeros are the image but for sets of lower dimension.
+
+    The image is irreducible and lies among them, so it is enough that dimension and degree agree.
+    A hypersurface's equation of least degree is irreducible. The degree of a curve is at least the
+    number of functions that one degree more adds (its hyperplane section has no fewer conditions).
+    """
+    k = len(known.coordinates)
+    if zeros.dimension != dimension:
+        return False
+    if dimension >= k - 1 or zeros.degree == 1:
+        return True
+    if dimension != 1:
+        return None
+    return known.counts[-1] - known.counts[-2] >= zeros.degree
+
+
+def _proofs(
+    cloud: Cloud,
+    coordinates: Sequence[int],
+    generators: Sequence[Polynomial],
+    found: Sequence[VariableMap],
+    statements: Sequence[Polynomial],
+) -> list[str]:
+    """What each statement, a polynomial in all variables that vanishes, rests on."""
+    if not statements:
+        return []
+    base = substitution(cloud, coordinates, generators, found) or _essential_base(cloud)
+    ideal = equations_ideal(cloud) if base is None else None
+    proofs = []
+    for f in statements:
+        if base is not None and base.proves(f):
+            proofs.append("substitution")
+        elif ideal is not None and proved_by_reduction(cloud, ideal, f):
+            proofs.append("reduction")
+        else:
+            proofs.append("points")
+    return proofs
+
+
+def _essential_base(cloud: Cloud) -> Substitution | None:
+    """The component as the image of its projection to essential variables, if that is proved."""
+    if cloud.source.exact is None:
+        return None
+    try:
+        coordinates = essential_variables(cloud)
+        dimension = cloud.image_dimension(coordinates)
+        known, _, _ = _equations(cloud, coordinates, dimension, None)
+        others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
+        found = maps(cloud, known, others)
+    except InterpolationError:
+        return None
+    return substitution(cloud, coordinates, known.generators, found)
