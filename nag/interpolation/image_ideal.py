@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.algebra.groebner import Ideal, UnfinishedBasis, ideal_of
+from nag.algebra.hilbert import dimension_and_degree
 from nag.algebra.polynomial import Polynomial
 from nag.interpolation.essential import VariableMap, essential_variables, maps
 from nag.interpolation.point_cloud import Cloud
@@ -24,6 +24,8 @@ from nag.interpolation.vanishing import (
     DIGITS,
     Interpolated,
     InterpolationError,
+    TooManyMonomialsError,
+    leading_monomial,
     next_degree,
     primitive,
     start,
@@ -52,7 +54,8 @@ class ImageIdeal:
         generator_proofs: for each, ``"substitution"``, ``"reduction"`` (proofs) or ``"points"``.
         maps: for those of the other variables that have one.
         map_proofs: likewise.
-        zeros: dimension and degree of the generators' common zeros; None if not known.
+        zeros: dimension of the generators' common zeros, or a bound of it where it is not that of
+            the image, and a bound of their degree.
         defines: whether these are the image but for sets of lower dimension; None if not known.
         digits: in which the coefficients were recognised.
         fresh: number of points, and the decimal logarithm of the largest value there, of a test
@@ -69,7 +72,7 @@ class ImageIdeal:
     generator_proofs: tuple[str, ...]
     maps: tuple[VariableMap, ...]
     map_proofs: tuple[str, ...]
-    zeros: tuple[int, int] | None
+    zeros: tuple[int, int]
     defines: bool | None
     digits: int
     fresh: tuple[int, float]
@@ -114,7 +117,7 @@ def image_ideal(
     coordinates = tuple(coordinates)
     dimension = cloud.image_dimension(coordinates)
     tell("interpolating equations")
-    known, zeros, note = _equations(cloud, coordinates, dimension, degree)
+    known, note = _equations(cloud, coordinates, dimension, degree)
     tell("interpolating maps")
     others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
     found: tuple[VariableMap, ...] = ()
@@ -125,7 +128,7 @@ def image_ideal(
     n = cloud.ambient.system.n
     statements = [f.with_variables(n, coordinates) for f in generators]
     statements += [cleared_map(m, n, coordinates) for m in found]
-    proofs = _proofs(cloud, coordinates, generators, found, statements)
+    proofs = _proofs(cloud, known, found, statements)
     worst = largest_value(cloud, statements, 2 * max(known.digits, DIGITS[0]))
     return ImageIdeal(
         variables=cloud.ambient.system.variables,
@@ -137,8 +140,8 @@ def image_ideal(
         generator_proofs=tuple(proofs[: len(generators)]),
         maps=found,
         map_proofs=tuple(proofs[len(generators) :]),
-        zeros=zeros and (zeros.dimension, zeros.degree),
-        defines=None if zeros is None else _defines(known, zeros, dimension),
+        zeros=_zeros(known),
+        defines=_defines(known, dimension),
         digits=known.digits,
         fresh=(FRESH_POINTS, worst),
         note=note,
@@ -147,37 +150,23 @@ def image_ideal(
 
 def _equations(
     cloud: Cloud, coordinates: tuple[int, ...], dimension: int, degree: int | None
-) -> tuple[Interpolated, Ideal | None, str]:
-    """All equations up to a degree, the ideal of them, and why some are missing."""
+) -> tuple[Interpolated, str]:
+    """All equations up to a degree, and why some are missing."""
     known, k = start(coordinates), len(coordinates)
-    names = [cloud.ambient.system.variables[i] for i in coordinates]
-    zeros: Ideal | None = ideal_of((), names)
     if dimension == k and degree is None:
-        return known, zeros, ""
+        return known, ""
     while known.degree < (degree or MOST_DEGREE):
         try:
-            after = next_degree(cloud, known)
-        except InterpolationError as error:
-            if not known.degree or "rational" in str(error):
+            known = next_degree(cloud, known)
+        except TooManyMonomialsError as error:
+            if not known.degree:
                 raise
-            return known, zeros, str(error)
-        fresh = len(after.generators) > len(known.generators)
-        known = after
-        if fresh:
-            zeros = _zeros(known, names)
-        if degree is not None or not _cuts(cloud, known, dimension):
-            continue
-        if zeros is None or _defines(known, zeros, dimension) is not False:
-            return known, zeros, ""
+            return known, str(error)
+        cut = degree is None and _cuts(cloud, known, dimension)
+        if cut and _defines(known, dimension) is not False:
+            return known, ""
     note = "" if degree is not None else f"degrees up to {MOST_DEGREE} do not cut out the image"
-    return known, zeros, note
-
-
-def _zeros(known: Interpolated, names: Sequence[str]) -> Ideal | None:
-    try:
-        return ideal_of(known.generators, names)
-    except UnfinishedBasis:
-        return None
+    return known, note
 
 
 def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
@@ -193,34 +182,43 @@ def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
     return numerical_corank(singular, k, SMALL) == dimension
 
 
-def _defines(known: Interpolated, zeros: Ideal, dimension: int) -> bool | None:
+def _zeros(known: Interpolated) -> tuple[int, int]:
+    """Dimension of the equations' common zeros, and a bound of their degree.
+
+    Those of the leading monomials that are known. The zeros lie in no smaller dimension than the
+    image; where the dimensions agree, their degree is at most that of these monomials.
+    """
+    monomials = [leading_monomial(f) for f in known.basis]
+    return dimension_and_degree(monomials, len(known.coordinates))
+
+
+def _defines(known: Interpolated, dimension: int) -> bool | None:
     """Whether the generators' zeros are the image but for sets of lower dimension.
 
     The image is irreducible and lies among them, so it is enough that dimension and degree agree.
     A hypersurface's equation of least degree is irreducible. The degree of a curve is at least the
     number of functions that one degree more adds (its hyperplane section has no fewer conditions).
     """
-    k = len(known.coordinates)
-    if zeros.dimension != dimension:
+    k, zeros = len(known.coordinates), _zeros(known)
+    if zeros[0] != dimension:
         return False
-    if dimension >= k - 1 or zeros.degree == 1:
+    if dimension >= k - 1 or zeros[1] == 1:
         return True
     if dimension != 1:
         return None
-    return known.counts[-1] - known.counts[-2] >= zeros.degree
+    return known.counts[-1] - known.counts[-2] >= zeros[1]
 
 
 def _proofs(
     cloud: Cloud,
-    coordinates: Sequence[int],
-    generators: Sequence[Polynomial],
+    known: Interpolated,
     found: Sequence[VariableMap],
     statements: Sequence[Polynomial],
 ) -> list[str]:
     """What each statement, a polynomial in all variables that vanishes, rests on."""
     if not statements:
         return []
-    base = substitution(cloud, coordinates, generators, found) or _essential_base(cloud)
+    base = _base(cloud, known, found) or _essential_base(cloud)
     ideal = equations_ideal(cloud) if base is None else None
     proofs = []
     for f in statements:
@@ -240,9 +238,13 @@ def _essential_base(cloud: Cloud) -> Substitution | None:
     try:
         coordinates = essential_variables(cloud)
         dimension = cloud.image_dimension(coordinates)
-        known, _, _ = _equations(cloud, coordinates, dimension, None)
+        known, _ = _equations(cloud, coordinates, dimension, None)
         others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
         found = maps(cloud, known, others)
     except InterpolationError:
         return None
-    return substitution(cloud, coordinates, known.generators, found)
+    return _base(cloud, known, found)
+
+
+def _base(cloud: Cloud, known: Interpolated, found: Sequence[VariableMap]) -> Substitution | None:
+    return substitution(cloud, known.coordinates, known.generators, known.basis, found)

@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
-from typing import Any
 
 import flint
 
-from nag.algebra.groebner import Ideal, UnfinishedBasis, cleared, ideal_of, quotient
+from nag.algebra.division import Divisor, divisor, remainder
+from nag.algebra.groebner import Ideal, UnfinishedBasis, cleared, ideal_of
+from nag.algebra.multipliers import multipliers
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.rational_function import RationalFunction
+from nag.algebra.rational_function import FunctionField, RationalFunction
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.point_cloud import Cloud
 from nag.numerics.digits import number
@@ -20,8 +21,8 @@ from nag.numerics.digits import number
 FRESH_POINTS = 30
 # Groebner bases of larger systems are not begun.
 MOST_VARIABLES, MOST_SOLUTIONS = 10, 64
-# Factors of larger polynomials are not looked for.
-MOST_QUOTIENT_TERMS = 60
+# Degree and number of monomials of the factors that carry a polynomial into an ideal.
+MOST_FACTOR_DEGREE, MOST_FACTOR_TERMS = 3, 120
 # Powers of a polynomial that vanishes on a multiple component.
 MOST_POWER = 2
 # Values on a component above this are not zero.
@@ -34,22 +35,24 @@ class Substitution:
     """A component as the image of a variety under proved maps.
 
     Attributes:
-        ideal: of the variety.
+        divisors: polynomials that vanish on the variety.
         values: all variables as rational functions on it.
     """
 
-    ideal: Ideal
+    divisors: tuple[Divisor, ...]
     values: tuple[RationalFunction, ...]
 
     def proves(self, f: Polynomial) -> bool:
-        """Whether a polynomial in all variables is in the ideal with the maps put in."""
-        return self.ideal.contains([f(self.values, self.ideal.field).numerator])
+        """Whether the divisors divide a polynomial in all variables, with the maps put in."""
+        field = self.values[0].field
+        return remainder(f(self.values, field).numerator, self.divisors, len(field.names)) == 0
 
 
 def substitution(
     cloud: Cloud,
     coordinates: Sequence[int],
     generators: Sequence[Polynomial],
+    basis: Sequence[Polynomial],
     maps: Sequence[VariableMap],
 ) -> Substitution | None:
     """The component as the image of the generators' zeros, if that is proved exactly.
@@ -59,6 +62,10 @@ def substitution(
     smooth of dimension d. With the maps, regular at r and with the right values there, put for
     the variables, all equations lie in the ideal of the generators: the maps carry Z to solutions
     through r, of dimension d, and that can only be the component.
+
+    Args:
+        basis: elements of the generators' ideal, of its Groebner basis as far as that is known;
+            what they divide without remainder lies in the ideal.
     """
     ambient, point = cloud.ambient, cloud.source.exact
     d, k = cloud.source.dimension, len(coordinates)
@@ -72,16 +79,13 @@ def substitution(
         below = m.denominator(base)
         if below == 0 or m.numerator(base) != below * full[m.variable]:
             return None
-    try:
-        ideal = ideal_of(generators, [ambient.system.variables[i] for i in coordinates])
-    except UnfinishedBasis:
-        return None
-    field = ideal.field
+    field = FunctionField([ambient.system.variables[i] for i in coordinates], "degrevlex")
+    divisors = tuple(divisor(cleared(f, field), k) for f in basis)
     values = dict(zip(coordinates, field.variables, strict=True))
     for m in maps:
         above, below = (f(field.variables, field) for f in (m.numerator, m.denominator))
         values[m.variable] = above / below
-    found = Substitution(ideal, tuple(values[i] for i in range(ambient.system.n)))
+    found = Substitution(divisors, tuple(values[i] for i in range(ambient.system.n)))
     return found if all(map(found.proves, ambient.system.polynomials)) else None
 
 
@@ -113,28 +117,22 @@ def proved_by_reduction(cloud: Cloud, ideal: Ideal, f: Polynomial) -> bool:
         ideal: of all equations.
         f: in all variables.
     """
-    whole = cleared(f, ideal.field)
-    if ideal.contains([whole]):
-        return True
-    if len(f.terms) > MOST_QUOTIENT_TERMS:
-        return False
     (point,) = cloud.balls(1, DIGITS)
-    factors = ideal
-    for _ in range(MOST_POWER):
-        try:
-            factors = quotient(factors, whole)
-        except UnfinishedBasis:
-            return False
-        with flint.ctx.workdps(DIGITS):
-            if any(abs(_value(s, point)) > NONZERO for s in factors.basis):
-                return True
+    for power in range(1, MOST_POWER + 1):
+        for degree in range(MOST_FACTOR_DEGREE + 1):
+            factors = multipliers(ideal, f**power, degree, MOST_FACTOR_TERMS)
+            if factors is None:
+                break
+            with flint.ctx.workdps(DIGITS):
+                if any(_value(s, point) > NONZERO for s in factors):
+                    return True
     return False
 
 
-def _value(f: Any, point: Sequence[flint.acb]) -> flint.acb:
-    """Value of one of FLINT's polynomials."""
-    terms = {tuple(map(int, e)): Fraction(int(c)) for e, c in f.to_dict().items()}
-    return flint.acb(Polynomial(len(point), terms)(point, number))
+def _value(f: Polynomial, point: Sequence[flint.acb]) -> flint.arb:
+    """Size of a value beside the largest coefficient."""
+    largest = max(abs(c) for c in f.terms.values())
+    return abs(flint.acb((f / largest)(point, number)))
 
 
 def cleared_map(m: VariableMap, n: int, coordinates: Sequence[int]) -> Polynomial:

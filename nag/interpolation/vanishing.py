@@ -15,6 +15,7 @@ from math import comb, gcd, lcm
 
 import flint
 
+from nag.algebra.multipliers import order
 from nag.algebra.polynomial import Polynomial
 from nag.interpolation.point_cloud import Cloud, Exponents, monomial_values, real_rows
 from nag.numerics.rational_relations import Echelon, TooFewDigitsError
@@ -23,12 +24,18 @@ from nag.numerics.rational_relations import Echelon, TooFewDigitsError
 DIGITS = (100, 250, 700)
 # More monomials cost more time than anybody waits for.
 MOST_MONOMIALS = 400
+# Entries of a matrix of multiples of equations.
+MOST_ENTRIES = 4_000_000
 # Points beyond those that make the columns as long as they are many.
 MORE_POINTS = 6
 
 
 class InterpolationError(ValueError):
     """Polynomials that are not found, with the reason in one line."""
+
+
+class TooManyMonomialsError(InterpolationError):
+    """A degree with more monomials than are looked at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +96,8 @@ def next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
     """The polynomials of one degree more.
 
     Raises:
-        InterpolationError: if there are too many monomials, or coefficients are not rational.
+        TooManyMonomialsError: if there are too many monomials.
+        InterpolationError: if coefficients are not rational.
     """
     k, degree = len(known.coordinates), known.degree + 1
     leading = [leading_monomial(f) for f in known.basis]
@@ -132,8 +140,8 @@ def next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
     )
 
 
-def _too_many(count: int, degree: int, variables: int) -> InterpolationError:
-    return InterpolationError(
+def _too_many(count: int, degree: int, variables: int) -> TooManyMonomialsError:
+    return TooManyMonomialsError(
         f"{count} monomials of degree up to {degree} in {variables} variables are more than "
         f"{MOST_MONOMIALS}; project to fewer variables or take a lower degree"
     )
@@ -159,7 +167,7 @@ def _split(
 
 def leading_monomial(f: Polynomial) -> Exponents:
     """The largest monomial in the graded reverse lexicographic order."""
-    return max(f.terms, key=lambda e: (sum(e), tuple(-k for k in reversed(e))))
+    return max(f.terms, key=order)
 
 
 def divides(e: Exponents, f: Exponents) -> bool:
@@ -182,10 +190,21 @@ def _new_generators(
     """Those of ``new``, all of one degree, that do not lie in the span of multiples of the others.
 
     Multiples of ``known`` by monomials count up to ``degree``; ranks are exact.
+
+    Raises:
+        TooManyMonomialsError: if there are too many multiples.
     """
-    if not known:
+    if not known or not new:
         return list(new)
     k = known[0].n
+    columns = comb(k + degree, degree)
+    count = sum(comb(k + degree - f.degree, k) for f in known) + len(new)
+    if count * columns > MOST_ENTRIES:
+        raise TooManyMonomialsError(
+            f"{columns} monomials of degree up to {degree} in {k} variables are too many to tell "
+            "which equations are multiples of others; project to fewer variables or take a lower "
+            "degree"
+        )
     rows = []
     for f in known:
         for e in (e for d in range(degree - f.degree + 1) for e in monomials_of_degree(k, d)):
@@ -194,13 +213,13 @@ def _new_generators(
     for f in (*rows, *new):
         for e in f.terms:
             place.setdefault(e, len(place))
+    rank, most = _rank(rows, place), _rank([*rows, *new], place)
     kept: list[Polynomial] = []
-    rank = _rank(rows, place)
     for f in new:
-        more = _rank([*rows, *kept, f], place)
-        if more > rank:
+        if rank + len(kept) == most:
+            break
+        if _rank([*rows, *kept, f], place) > rank + len(kept):
             kept.append(f)
-            rank = more
     return kept
 
 

@@ -92,16 +92,15 @@ def image_text(found: ImageIdeal) -> str:
     text = f"dimension {found.dimension}"
     if found.dimension == len(found.coordinates):
         return f"{text}: no polynomial vanishes on it"
-    if found.defines:
-        assert found.zeros is not None
-        return (
-            f"{text}, degree {found.zeros[1]}: the equations have no other zeros but for sets of "
-            "lower dimension"
-        )
-    if found.zeros is None:
-        return f"{text}; the equations' common zeros were not worked out"
     dimension, degree = found.zeros
-    text += f"; the equations' common zeros have dimension {dimension} and degree {degree}"
+    if found.defines:
+        return (
+            f"{text}, degree {degree}: the equations have no other zeros but for sets of lower "
+            "dimension"
+        )
     if found.defines is None:
-        return f"{text}, the image is one component of them"
-    return f"{text}, equations of higher degree are missing"
+        return (
+            f"{text}; the equations' common zeros have this dimension and a degree of at most "
+            f"{degree}, the image is one component of them"
+        )
+    return f"{text}; the equations may have other zeros of dimension up to {dimension}"
