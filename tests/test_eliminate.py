@@ -236,13 +236,27 @@ def test_bad_input_gets_one_line(tmp_path, capsys, equations, argv, part) -> Non
 
 
 def test_too_many_monomials_are_refused_before_they_are_made(tmp_path, capsys) -> None:
-    argv = ["eliminate", str(CASES / "bricard-cube.toml"), "--quiet", "--degree", "100"]
-    assert main([*argv, "--onto", "a0,b0,b1,b2,b3,c0,c1,c2"]) == 1
-    out = capsys.readouterr().out
-    assert "open" in out and "are more than 400" in " ".join(out.split())
+    names = [f"v{i}" for i in range(30)]
+    squares = " + ".join(f"{name}^2" for name in names)
+    case = tmp_path / "sphere.toml"
+    case.write_text(
+        f'title = "Sphere"\nkind = "system"\nvariables = {names}\nequations = ["{squares} = 1"]\n'
+    )
+    at = ", ".join(f"{name} = {int(name == 'v0')}" for name in names)
+    argv = ["eliminate", str(case), "--quiet", "--at", at, "--onto", ",".join(names)]
+    assert main(argv) == 1
+    out = " ".join(capsys.readouterr().out.split())
+    assert "open 496 monomials of degree up to 2 in 30 variables are more than 400" in out
 
 
 def test_an_unknown_variable_of_a_mechanism_names_the_formulation(capsys) -> None:
     case = str(CASES / "bricard-cube.toml")
     assert main(["eliminate", case, "--quiet", "--formulation", "H", "--onto", "a0"]) == 2
     assert "--formulation E has Euler parameters" in capsys.readouterr().err
+
+
+def test_the_model_says_whose_the_variables_are(capsys) -> None:
+    assert main(["model", str(CASES / "bennett.toml"), "--formulation", "E"]) == 0
+    out = capsys.readouterr().out
+    assert "Euler parameters a0 to a3 of B1, b0 to b3 of B2, c0 to c3 of B3" in out
+    assert "  a0 = 6/5*a1, a2 = -171/478*a3, c0 = 5/2*c1, c2 = 2/5*c3\n" in out

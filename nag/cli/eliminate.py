@@ -113,7 +113,7 @@ def _lines(
     from nag.report.elimination import elimination_lines, essential_text, image_text
     from nag.report.table import labelled, printable
 
-    head = [*top, ("onto", f"{', '.join(found.names)}, degrees up to {found.degree}")]
+    head = [*top, ("onto", _onto_text(found))]
     head += [("image", image_text(found)), ("essential", essential_text(found))]
     points, worst = found.fresh
     tail = [
@@ -127,13 +127,19 @@ def _lines(
         ),
         (
             "run",
-            f"seed {options.seed}, settings {options.settings}, coefficients recognised in "
-            f"{found.digits} digits, {time.perf_counter() - started:.1f} s",
+            f"seed {options.seed}, settings {options.settings}, "
+            + (f"coefficients recognised in {found.digits} digits, " if found.digits else "")
+            + f"{time.perf_counter() - started:.1f} s",
         ),
     ]
     width = max(len(label) for label, _ in head + tail)
     lines = [printable(title), "", *labelled(head, width), "", *elimination_lines(found), ""]
     return [*lines, *labelled(tail, width)]
+
+
+def _onto_text(found: ImageIdeal) -> str:
+    names = ", ".join(found.names)
+    return f"{names}, degrees up to {found.degree}" if found.degree else names
 
 
 def _onto(text: str | None, variables: tuple[str, ...]) -> tuple[int, ...] | None:
@@ -163,6 +169,7 @@ def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled
 
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import source_of_component
+    from nag.report.answer import body_rows
     from nag.witness.fibres import Tracker
 
     rng = np.random.default_rng([options.seed, 4])
@@ -172,7 +179,7 @@ def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled
         if options.component is None and options.formulation is None:
             options.formulation = _euler(options)
         case, model = read_problem(options)
-        top = _bodies(model) if model is not None else []
+        top = body_rows(model) if model is not None else []
         if options.at is not None or (model is not None and options.component is None):
             return _through_point(options, case, model, rng, tracker, top)
     elif options.at is not None:
@@ -244,21 +251,6 @@ def _ambient(model: Model) -> Ambient:
         return Ambient.itself(model.system)
     names, kept = elimination.original_variables, elimination.kept
     return Ambient.of(model.system, names, kept, elimination.images)
-
-
-def _bodies(model: Model) -> Labelled:
-    """Which variables belong to which body."""
-    elimination = getattr(model.form, "elimination", None)
-    if elimination is None:
-        return []
-    names, bodies = elimination.original_variables, model.structure.moving
-    each = len(names) // len(bodies)
-    parts = []
-    for i, body in enumerate(bodies):
-        own = names[each * i : each * i + each]
-        parts.append(f"{f'{own[0]} to {own[-1]}' if each > 2 else ', '.join(own)} of {body}")
-    kind = "Euler parameters" if each == 4 else "cosine and sine"
-    return [("variables", f"{kind} {', '.join(parts)}")]
 
 
 def _document(

@@ -153,7 +153,7 @@ def _equations(
 ) -> tuple[Interpolated, str]:
     """All equations up to a degree, and why some are missing."""
     known, k = start(coordinates), len(coordinates)
-    if dimension == k and degree is None:
+    if dimension == k:
         return known, ""
     while known.degree < (degree or MOST_DEGREE):
         try:
