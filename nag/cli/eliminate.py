@@ -285,6 +285,7 @@ def _document(
         "maps": maps,
         "missing": [found.variables[i] for i in found.missing],
         "zeros": {"dimension": found.zeros[0], "degree": found.zeros[1]},
+        "cuts": found.cuts,
         "defines": found.defines,
         "digits": found.digits,
         "fresh": {"points": found.fresh[0], "digits": max(0, round(-found.fresh[1]))}

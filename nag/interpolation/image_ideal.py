@@ -34,6 +34,9 @@ from nag.witness.cutting import numerical_corank
 
 # Where no degree is asked for, no higher one is looked at.
 MOST_DEGREE = 12
+# Degrees beyond the one that makes a curve a component of the zeros, while there are not more
+# independent functions than this, to learn whether it is the only one.
+MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
 SMALL = 1e-5
 
 
@@ -56,7 +59,8 @@ class ImageIdeal:
         map_proofs: likewise.
         zeros: dimension of the generators' common zeros, or a bound of it where it is not that of
             the image, and a bound of their degree.
-        defines: whether these are the image but for sets of lower dimension; None if not known.
+        cuts: whether the image is a component of these.
+        defines: whether it is certain that these are the image but for sets of lower dimension.
         digits: in which the coefficients were recognised.
         fresh: number of points, and the decimal logarithm of the largest value there, of a test
             of everything at new points.
@@ -73,7 +77,8 @@ class ImageIdeal:
     maps: tuple[VariableMap, ...]
     map_proofs: tuple[str, ...]
     zeros: tuple[int, int]
-    defines: bool | None
+    cuts: bool
+    defines: bool
     digits: int
     fresh: tuple[int, float]
     note: str = ""
@@ -141,6 +146,7 @@ def image_ideal(
         maps=found,
         map_proofs=tuple(proofs[len(generators) :]),
         zeros=_zeros(known),
+        cuts=_cuts(cloud, known, dimension),
         defines=_defines(known, dimension),
         digits=known.digits,
         fresh=(FRESH_POINTS, worst),
@@ -155,25 +161,31 @@ def _equations(
     known, k = start(coordinates), len(coordinates)
     if dimension == k:
         return known, ""
-    while known.degree < (degree or MOST_DEGREE):
+    last = cut_at = degree or MOST_DEGREE
+    while known.degree < last:
         try:
             known = next_degree(cloud, known)
         except TooManyMonomialsError as error:
             if not known.degree:
                 raise
-            return known, str(error)
-        cut = degree is None and _cuts(cloud, known, dimension)
-        if cut and _defines(known, dimension) is not False:
+            return known, "" if cut_at < MOST_DEGREE and degree is None else str(error)
+        if degree is not None or not _cuts(cloud, known, dimension):
+            continue
+        cut_at = min(cut_at, known.degree)
+        enough = dimension > 1 or len(known.standard) > ENOUGH_MONOMIALS
+        if enough or _defines(known, dimension):
             return known, ""
-    note = "" if degree is not None else f"degrees up to {MOST_DEGREE} do not cut out the image"
-    return known, note
+        last = min(last, cut_at + MORE_DEGREES)
+    cut = _cuts(cloud, known, dimension)
+    missing = f"equations up to degree {known.degree} do not cut out the image"
+    return known, "" if cut or degree is not None else missing
 
 
 def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
     """Whether the generators' gradients at a random point leave the image's tangents alone."""
     k = len(known.coordinates)
-    if len(known.generators) < k - dimension:
-        return False
+    if dimension == k or len(known.generators) < k - dimension:
+        return dimension == k
     point = cloud.samples(1)[0].x
     base = [cloud.ambient.images[i](list(point), complex) for i in known.coordinates]
     rows = [[f.derivative(i)(base, complex) for i in range(k)] for f in known.generators]
@@ -192,8 +204,8 @@ def _zeros(known: Interpolated) -> tuple[int, int]:
     return dimension_and_degree(monomials, len(known.coordinates))
 
 
-def _defines(known: Interpolated, dimension: int) -> bool | None:
-    """Whether the generators' zeros are the image but for sets of lower dimension.
+def _defines(known: Interpolated, dimension: int) -> bool:
+    """Whether it is certain that the image is all of the zeros but for sets of lower dimension.
 
     The image is irreducible and lies among them, so it is enough that dimension and degree agree.
     A hypersurface's equation of least degree is irreducible. The degree of a curve is at least the
@@ -204,9 +216,7 @@ def _defines(known: Interpolated, dimension: int) -> bool | None:
         return False
     if dimension >= k - 1 or zeros[1] == 1:
         return True
-    if dimension != 1:
-        return None
-    return known.counts[-1] - known.counts[-2] >= zeros[1]
+    return dimension == 1 and known.counts[-1] - known.counts[-2] >= zeros[1]
 
 
 def _proofs(

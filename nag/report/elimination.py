@@ -92,15 +92,11 @@ def image_text(found: ImageIdeal) -> str:
     text = f"dimension {found.dimension}"
     if found.dimension == len(found.coordinates):
         return f"{text}: no polynomial vanishes on it"
-    dimension, degree = found.zeros
     if found.defines:
         return (
-            f"{text}, degree {degree}: the equations have no other zeros but for sets of lower "
-            "dimension"
+            f"{text}, degree {found.zeros[1]}: the equations have no other zeros but for sets of "
+            "lower dimension"
         )
-    if found.defines is None:
-        return (
-            f"{text}; the equations' common zeros have this dimension and a degree of at most "
-            f"{degree}, the image is one component of them"
-        )
-    return f"{text}; the equations may have other zeros of dimension up to {dimension}"
+    if found.cuts:
+        return f"{text}: a component of the equations' common zeros; there may be others"
+    return f"{text}: equations of higher degree are missing"
