@@ -9,10 +9,10 @@ from llvmlite import binding
 
 from nag.machine_code.functions import Module
 from nag.machine_code.target import ENTRY, Processor, object_code
-from nag.tracking.ends.kernel import KERNELS
-from nag.tracking.kernel import track_lanes
+from nag.solving.start.mixed_cells import _kernel as cells
+from nag.tracking.ends.end_run import KERNELS
 from nag.tracking.newton_kernel import newton_lanes
-from nag.tracking.start.mixed_cells import _kernel as cells
+from nag.tracking.straight_run import track_lanes
 
 ALL = {
     "track": track_lanes,

@@ -15,7 +15,7 @@ from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import LANES, aligned, load, store
 from nag.machine_code.records import Reals, Table, Wholes
 from nag.machine_code.target import processor
-from nag.tracking.solve import solve
+from nag.solving.solve import solve
 
 
 def copy(record: Any) -> Any:
