@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.machine_code import plain
@@ -61,7 +61,6 @@ def whole_numbers(m: Memory) -> None:
 _whole_numbers = Kernel(whole_numbers, None)
 
 
-@settings(deadline=None)
 @given(st.integers(-(2**30), 2**30), st.integers(-(2**30), 2**30).filter(bool))
 def test_whole_numbers_are_divided_as_in_python(a: int, b: int) -> None:
     memory = _memory()
@@ -93,7 +92,6 @@ def complex_numbers(m: Memory) -> None:
 _complex_numbers = Kernel(complex_numbers, None)
 
 
-@settings(deadline=None)
 @given(NUMBERS, NUMBERS, NUMBERS, NUMBERS)
 def test_complex_numbers_are_pythons(a: float, b: float, c: float, d: float) -> None:
     memory = _memory()

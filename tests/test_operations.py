@@ -86,7 +86,7 @@ def test_a_given_slice_shows_the_points_that_algebra_says() -> None:
 
 
 @given(seed=st.integers(0, 2**32))
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 def test_moving_away_and_back_leads_to_the_same_points(seed: int) -> None:
     component = only(CUBIC)
     slice_ = to_slice(random_rows(np.random.default_rng(seed), 1, 3))
