@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from systems import system
 
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose, memberships, project, witness_at
 from nag.witness import membership as membership_module
@@ -17,11 +17,6 @@ from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import PathCounts, Slice, Status, WitnessSet
 
 MEMBER, FOREIGN, UNDECIDED = Membership.MEMBER, Membership.FOREIGN, Membership.UNDECIDED
-
-
-def system(variables: str, *equations: str) -> PolynomialSystem:
-    names = tuple(variables.split())
-    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
 
 
 def only(of: PolynomialSystem) -> WitnessSet:

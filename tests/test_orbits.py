@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from systems import system
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
-from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
 from nag.decomposition.monodromy import located
 from nag.decomposition.orbits import Action, irreducible_orbits, join
@@ -24,11 +23,6 @@ from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
 
 CASES = Path(__file__).parent.parent / "cases"
-
-
-def system(variables: str, *equations: str) -> PolynomialSystem:
-    names = tuple(variables.split())
-    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
 
 
 def symmetry(variables: str, **images: str) -> SignedPermutation:
@@ -157,7 +151,7 @@ def test_a_missing_point_is_noticed() -> None:
     rng, tracker = np.random.default_rng(0), Tracker()
     flag = random_rows(rng, 2, 2)
     fibres = witness_superset(equations, 2, (), flag, rng, tracker).fibres[1]
-    action = Action.of(swap, np.eye(2), np.zeros(2), (0, 1))
+    action = Action.of(swap, np.eye(2), np.zeros(2), (0, 1), np.ones(2))
     orbits, _, notes = irreducible_orbits(fibres, flag[:1], [action], rng, tracker)
     assert [len(o.carriers) for o in orbits] == [1, 1] and not notes
     (fibre,) = fibres

@@ -7,9 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from systems import system
 
-from nag.algebra.expression import parse_polynomial
-from nag.algebra.system import PolynomialSystem
 from nag.machine_code import plain
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import LANES, aligned, load, store
@@ -63,19 +62,17 @@ def compared(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
     return runs
 
 
-def system(*equations: str) -> PolynomialSystem:
-    return PolynomialSystem(("x", "y"), tuple(parse_polynomial(e, ("x", "y")) for e in equations))
-
-
 def test_paths_to_regular_ends_are_the_same(compared: Counter[str]) -> None:
-    result = solve(system("x^2 + y^2 - 5", "x*y - 2"), start="total")
+    result = solve(system("x y", "x^2 + y^2 - 5", "x*y - 2"), start="total")
     assert len(result.solutions) == 4
     assert {"track_batch", "newton_batch"} <= set(compared)
 
 
 def test_paths_to_singular_ends_are_the_same(compared: Counter[str]) -> None:
     # The conics touch at (1, 0).
-    result = solve(system("x^2 + y^2 - 1", "2*x^2 + y^2 + 2*x*y - 4*x - 2*y + 2"), start="total")
+    result = solve(
+        system("x y", "x^2 + y^2 - 1", "2*x^2 + y^2 + 2*x*y - 4*x - 2*y + 2"), start="total"
+    )
     assert sorted(s.multiplicity for s in result.solutions) == [1, 1, 2]
     assert "follow_batch.nag.tracking.numbers.double_double" in compared
 
@@ -127,6 +124,6 @@ def test_numbers_of_another_type_are_not_stored() -> None:
 
 
 def test_mixed_cells_are_the_same(compared: Counter[str]) -> None:
-    result = solve(system("x^2*y - 3*x + 1", "x*y^2 + 2*y - 5 + x"), start="polyhedral")
+    result = solve(system("x y", "x^2*y - 3*x + 1", "x*y^2 + 2*y - 5 + x"), start="polyhedral")
     assert len(result.solutions) == 4
     assert "follow_cells" in compared

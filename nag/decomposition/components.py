@@ -143,11 +143,12 @@ def _decompose_once(
     """One attempt; ``isolated``: at a finite set of simple points, all found at once."""
     elimination = eliminate_linear(system, graphs=False)
     reduced, frame = elimination.system, Frame.of(elimination)
-    if not symmetries:
-        reduced, scales = scaled_system(reduced)
-        frame = frame.scaled(scales)
+    reduced, scales = scaled_system(reduced)
+    frame = frame.scaled(scales)
     actions = [
-        Action.of(g, frame.T, frame.t, frame.positions) for g in symmetries if not g.is_identity
+        Action.of(g, frame.T, frame.t, frame.positions, frame.scales)
+        for g in symmetries
+        if not g.is_identity
     ]
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]

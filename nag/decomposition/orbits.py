@@ -42,11 +42,20 @@ class Action:
 
     @classmethod
     def of(
-        cls, symmetry: SignedPermutation, T: np.ndarray, t: np.ndarray, kept: Sequence[int]
+        cls,
+        symmetry: SignedPermutation,
+        T: np.ndarray,
+        t: np.ndarray,
+        kept: Sequence[int],
+        scales: np.ndarray,
     ) -> Action:
-        """The action on y where ``x = T y + t`` and y are the coordinates ``kept`` of x."""
+        """The action on y where ``x = T y + t``, and y times ``scales`` the coordinates ``kept``.
+
+        These have no constants of their own in t.
+        """
         kept = list(kept)
-        return cls(symmetry, symmetry.of_point(T.T).T[kept], symmetry.of_point(t)[kept])
+        images = symmetry.of_point(T.T).T[kept], symmetry.of_point(t)[kept]
+        return cls(symmetry, images[0] / scales[:, None], images[1] / scales)
 
     def __call__(self, y: np.ndarray) -> np.ndarray:
         """Images of points, shape ``(P, n)``."""
