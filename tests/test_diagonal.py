@@ -6,32 +6,31 @@ import numpy as np
 import pytest
 from systems import system
 
-from nag.algebra.elimination import eliminate_linear
-from nag.algebra.evaluation import Evaluator
-from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
-from nag.decomposition.diagonal import Common, Meeting, meeting
+from nag.decomposition.diagonal import Meeting, meeting
 from nag.decomposition.factor import Factor
-from nag.witness.cutting import Equations
+from nag.decomposition.reduction import Reduction
 from nag.witness.fibres import Tracker
-from nag.witness.frame import Frame
 
 SPHERE = "x^2 + y^2 + z^2 - 1"
 
 
-def met(first: str, second: str, seed: int = 0, *, nonzero: tuple[str, ...] = ()) -> Meeting:
-    """The meeting of two surfaces in space."""
+def met(
+    first: str, second: str, seed: int = 0, *, nonzero: tuple[str, ...] = ()
+) -> tuple[Meeting, Reduction]:
+    """The meeting of two surfaces in space, and the coordinates that its points have."""
     factors = []
     for equation in (first, second):
         of = system("x y z", equation)
         (component,) = decompose(of).components
         factors.append(Factor.of(of, component))
-    both = system("x y z", first, second, nonzero=nonzero)
-    space = eliminate_linear(PolynomialSystem(both.variables, ()), graphs=False)
-    common = Common(
-        Equations(both.polynomials, 3), Frame.of(space), [0, 1, 2], Evaluator.of(both.nonzero, 3)
-    )
-    return meeting(*factors, common, np.random.default_rng(seed), Tracker())
+    common = Reduction.of(system("x y z", first, second, nonzero=nonzero))
+    return meeting(*factors, common, np.random.default_rng(seed), Tracker()), common
+
+
+def points(found: Meeting, common: Reduction) -> np.ndarray:
+    """The points of a curve, in space."""
+    return common.frame.points(np.vstack([fibre.x for fibre in found.fibres[1]]))
 
 
 def sizes(found: Meeting) -> dict[int, int]:
@@ -45,31 +44,31 @@ def sizes(found: Meeting) -> dict[int, int]:
 def test_surfaces_meet_in_curves_of_the_product_of_their_degrees(
     second: str, degree: int, seed: int
 ) -> None:
-    found = met(SPHERE, second, seed)
+    found, common = met(SPHERE, second, seed)
     assert found.notes == [] and found.bare == []
     assert sizes(found) == {1: degree}
-    x = np.vstack([fibre.x for fibre in found.fibres[1]])
-    equations = Evaluator.of(system("x y z", SPHERE, second).polynomials, 3)
-    assert equations.residuals(x).max() < 1e-12
+    assert common.original.residuals(points(found, common)).max() < 1e-12
     (row,) = found.rows[1]
-    assert np.abs(row[0] + x @ row[1:]).max() < 1e-12
+    own = np.vstack([fibre.x for fibre in found.fibres[1]])
+    assert np.abs(row[0] + own @ row[1:]).max() < 1e-12
 
 
 def test_surfaces_that_touch_along_a_curve_meet_in_it_once() -> None:
     # A cylinder about the sphere: z^2 = 0 on both.
-    found = met(SPHERE, "x^2 + y^2 - 1")
+    found, common = met(SPHERE, "x^2 + y^2 - 1")
     assert found.notes == [] and sizes(found) == {1: 2}
-    assert np.abs(np.vstack([fibre.x for fibre in found.fibres[1]])[:, 2]).max() < 1e-10
+    assert np.abs(points(found, common)[:, 2]).max() < 1e-10
 
 
 def test_a_component_meets_itself_in_itself() -> None:
-    found = met(SPHERE, SPHERE)
+    found, _ = met(SPHERE, SPHERE)
     assert found.notes == [] and sizes(found) == {2: 2}
 
 
 def test_what_must_not_vanish_is_left_out() -> None:
     # The sphere meets two planes in circles, one of which is forbidden.
-    found = met(SPHERE, "x^2 + y^2 + z^2 - 1 - (x - y)*(x + y - 3)", nonzero=("x - y",))
+    second = "x^2 + y^2 + z^2 - 1 - (x - y)*(x + y - 3)"
+    found, common = met(SPHERE, second, nonzero=("x - y",))
     assert found.notes == [] and sizes(found) == {1: 2}
-    x = np.vstack([fibre.x for fibre in found.fibres[1]])
+    x = points(found, common)
     assert np.abs(x[:, 0] + x[:, 1] - 3).max() < 1e-12
