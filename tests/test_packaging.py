@@ -60,6 +60,27 @@ def test_packages_load_nothing_heavy(package: str) -> None:
     assert done.stdout == "\n"
 
 
+RUN = """
+import sys
+from nag.cli import main
+assert main([*sys.argv[1:], "--quiet"]) == 0
+unused = {"jsonschema", "matplotlib", "mpmath", "networkx", "scipy", "nag.machine_code.functions"}
+print("loaded:", *sorted(unused & set(sys.modules)), file=sys.stderr)
+"""
+
+
+@pytest.mark.parametrize(
+    "command", ["decompose cases/bennett.toml", "solve cases/benchmarks/katsura-8.toml"]
+)
+def test_a_warm_run_loads_no_library_that_it_does_not_use(command: str) -> None:
+    arguments = [sys.executable, "-c", RUN, *command.split()]
+    for _ in range(2):
+        done = subprocess.run(
+            arguments, cwd=ROOT, capture_output=True, text=True, timeout=120, check=True
+        )
+    assert done.stderr == "loaded:\n"
+
+
 def test_schema_is_a_schema_of_the_format_that_is_written() -> None:
     jsonschema.Draft202012Validator.check_schema(schema())
     assert schema()["properties"]["format"]["const"] == FORMAT
