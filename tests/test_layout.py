@@ -9,6 +9,7 @@ import pytest
 NAG = Path(__file__).parents[1] / "nag"
 # Each package imports those before it and itself alone.
 ORDER = (
+    "text",
     "machine_code",
     "algebra",
     "numerics",
@@ -19,6 +20,7 @@ ORDER = (
     "mechanism",
     "files",
     "report",
+    "interface",
     "bench",
     "cli",
 )
