@@ -24,16 +24,15 @@ def decompose(
 ) -> Decomposition:
     """The irreducible components over the complex numbers of what satisfies the equations.
 
-    Equations that factor are decomposed apart, linear ones are solved exactly, the others are
-    intersected one by one (u-generation: Duff, Leykin & Rodriguez 2022); the points of each
-    dimension are split by monodromy, and each component confirmed by the trace test (Sommese,
-    Verschelde & Wampler 2001, 2002). The same seed gives the same answer, for any ``threads``.
+    Equations that factor are decomposed apart, the others intersected one by one (u-generation:
+    Duff, Leykin & Rodriguez 2022); points are split by monodromy, and components confirmed by the
+    trace test (Sommese, Verschelde & Wampler 2001, 2002).
 
     Args:
         system: a `nag.Mechanism`, a `nag.model`, a `nag.Case`, a `nag.PolynomialSystem`, or
             equations as `nag.system` takes them: texts, sympy's expressions, one or a list.
         variables: of equations, their names in order; see `nag.system`.
-        seed: of all random numbers.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
         threads: for path tracking.
         settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
         progress: called with a stage's name, the step reached and the number of steps.
