@@ -13,6 +13,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 
 if TYPE_CHECKING:
+    from nag.witness.fibres import Fibre
     from nag.witness.projection import Projection
 
 
@@ -82,6 +83,9 @@ class WitnessSet:
         note: why the status is undecided; empty otherwise.
         images: symmetries of the system that carry it into the others of its orbit, one each;
             empty where they are not known.
+        fibres: the points again, in their order, with the square systems in the system's variables
+            that cut them as regular zeros, and the unknowns that deflation added; empty where they
+            were not kept. With them a component can be moved, sampled and tested.
         system: the equations that it is a component of; a `Decomposition` tells its components.
             It takes no part in comparisons.
     """
@@ -98,6 +102,7 @@ class WitnessSet:
     precision: str = "double"
     note: str = ""
     images: tuple[SignedPermutation, ...] = ()
+    fibres: tuple[Fibre, ...] = ()
     system: PolynomialSystem | None = None
 
     def __post_init__(self) -> None:
@@ -117,6 +122,7 @@ class WitnessSet:
             all(getattr(self, name) == getattr(other, name) for name in plain)
             and self.slice == other.slice
             and np.array_equal(self.points, other.points)
+            and self.fibres == other.fibres
             and (self.multidegree is None or np.array_equal(self.multidegree, other.multidegree))
         )
 
