@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from typing import TYPE_CHECKING
 
 from nag.cli.arguments import (
     UsageError,
@@ -15,12 +14,6 @@ from nag.cli.arguments import (
     read_problem,
     whole,
 )
-
-if TYPE_CHECKING:
-    from nag.cli.progress import Progress
-    from nag.files.cases import Case
-    from nag.mechanism.model import Model
-    from nag.witness.witness import Decomposition
 
 MOST_STARTS = 10**6
 
@@ -72,11 +65,32 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         compilation_notice(sys.stderr, arguments.quiet),
         progress_line(sys.stderr, arguments.quiet) as progress,
     ):
+        from nag.decomposition import decompose
         from nag.decomposition.through import accounted, through_points
-        from nag.files.problem import points_of
+        from nag.files.problem import points_of, symmetries_of, system_of
         from nag.witness.expansion import expanded
 
-        decomposition = _decomposed(arguments, case, model, progress)
+        if arguments.method == "sampling":
+            from nag.decomposition import by_sampling
+
+            decomposition = by_sampling(
+                system_of(case, model),
+                seed=arguments.seed,
+                threads=arguments.threads,
+                settings=arguments.settings,
+                progress=progress,
+                symmetries=symmetries_of(case, model),
+                **({} if arguments.starts is None else {"starts": arguments.starts}),
+            )
+        else:
+            decomposition = decompose(
+                system_of(case, model),
+                seed=arguments.seed,
+                threads=arguments.threads,
+                settings=arguments.settings,
+                progress=progress,
+                symmetries=symmetries_of(case, model),
+            )
         if arguments.expand:
             decomposition = expanded(decomposition)
         points = through_points(decomposition, points_of(case, model), arguments.threads)
@@ -98,24 +112,3 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     if failure is not None:
         raise UsageError(failure, lines)
     return lines, decomposition.complete
-
-
-def _decomposed(
-    arguments: argparse.Namespace, case: Case, model: Model | None, progress: Progress | None
-) -> Decomposition:
-    """The components of a case by the method that is asked for."""
-    from nag.decomposition import by_sampling, decompose
-    from nag.files.problem import symmetries_of, system_of
-
-    running = {
-        "seed": arguments.seed,
-        "threads": arguments.threads,
-        "settings": arguments.settings,
-        "progress": progress,
-        "symmetries": symmetries_of(case, model),
-    }
-    if arguments.method != "sampling":
-        return decompose(system_of(case, model), **running)
-    if arguments.starts is not None:
-        running["starts"] = arguments.starts
-    return by_sampling(system_of(case, model), **running)
