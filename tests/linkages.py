@@ -7,7 +7,6 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-from systems import jacobian
 
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
@@ -68,7 +67,7 @@ def newton(system: PolynomialSystem, start: np.ndarray, normals: np.ndarray) -> 
     point = start.astype(complex)
     for _ in range(60):
         at = list(point)
-        matrix = np.array([[g(at) for g in row] for row in jacobian(system)], dtype=complex)
+        matrix = np.array([[g(at) for g in row] for row in system.jacobian], dtype=complex)
         values = np.array(system(at), dtype=complex)
         matrix = np.vstack([matrix, normals])
         values = np.append(values, normals @ (point - start))

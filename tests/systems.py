@@ -39,8 +39,3 @@ def benchmark(name: str) -> Target:
     """A benchmark as what start systems are made for."""
     of = read_case(BENCHMARKS / f"{name}.toml").system
     return Target.of(of.polynomials, of.n)
-
-
-def jacobian(of: PolynomialSystem) -> list[list[Polynomial]]:
-    """The exact partial derivatives, one row for each polynomial."""
-    return [[f.derivative(i) for i in range(of.n)] for f in of.polynomials]

@@ -6,7 +6,6 @@ import mpmath
 import numpy as np
 import pytest
 from linkages import case, exact, four_bar, general_loop, newton, residual, spherical_four_bar
-from systems import jacobian
 
 from nag.algebra.number import is_zero
 from nag.mechanism.axes import dot
@@ -56,7 +55,7 @@ def solutions(m, dimension, rng, wanted, real=False):
 def _along_curve(system, point, rng, real):
     """A step along the tangent, in a random complex direction, and back to the curve."""
     at = list(point)
-    matrix = np.array([[g(at) for g in row] for row in jacobian(system)], dtype=complex)
+    matrix = np.array([[g(at) for g in row] for row in system.jacobian], dtype=complex)
     tangent = np.linalg.svd(matrix)[2][-1].conj()
     if real:
         tangent = np.real(tangent / tangent[np.argmax(abs(tangent))])

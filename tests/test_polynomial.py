@@ -127,8 +127,9 @@ def test_system_refuses_what_does_not_fit_together():
         PolynomialSystem(("x", "y"), (x + y,), groups=((0,),))
 
 
-def test_degrees_and_values_of_a_system():
+def test_jacobian_of_a_system():
     x, y = Polynomial.variables(2)
     system = PolynomialSystem(("x", "y"), (x**2 + y**2 - 1, x * y))
+    assert system.jacobian == ((2 * x, 2 * y), (y, x))
     assert system.degrees == (2, 2)
     assert system([Fraction(3, 5), Fraction(4, 5)]) == [0, Fraction(12, 25)]

@@ -5,6 +5,8 @@ from hypothesis import strategies as st
 
 from nag.mechanism.axes import cross, difference, dot
 from nag.mechanism.quaternion import (
+    H,
+    H_tilde,
     K,
     K_tilde,
     R,
@@ -17,6 +19,7 @@ from nag.mechanism.quaternion import (
     norm_squared,
     rotate,
     scale,
+    translation,
 )
 
 rationals = st.builds(Fraction, st.integers(-30, 30), st.integers(1, 12))
@@ -61,7 +64,7 @@ def test_identities_1_of_t25(a, b):
     block = product(K_tilde(a), transpose(K(a)))
     assert block[0] == (norm_squared(a), 0, 0, 0)
     assert tuple(row[1:] for row in block[1:]) == R(a)
-    assert product(K_tilde(a)[1:], transpose(K(a)[1:])) == R(a)
+    assert product(H_tilde(a), transpose(H(a))) == R(a)
 
 
 @laws
@@ -146,8 +149,7 @@ def test_a_line_squares_to_minus_its_squared_length(point, axis):
 def test_a_turn_about_a_line_keeps_the_points_of_the_line(point, axis, c, s):
     (_, *primal), dual = line(point, axis)
     turn = ((c, *(s * x for x in primal)), tuple(s * x for x in dual))
-    moved = [2 * x for x in multiply(turn[1], conjugate(turn[0]))[1:]]
-    n = norm_squared(turn[0])
+    moved, n = translation(turn)
     for t in (0, 1, 3):
         place = tuple(p + t * x for p, x in zip(point, axis, strict=True))
         image = tuple(x + y for x, y in zip(rotate(turn[0], place), moved, strict=True))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from nag.algebra.polynomial import Polynomial
@@ -56,6 +57,11 @@ class PolynomialSystem:
     def exact(self) -> bool:
         """Whether all coefficients are rational."""
         return all(f.exact for f in self.polynomials + self.nonzero)
+
+    @cached_property
+    def jacobian(self) -> tuple[tuple[Polynomial, ...], ...]:
+        """Partial derivatives, one row for each polynomial."""
+        return tuple(tuple(f.derivative(i) for i in range(self.n)) for f in self.polynomials)
 
     def __call__(self, point: Sequence[Any]) -> list[Any]:
         """Values of all polynomials at ``point``, exact if its entries are."""

@@ -67,8 +67,18 @@ def K_tilde(a: Sequence[Any]) -> Matrix:
     )
 
 
+def H(a: Sequence[Any]) -> Matrix:
+    """H(a) of T25: the last three rows of K(a)."""
+    return K(a)[1:]
+
+
+def H_tilde(a: Sequence[Any]) -> Matrix:
+    """H~(a) of T25: the last three rows of K~(a)."""
+    return K_tilde(a)[1:]
+
+
 def R(a: Sequence[Any]) -> Matrix:
-    """R(a) = H~(a) H(a)^T of T25: the rotation matrix times the squared norm of ``a``."""
+    """R(a) = H~(a) H(a)^T: the rotation matrix times the squared norm of ``a``."""
     a0, a1, a2, a3 = a
     s0, s1, s2, s3 = a0 * a0, a1 * a1, a2 * a2, a3 * a3
     p01, p02, p03 = a0 * a1, a0 * a2, a0 * a3
@@ -103,3 +113,9 @@ def line(point: Sequence[Any], axis: Sequence[Any]) -> DualQuaternion:
     """
     zero = axis[0] - axis[0]
     return (zero, *axis), (zero, *cross(point, axis))
+
+
+def translation(x: DualQuaternion) -> tuple[Vector, Any]:
+    """Where a displacement takes the origin, as numerators and their common denominator."""
+    moved = multiply(x[1], conjugate(x[0]))
+    return tuple(2 * y for y in moved[1:]), norm_squared(x[0])
