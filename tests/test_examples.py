@@ -6,15 +6,26 @@ import doctest
 import inspect
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
 
 import nag
+import nag.decomposition
 
 ROOT = Path(__file__).parent.parent
 PUBLIC = sorted(set(nag.__all__) - {"__version__"})
 FUNCTIONS = [name for name in PUBLIC if inspect.isfunction(getattr(nag, name))]
+
+
+@pytest.mark.parametrize("module", [nag, nag.decomposition], ids=lambda module: module.__name__)
+def test_examples_of_the_packages_do_what_they_say(module: ModuleType) -> None:
+    (test,) = [t for t in doctest.DocTestFinder().find(module) if t.name == module.__name__]
+    written: list[str] = []
+    doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(test, out=written.append)
+    assert test.examples
+    assert not written, "".join(written)
 
 
 def docstrings(name: str) -> Iterator[doctest.DocTest]:
