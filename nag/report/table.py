@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from nag.algebra.shown import system_line
 from nag.text.table import LINE, align, labelled, magnitude, printable
-from nag.witness.shown import component_rows, multidegree_text, paths_line, remarks, title_line
+from nag.witness.shown import (
+    component_rows,
+    multidegree_text,
+    paths_line,
+    paths_text,
+    remarks,
+    title_line,
+)
 from nag.witness.witness import Decomposition
 
 __all__ = [
@@ -15,6 +22,7 @@ __all__ = [
     "magnitude",
     "multidegree_text",
     "paths_line",
+    "paths_text",
     "printable",
     "remarks",
     "system_line",

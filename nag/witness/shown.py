@@ -10,7 +10,7 @@ import numpy as np
 
 from nag.algebra.shown import system_line
 from nag.text.table import counted, html_table, lines_of, magnitude, printable
-from nag.witness.witness import Decomposition, Status, WitnessSet
+from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 # Wider multidegrees are left to the JSON export.
 WIDEST_MULTIDEGREE = 32
@@ -142,7 +142,11 @@ def remarks(decomposition: Decomposition) -> list[str]:
 
 
 def paths_line(decomposition: Decomposition) -> str:
-    paths = decomposition.paths
+    return paths_text(decomposition.paths)
+
+
+def paths_text(paths: PathCounts) -> str:
+    """What became of paths."""
     return f"{paths.tracked} tracked, {paths.at_infinity} to infinity, {paths.failed} failed"
 
 
