@@ -113,7 +113,13 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     """Read the case file at ``path``.
 
     Raises:
-        CaseError: if it cannot be read or makes no sense.
+        CaseError: if it cannot be read or makes no sense; one line says where and what would be
+            right.
+
+    >>> import nag
+    >>> case = nag.read_case("cases/slider-crank.toml")
+    >>> case.kind, case.system.n, [point.name for point in case.points]
+    ('system', 6, ['singular, s1 = -1', 'singular, s1 = 1'])
     """
     path = Path(path)
     top = Table(str(path), "", read_toml(path))
@@ -362,8 +368,8 @@ def _read_mechanism(top: Table, numbers: _Numbers) -> Mechanism:
         for culprit, tables in ((error.joint, joint_tables), (error.body, body_tables)):
             for name, table in reversed(tables):
                 if name == culprit:
-                    table.called(name).fail(error.key, str(error))
-        top.fail(error.key, str(error))
+                    table.called(name).fail(error.key, error.message)
+        top.fail(error.key, error.message)
 
 
 def _read_joint(name: str, table: Table, numbers: _Numbers, joint: Any) -> Any:

@@ -11,6 +11,10 @@ def gruebler_kutzbach(mechanism: Mechanism) -> int:
 
     A body has 6 freedoms in space and 3 in planar and spherical mechanisms. The count is wrong
     for overconstrained mechanisms: it knows nothing of the geometry (T25, section 7).
+
+    >>> import nag
+    >>> nag.gruebler_kutzbach(nag.read_case("cases/bennett.toml").mechanism)  # and yet it moves
+    -2
     """
     freedoms = 6 if space_of(mechanism.joints) == "spatial" else 3
     moving = len(mechanism.body_names) - 1

@@ -9,6 +9,7 @@ from math import prod
 from typing import Any, Literal
 
 from nag.algebra.number import Number
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import Space, space_of
 from nag.mechanism.configuration import Configuration
@@ -42,7 +43,7 @@ class Model:
         reference: the reference configuration in the system's variables, an exact solution.
         sign_group: size of the group of sign changes a -> -a that acts on E; 1 for H and in the
             plane, where configurations have one point each.
-        symmetries: generators of that group, as signs of the system's variables.
+        symmetries: generators of that group, as `nag.decompose` takes them.
         path_bound: number of solutions that a square system of these degrees, cut by linear
             equations, has at most (Bezout's number, multihomogeneous where there are groups).
         structure: the part of the mechanism that has loops, and what was cut off.
@@ -56,7 +57,7 @@ class Model:
     system: PolynomialSystem
     reference: tuple[Number, ...]
     sign_group: int
-    symmetries: tuple[tuple[int, ...], ...]
+    symmetries: tuple[SignedPermutation, ...]
     path_bound: int
     structure: LoopStructure
     form: EulerModel | HalfAngleModel | PlanarModel
@@ -84,6 +85,11 @@ class Model:
         """The mobility that counting predicts for the whole mechanism."""
         return gruebler_kutzbach(self.mechanism)
 
+    def __repr__(self) -> str:
+        from nag.mechanism.shown import model_text
+
+        return model_text(self)
+
     @property
     def cut(self) -> tuple[Joint, ...]:
         """Joints of dangling trees; each adds its own freedom to every component's dimension."""
@@ -96,8 +102,21 @@ def model(mechanism: Mechanism, formulation: Formulation = "auto") -> Model:
     Planar mechanisms take (c, s) of each body, single loops in space half-angles, all others Euler
     parameters.
 
+    Args:
+        mechanism: at least one of its joints must belong to a loop.
+        formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
+            components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
+            for half-angles, ``"auto"`` for the smaller one.
+
     Raises:
         ModelError: if the mechanism has no loop, or ``formulation`` does not cover it.
+
+    >>> import nag
+    >>> model = nag.model(nag.read_case("cases/bennett.toml").mechanism)
+    >>> model.formulation, model.system.n, model.system.degrees
+    ('H', 2, (2,))
+    >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
+    True
     """
     if formulation not in ("auto", "E", "H"):
         raise ModelError(f'formulation {formulation!r} is unknown; use "auto", "E" or "H"')
@@ -119,7 +138,7 @@ def model(mechanism: Mechanism, formulation: Formulation = "auto") -> Model:
         system=form.system,
         reference=form.reference,
         sign_group=2 ** len(symmetries),
-        symmetries=symmetries,
+        symmetries=tuple(map(SignedPermutation.of_signs, symmetries)),
         path_bound=path_bound(form.system),
         structure=structure,
         form=form,
