@@ -7,11 +7,12 @@ from linkages import case, exact, four_bar, general_loop, loop, spherical_four_b
 
 from nag.algebra.number import is_zero, square_root
 from nag.algebra.polynomial import Polynomial
-from nag.mechanism.euler import euler_parameters, orthogonality, prime_component
+from nag.mechanism.euler import euler_parameters, prime_component
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.loops import loop_structure
 from nag.mechanism.model import ModelError, model
 from nag.mechanism.quaternion import multiply
+from nag.mechanism.unreduced import Placement, joint_constraints
 
 
 def test_bricards_cube_is_16_quadrics_in_16_unknowns():
@@ -54,10 +55,12 @@ def test_prime_component_holds_for_turns_about_the_joint_and_not_for_the_other_m
     structure = loop_structure(case("bennett"))
     mechanism = structure.mechanism
     n = 4 * len(structure.moving)
-    parameters = euler_parameters(structure)
+    parameters = euler_parameters(structure, n)
     joint = next(j for j in structure.joints if j.name == "J2")
     component = prime_component(structure, parameters, joint)
-    both = orthogonality(structure, parameters, joint)
+    origin = (Polynomial(n, {}),) * 3
+    places = [Placement(parameters[b], origin, mechanism.orientation(b)) for b in joint.bodies]
+    both = joint_constraints(joint, *places)[3:]
     assert (len(component), len(both)) == (2, 2)
     assert [f.degree for f in component] == [2, 2]
     assert [f.degree for f in both] == [4, 4]

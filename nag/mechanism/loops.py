@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from nag.mechanism.graph import JOINT_FREEDOMS, Joint, Mechanism
+from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.joint_types import JOINT_FREEDOMS
+from nag.mechanism.rigid_groups import RigidGroups, rigid_groups
 
 if TYPE_CHECKING:
     import networkx
@@ -28,10 +30,11 @@ class Loop:
 
 @dataclass(frozen=True)
 class LoopStructure:
-    """What is left of a mechanism when dangling trees are cut off.
+    """What is left of a mechanism when rigid bodies are merged and dangling trees are cut off.
 
     Attributes:
-        mechanism: the whole mechanism.
+        mechanism: the mechanism, each group of bodies that are tied rigidly as one body.
+        groups: what was tied.
         base: the body taken as fixed: the ground, or, where the ground hangs on a tree, the body
             with loops that is nearest to it.
         moving: the other bodies, in the mechanism's order.
@@ -41,6 +44,7 @@ class LoopStructure:
     """
 
     mechanism: Mechanism
+    groups: RigidGroups
     base: str
     moving: tuple[str, ...]
     joints: tuple[Joint, ...]
@@ -78,12 +82,16 @@ class LoopStructure:
 
 
 def loop_structure(mechanism: Mechanism) -> LoopStructure:
-    """Cut dangling trees off and choose a minimum cycle basis.
+    """Merge rigid bodies, cut dangling trees off and choose a minimum cycle basis.
 
     A mechanism without loops gives a structure without moving bodies.
     """
     import networkx
 
+    groups = rigid_groups(mechanism)
+    mechanism = groups.merged
+    if groups.is_one_body:
+        return LoopStructure(mechanism, groups, mechanism.ground, (), (), (), ())
     graph = mechanism.graph.copy()
     cut: set[str] = set()
     leaves = [b for b in graph if graph.degree(b) == 1]
@@ -99,12 +107,12 @@ def loop_structure(mechanism: Mechanism) -> LoopStructure:
     kept = tuple(j for j in mechanism.joints if j.name not in cut)
     left_out = tuple(j for j in mechanism.joints if j.name in cut)
     if not kept:
-        return LoopStructure(mechanism, mechanism.ground, (), (), left_out, ())
+        return LoopStructure(mechanism, groups, mechanism.ground, (), (), left_out, ())
     looped = {b for j in kept for b in j.bodies}
     distance = networkx.single_source_shortest_path_length(mechanism.graph, mechanism.ground)
     base = min((b for b in mechanism.body_names if b in looped), key=lambda b: distance[b])
     moving = tuple(b for b in mechanism.body_names if b in looped and b != base)
-    return LoopStructure(mechanism, base, moving, kept, left_out, _cycle_basis(kept))
+    return LoopStructure(mechanism, groups, base, moving, kept, left_out, _cycle_basis(kept))
 
 
 def _cycle_basis(joints: tuple[Joint, ...]) -> tuple[Loop, ...]:

@@ -12,12 +12,14 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import Space, space_of
 from nag.mechanism.configuration import Configuration
-from nag.mechanism.euler import EulerModel, euler_model, unreduced_point, unreduced_system
+from nag.mechanism.assembly_modes import REFERENCE, Modes
+from nag.mechanism.euler import EulerModel, euler_model
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
 from nag.mechanism.loops import LoopStructure, loop_structure
 from nag.mechanism.mobility import gruebler_kutzbach
 from nag.mechanism.planar import PlanarModel, planar_model
+from nag.mechanism.unreduced import unreduced_point, unreduced_system
 
 Formulation = Literal["auto", "E", "H"]
 
@@ -72,12 +74,12 @@ class Model:
 
     @cached_property
     def unreduced(self) -> PolynomialSystem:
-        """Every constraint in the Euler parameters of all moving bodies, nothing eliminated."""
-        return unreduced_system(self.structure)
+        """Every constraint of PT13 table 1 in all Euler parameters and positions."""
+        return unreduced_system(self.mechanism)
 
     def unreduced_point(self, configuration: Configuration) -> tuple[Any, ...]:
         """The point of `unreduced` that a configuration is."""
-        return unreduced_point(self.structure, configuration)
+        return unreduced_point(self.mechanism, configuration)
 
     @property
     def gruebler_kutzbach(self) -> int:
