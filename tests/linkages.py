@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.cases import read_case
+from nag.files.cases import read_case
 from nag.mechanism.graph import Body, Joint, Mechanism
 
 CASES = Path(__file__).parent.parent / "cases"

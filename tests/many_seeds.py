@@ -19,12 +19,12 @@ from pathlib import Path
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.cases import Truth, read_case
 from nag.decomposition import decompose
-from nag.decomposition.witness import Status
+from nag.files.cases import Truth, read_case
+from nag.files.problem import symmetries_of
 from nag.mechanism.model import model
 from nag.report.agreement import Verdict, compare, in_words, kinds
-from nag.report.answer import symmetries_of
+from nag.witness.witness import Status
 
 CASES = Path(__file__).resolve().parent.parent / "cases"
 # Seconds between two notices of how far a case is.

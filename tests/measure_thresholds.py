@@ -21,8 +21,8 @@ from unittest.mock import patch
 import numpy as np
 
 import nag
-from nag.cases import read_case
-from nag.tracking import solve as solving
+from nag.files.cases import read_case
+from nag.solving import solve as solving
 from nag.tracking import track as tracking
 from nag.tracking.ends import follow, limits
 from nag.tracking.paths import PathStatus

@@ -17,8 +17,8 @@ from pathlib import Path
 
 import numpy as np
 
-from nag.cases import read_case
-from nag.tracking.parameter import Solved, solve_family, solve_generic
+from nag.files.cases import read_case
+from nag.solving.parameter import Solved, solve_family, solve_generic
 
 CASE = Path(__file__).resolve().parent.parent / "cases" / "benchmarks" / "nine-point.toml"
 CLASSES, ORDER = 1442, 6

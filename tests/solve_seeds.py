@@ -24,10 +24,10 @@ from statistics import median
 from timed_runs import Run, timed_runs
 
 from nag.algebra.system import PolynomialSystem
-from nag.cases import read_case
+from nag.files.cases import read_case
 from nag.mechanism.model import model
-from nag.tracking.solve import solve
-from nag.tracking.start.choice import KINDS
+from nag.solving.solve import solve
+from nag.solving.start.choice import KINDS
 
 CASES = Path(__file__).resolve().parent.parent / "cases"
 

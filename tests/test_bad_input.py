@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from nag.cases import CaseError, read_case
 from nag.cli import main
+from nag.files.cases import CaseError, read_case
 
 SYSTEM = """\
 title = "t"

@@ -11,11 +11,12 @@ import pytest
 
 from nag.bench.measure import Measured, as_json, step_flops
 from nag.bench.peers import Peer, run_peer
-from nag.cases import read_case
+from nag.bench.table import table
 from nag.cli import main
-from nag.report.bench_command import NAMES, files, table
-from nag.tracking.start.target import Target
-from nag.tracking.start.total_degree import total_degree
+from nag.cli.bench import NAMES, files
+from nag.files.cases import read_case
+from nag.solving.start.target import Target
+from nag.solving.start.total_degree import total_degree
 
 FOLDER = Path(__file__).parent.parent / "cases" / "benchmarks"
 

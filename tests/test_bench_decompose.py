@@ -16,9 +16,9 @@ from nag.bench.decomposition import (
     measure_decomposition,
     rhombus_chain,
 )
-from nag.cases import read_case
+from nag.bench.table import decomposition_table as table
 from nag.cli import main
-from nag.report.bench_decompose import table
+from nag.files.cases import read_case
 
 CASES = Path(__file__).parent.parent / "cases"
 

@@ -11,7 +11,7 @@ import pytest
 
 from nag.algebra.number import square_root
 from nag.algebra.polynomial import Polynomial
-from nag.cases import Case, Truth, read_case
+from nag.files.cases import Case, Truth, read_case
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -254,7 +254,7 @@ def test_the_parametrisation_of_bennetts_variety_lies_on_it(cos, sin, sign):
 
 def test_reading_a_system_loads_nothing_heavy():
     code = (
-        "import sys; from nag.cases import read_case; "
+        "import sys; from nag.files.cases import read_case; "
         f"read_case({str(CASES / 'four-bar.toml')!r}); "
         "print([m for m in ('numpy', 'llvmlite', 'scipy', 'networkx') if m in sys.modules])"
     )

@@ -10,10 +10,10 @@ import pytest
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.cases import read_case
+from nag.files.cases import read_case
 from nag.mechanism.model import model
-from nag.tracking.solve import solve
-from nag.tracking.start.centring import FAR, centres, shifted
+from nag.solving.solve import solve
+from nag.solving.start.centring import FAR, centres, shifted
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 RADIUS = Fraction(1, 2000)

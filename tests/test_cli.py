@@ -17,8 +17,8 @@ import pytest
 
 import nag
 from nag.cli import main
-from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
-from nag.report.export import read_export
+from nag.files.export import read_export
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -74,11 +74,10 @@ class Engine:
 @pytest.fixture
 def engine(monkeypatch) -> Engine:
     fake = Engine()
-    for name in ("components", "membership"):
-        module = ModuleType(f"nag.decomposition.{name}")
-        module.decompose = fake.decompose
-        module.components_through = fake.components_through
-        monkeypatch.setitem(sys.modules, module.__name__, module)
+    module = ModuleType("nag.decomposition.components")
+    module.decompose = fake.decompose
+    monkeypatch.setitem(sys.modules, module.__name__, module)
+    monkeypatch.setattr("nag.decomposition.through.components_through", fake.components_through)
     return fake
 
 
@@ -161,9 +160,7 @@ def test_membership_that_cannot_be_decided_leaves_the_answer_incomplete(
     def undecided(*_: object, **__: object) -> list[int]:
         raise ValueError("could not be decided")
 
-    monkeypatch.setattr(
-        sys.modules["nag.decomposition.membership"], "components_through", undecided
-    )
+    monkeypatch.setattr("nag.decomposition.through.components_through", undecided)
     assert main(["decompose", case]) == 1
     assert "crossing: could not be decided" in capsys.readouterr().out
 
@@ -312,7 +309,7 @@ def test_an_answer_is_printed_even_if_the_export_fails_at_the_end(
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("nag.report.target.os.fsync", full)
+    monkeypatch.setattr("nag.files.written_file.os.fsync", full)
     assert main(["decompose", case, "--json", str(tmp_path / "answer.json")]) == 2
     out, err = capsys.readouterr()
     assert "2 components of dimension 1, degree 1" in out
@@ -400,7 +397,7 @@ def test_ctrl_c_ends_a_process_with_status_130_and_one_line(case, tmp_path) -> N
         "def wait(arguments):\n"
         "    print('ready', flush=True)\n"
         "    time.sleep(60)\n"
-        "nag.cli._model = wait\n"
+        "nag.cli.model.run = wait\n"
         "sys.exit(nag.cli.main(['model', 'x']))\n"
     )
     process = subprocess.Popen(

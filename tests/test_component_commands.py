@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from nag.cli import main
-from nag.report.export import read_export
-from nag.report.witness_input import schema
+from nag.cli.witness_input import schema
+from nag.files.export import read_export
 
 CASES = Path(__file__).parent.parent / "cases"
 

@@ -10,12 +10,12 @@ import pytest
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.cases import read_case
 from nag.decomposition import decompose
-from nag.decomposition.membership import components_through
-from nag.decomposition.witness import Decomposition, Status
+from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.report.agreement import Verdict, compare
+from nag.witness.membership import components_through
+from nag.witness.witness import Decomposition, Status
 
 FOLDER = Path(__file__).parent.parent / "cases"
 CASES = [*sorted(FOLDER.glob("*.toml")), *sorted(FOLDER.glob("literature/*.toml"))]

@@ -13,12 +13,12 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import components_through, decompose, intersect_components, sample
-from nag.decomposition.expansion import expanded
-from nag.decomposition.witness import Decomposition, Status
-from nag.report.export import read_decomposition, write_decomposition
-from nag.report.solutions_export import read_solutions, write_solutions
-from nag.tracking.solutions import SolveResult
-from nag.tracking.solve import solve
+from nag.files.export import read_decomposition, write_decomposition
+from nag.files.solutions_export import read_solutions, write_solutions
+from nag.solving.solutions import SolveResult
+from nag.solving.solve import solve
+from nag.witness.expansion import expanded
+from nag.witness.witness import Decomposition, Status
 
 
 def product_of(*factors: Polynomial) -> Polynomial:

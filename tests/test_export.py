@@ -16,8 +16,7 @@ from hypothesis import strategies as st
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
-from nag.report.export import (
+from nag.files.export import (
     ExportError,
     Origin,
     document,
@@ -27,7 +26,8 @@ from nag.report.export import (
     schema,
     write_decomposition,
 )
-from nag.report.target import TargetError, check_target, write_target
+from nag.files.written_file import TargetError, check_target, write_target
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 VALIDATOR = jsonschema.Draft202012Validator(schema())
 

@@ -110,7 +110,7 @@ def test_a_system_that_linear_equations_only_repeat_is_whole() -> None:
 
 def test_flint_is_not_loaded_before_something_is_factored() -> None:
     code = (
-        "import sys, nag, nag.cli, nag.algebra.branches, nag.tracking.solve, nag.decomposition\n"
+        "import sys, nag, nag.cli, nag.algebra.branches, nag.solving.solve, nag.decomposition\n"
         "nag.decompose, nag.solve\n"
         "assert 'flint' not in sys.modules"
     )

@@ -16,12 +16,12 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.cli import main
-from nag.tracking import solve_classes
-from nag.tracking.kantorovich import Confirmation
-from nag.tracking.parameter import solve_family, solve_generic
-from nag.tracking.parameter_line import parameter_line
-from nag.tracking.solve_classes import ClassEnds, track_classes
-from nag.tracking.start.scalings import nearest_scaling, random_scaling, scaling_weights
+from nag.solving import solve_classes
+from nag.solving.kantorovich import Confirmation
+from nag.solving.parameter import solve_family, solve_generic
+from nag.solving.parameter_line import parameter_line
+from nag.solving.solve_classes import ClassEnds, track_classes
+from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
 
 
 def family(variables: str, parameters: str, *equations: str) -> Family:

@@ -11,7 +11,6 @@ import pytest
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.cases import read_case
 from nag.decomposition import (
     decompose,
     intersect_components,
@@ -21,7 +20,8 @@ from nag.decomposition import (
     sample,
 )
 from nag.decomposition.intersection import Intersection, IntersectionError
-from nag.decomposition.membership import Membership
+from nag.files.cases import read_case
+from nag.witness.membership import Membership
 
 CASES = Path(__file__).parent.parent / "cases"
 

@@ -110,7 +110,7 @@ def test_without_a_place_to_keep_them_kernels_run_all_the_same(
 SOLVE = """
 import sys, nag
 from nag.algebra.polynomial import Polynomial
-from nag.tracking.solve import solve
+from nag.solving.solve import solve
 x, y = Polynomial.variables(2)
 from nag.algebra.system import PolynomialSystem
 result = solve(PolynomialSystem(("x", "y"), (x**2 + y**2 - 5, x * y - 2)), start="total")

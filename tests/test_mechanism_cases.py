@@ -4,7 +4,7 @@ import pytest
 import tuomela as t25
 from linkages import CASES, case, exact
 
-from nag.cases import read_case
+from nag.files.cases import read_case
 from nag.mechanism.axes import cross, difference, dot, vanishes
 from nag.mechanism.model import model
 from nag.mechanism.quaternion import rotate

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from nag.algebra.expression import parse_polynomial
-from nag.decomposition.multiplicity import multiplicity
-from nag.decomposition.slices import rows_through
+from nag.witness.multiplicity import multiplicity
+from nag.witness.slices import rows_through
 
 
 @pytest.mark.parametrize("size", [1, 8, 64])

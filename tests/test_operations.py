@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose, memberships, project, witness_at
-from nag.decomposition import membership as membership_module
-from nag.decomposition.membership import Membership, UndecidedError, components_through
-from nag.decomposition.moving import SliceError
-from nag.decomposition.slices import random_rows, to_slice
-from nag.decomposition.witness import PathCounts, Slice, Status, WitnessSet
+from nag.witness import membership as membership_module
+from nag.witness.membership import Membership, UndecidedError, components_through
+from nag.witness.moving import SliceError
+from nag.witness.slices import random_rows, to_slice
+from nag.witness.witness import PathCounts, Slice, Status, WitnessSet
 
 MEMBER, FOREIGN, UNDECIDED = Membership.MEMBER, Membership.FOREIGN, Membership.UNDECIDED
 

@@ -12,16 +12,16 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
-from nag.cases import read_case
 from nag.decomposition import decompose
-from nag.decomposition.expansion import expanded, positions
-from nag.decomposition.fibres import Tracker
 from nag.decomposition.monodromy import located
 from nag.decomposition.orbits import Action, irreducible_orbits, join
-from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import witness_superset
+from nag.files.cases import read_case
+from nag.files.export import read_decomposition, write_decomposition
 from nag.report.agreement import Verdict, compare, kinds
-from nag.report.export import read_decomposition, write_decomposition
+from nag.witness.expansion import expanded, positions
+from nag.witness.fibres import Tracker
+from nag.witness.slices import random_rows
 
 CASES = Path(__file__).parent.parent / "cases"
 

@@ -15,7 +15,7 @@ import pytest
 
 import nag
 from nag.cli import main
-from nag.report.export import FORMAT, VERSION, schema
+from nag.files.export import FORMAT, VERSION, schema
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
@@ -39,10 +39,14 @@ def test_unknown_names_are_attribute_errors() -> None:
         "nag",
         "nag.algebra",
         "nag.decomposition",
+        "nag.files",
         "nag.machine_code",
         "nag.mechanism",
+        "nag.numerics",
         "nag.report",
+        "nag.solving",
         "nag.tracking",
+        "nag.witness",
     ],
 )
 def test_packages_load_nothing_heavy(package: str) -> None:

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from nag.decomposition import decompose
-from nag.decomposition.membership import components_through
-from nag.decomposition.witness import Decomposition
 from nag.mechanism.model import Model, model
+from nag.witness.membership import components_through
+from nag.witness.witness import Decomposition
 from tests.linkages import case
 from tests.tuomela import bennetts_ideal, bricard_10, essential_to_all
 

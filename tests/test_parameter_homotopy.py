@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from nag.algebra.expression import parse_polynomial
-from nag.tracking.parameter import Family, solve_family, solve_generic
-from nag.tracking.start.target import StartError
+from nag.solving.parameter import Family, solve_family, solve_generic
+from nag.solving.start.target import StartError
 
 
 def family(variables: str, parameters: str, *equations: str) -> Family:

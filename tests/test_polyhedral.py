@@ -14,12 +14,12 @@ from evaluated import values
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nag.cases import read_case
-from nag.tracking.start.fibre_monodromy import GenericSystem
-from nag.tracking.start.mixed_cells import MixedCells, mixed_cells
-from nag.tracking.start.polyhedral import polyhedral
-from nag.tracking.start.target import Start, StartError, Target, unit
-from nag.tracking.start.toric import binomial_solutions, by_degeneration, cell_weights
+from nag.files.cases import read_case
+from nag.solving.start.fibre_monodromy import GenericSystem
+from nag.solving.start.mixed_cells import MixedCells, mixed_cells
+from nag.solving.start.polyhedral import polyhedral
+from nag.solving.start.target import Start, StartError, Target, unit
+from nag.solving.start.toric import binomial_solutions, by_degeneration, cell_weights
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 
@@ -157,7 +157,7 @@ def test_paths_lost_in_the_degeneration_are_found_by_monodromy(
         system, spent = by_degeneration(*arguments)
         return replace(system, points=system.points[::2]), spent
 
-    monkeypatch.setattr("nag.tracking.start.polyhedral.by_degeneration", half)
+    monkeypatch.setattr("nag.solving.start.polyhedral.by_degeneration", half)
     start = start_system("cyclic-5", 0)
     assert len(start.points) == 70
     assert "35 of them by monodromy" in start.detail
@@ -171,8 +171,8 @@ def test_solutions_that_stay_lost_are_an_error(monkeypatch: pytest.MonkeyPatch) 
     def nothing(system: GenericSystem, *_: Any) -> tuple[GenericSystem, int, bool]:
         return system, 0, False
 
-    monkeypatch.setattr("nag.tracking.start.polyhedral.by_degeneration", half)
-    monkeypatch.setattr("nag.tracking.start.polyhedral.by_monodromy", nothing)
+    monkeypatch.setattr("nag.solving.start.polyhedral.by_degeneration", half)
+    monkeypatch.setattr("nag.solving.start.polyhedral.by_monodromy", nothing)
     with pytest.raises(StartError, match="35 of the 70 solutions"):
         start_system("cyclic-5", 0)
 

@@ -12,14 +12,14 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.cases import read_case
 from nag.decomposition import by_sampling, decompose, memberships, real_points_near, sample
-from nag.decomposition import sampling as sampling_module
-from nag.decomposition.expansion import expanded
-from nag.decomposition.membership import Membership
-from nag.decomposition.sampling import SamplingError
-from nag.decomposition.witness import Decomposition, Status
+from nag.files.cases import read_case
 from nag.mechanism.model import model
+from nag.witness import sampling as sampling_module
+from nag.witness.expansion import expanded
+from nag.witness.membership import Membership
+from nag.witness.sampling import SamplingError
+from nag.witness.witness import Decomposition, Status
 
 CASES = Path(__file__).parent.parent / "cases"
 

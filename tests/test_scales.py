@@ -9,8 +9,8 @@ import pytest
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
-from nag.decomposition.witness import Decomposition
-from nag.tracking.solve import solve
+from nag.solving.solve import solve
+from nag.witness.witness import Decomposition
 
 CONIC, LINE, POINT = (1, 2, 1), (1, 1, 1), (0, 1, 1)
 

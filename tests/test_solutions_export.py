@@ -12,8 +12,8 @@ import pytest
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
-from nag.report.json_values import ExportError
-from nag.report.solutions_export import (
+from nag.files.json_values import ExportError
+from nag.files.solutions_export import (
     FORMAT,
     VERSION,
     document,
@@ -22,8 +22,8 @@ from nag.report.solutions_export import (
     schema,
     write_solutions,
 )
-from nag.tracking.solutions import SolveResult
-from nag.tracking.solve import solve
+from nag.solving.solutions import SolveResult
+from nag.solving.solve import solve
 
 CASE = """
 title = "A circle and a cubic"

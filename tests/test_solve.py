@@ -12,12 +12,12 @@ import pytest
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.cases import read_case
+from nag.files.cases import read_case
 from nag.mechanism.model import model
-from nag.tracking.clusters import clusters, conjugates_present
-from nag.tracking.solutions import SolveResult
-from nag.tracking.solve import solve
-from nag.tracking.start.target import StartError
+from nag.numerics.coincidence import clusters, conjugates_present
+from nag.solving.solutions import SolveResult
+from nag.solving.solve import solve
+from nag.solving.start.target import StartError
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 

@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 from evaluated import values
 
-from nag.cases import read_case
-from nag.tracking.start import monodromy as module
-from nag.tracking.start.fibre_monodromy import GenericSystem, by_monodromy
-from nag.tracking.start.mixed_cells import mixed_cells
-from nag.tracking.start.monodromy import monodromy
-from nag.tracking.start.pencil import (
+from nag.files.cases import read_case
+from nag.solving.start import monodromy as module
+from nag.solving.start.fibre_monodromy import GenericSystem, by_monodromy
+from nag.solving.start.mixed_cells import mixed_cells
+from nag.solving.start.monodromy import monodromy
+from nag.solving.start.pencil import (
     Pencil,
     irreducible_row,
     seeded_pencil,
     trace_is_linear,
 )
-from nag.tracking.start.target import StartError, Target
+from nag.solving.start.target import StartError, Target
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 

@@ -12,16 +12,16 @@ from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
-from nag.tracking.start.choice import choose
-from nag.tracking.start.multihomogeneous import (
+from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
+from nag.solving.start.choice import choose
+from nag.solving.start.multihomogeneous import (
     best_groups,
     bezout_number,
     count,
     multihomogeneous,
 )
-from nag.tracking.start.scaling import independent_rows, scaled_terms, variable_scales
-from nag.tracking.start.target import Start, StartError, Target
-from nag.tracking.start.total_degree import bezout, total_degree
+from nag.solving.start.target import Start, StartError, Target
+from nag.solving.start.total_degree import bezout, total_degree
 
 
 def target(variables: str, *equations: str) -> Target:

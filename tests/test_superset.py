@@ -11,11 +11,11 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
-from nag.decomposition.confirm import vanishing
-from nag.decomposition.cutting import Cut
-from nag.decomposition.fibres import Tracker
-from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import witness_superset
+from nag.witness.confirm import vanishing
+from nag.witness.cutting import Cut
+from nag.witness.fibres import Tracker
+from nag.witness.slices import random_rows
 
 
 def polynomials(names: str, *texts: str) -> tuple[Polynomial, ...]:

@@ -15,8 +15,8 @@ from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapError, MapGroup, RationalMap
 from nag.algebra.symmetric_family import SymmetricFamily
-from nag.cases import CaseError, read_case
-from nag.tracking.parameter import solve_generic
+from nag.files.cases import CaseError, read_case
+from nag.solving.parameter import solve_generic
 
 NINE_POINTS = read_case(Path(__file__).parent.parent / "cases" / "benchmarks" / "nine-point.toml")
 FOUR_BARS = NINE_POINTS.family.symmetric

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.cases import CaseError, read_case
+from nag.files.cases import CaseError, read_case
 
 NAMES = ("x", "y", "z", "w")
 

@@ -13,9 +13,8 @@ from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.cli.progress import INTERVAL, progress_line
 from nag.report.agreement import Verdict, agreement_text, compare
-from nag.report.progress import INTERVAL, progress_line
 from nag.report.table import (
     align,
     component_table,
@@ -27,11 +26,12 @@ from nag.report.table import (
     system_line,
     title_line,
 )
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 
 @dataclass(frozen=True)
 class Known:
-    """What a case says is known, as `nag.cases.Truth` has it."""
+    """What a case says is known, as `nag.files.cases.Truth` has it."""
 
     dimension: int
     degree: int
@@ -273,7 +273,7 @@ def test_progress_is_shown_on_a_terminal_only_and_erased() -> None:
 
 def test_progress_is_not_written_more_often_than_it_can_be_read(monkeypatch) -> None:
     clock = iter([0.0, INTERVAL / 2, 1.5 * INTERVAL])
-    monkeypatch.setattr("nag.report.progress.time.monotonic", lambda: next(clock))
+    monkeypatch.setattr("nag.cli.progress.time.monotonic", lambda: next(clock))
     terminal = Terminal()
     with progress_line(terminal) as progress:
         for step in (1, 2, 3):

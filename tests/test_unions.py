@@ -7,7 +7,7 @@ import pytest
 from unions import found, random_union
 
 from nag.decomposition import decompose
-from nag.decomposition.witness import Status
+from nag.witness.witness import Status
 
 
 @pytest.mark.parametrize("seed", range(50))

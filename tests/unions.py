@@ -23,7 +23,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
-from nag.decomposition.witness import Decomposition
+from nag.witness.witness import Decomposition
 
 NAMES = ("x", "y", "z", "w")
 # Products of ideals have the product of the numbers of generators.

@@ -13,7 +13,7 @@ from timed_runs import Run
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
-from nag.tracking.solve import solve
+from nag.solving.solve import solve
 
 METHODS = ("solve", "decompose")
 VERDICTS = ("right", "incomplete", "slow", "wrong", "error")

@@ -17,8 +17,8 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.peers import call, plain_texts
-from nag.cases import Truth
 from nag.decomposition import decompose
+from nag.files.cases import Truth
 from nag.report.agreement import Verdict, compare
 
 # Best of so many runs; a run that takes longer than LONG seconds is not repeated.

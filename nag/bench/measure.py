@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.solving.parameter import Solved, begin_of_family, solve_family, solve_generic
+from nag.solving.solutions import SolveResult
+from nag.solving.solve import solve
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.parameter import Solved, begin_of_family, solve_family, solve_generic
-from nag.tracking.solutions import SolveResult
-from nag.tracking.solve import solve
 
 if TYPE_CHECKING:
-    from nag.case_family import CaseFamily
+    from nag.files.case_family import CaseFamily
 
 Solver = Callable[[int], SolveResult]
 
@@ -175,7 +175,7 @@ def measure(
 
     With ``family`` it is solved by way of its family, random parameters first.
     """
-    from nag.tracking.solve import begin_of
+    from nag.solving.solve import begin_of
 
     def solver(threads: int) -> SolveResult:
         if family is None:

@@ -18,18 +18,18 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
-from nag.decomposition.confirm import vanishing
-from nag.decomposition.cutting import ON, numerical_corank
-from nag.decomposition.fibres import Tracker
-from nag.decomposition.frame import Frame
-from nag.decomposition.membership import Membership, component_fibres, is_member
-from nag.decomposition.moving import witness_at
-from nag.decomposition.multiplicity import ACCURACY, multiplicity
-from nag.decomposition.slices import random_rows, to_slice
 from nag.decomposition.symmetric_images import in_orbits
-from nag.decomposition.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 from nag.numerics.singular_point import SingularEnd
-from nag.tracking.zero_values import possible_zeros, vanishes_at_all
+from nag.numerics.zero_values import possible_zeros, vanishes_at_all
+from nag.witness.confirm import vanishing
+from nag.witness.cutting import ON, numerical_corank
+from nag.witness.fibres import Tracker
+from nag.witness.frame import Frame
+from nag.witness.membership import Membership, component_fibres, is_member
+from nag.witness.moving import witness_at
+from nag.witness.multiplicity import ACCURACY, multiplicity
+from nag.witness.slices import random_rows, to_slice
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a point.
 NONZERO = 1e-6

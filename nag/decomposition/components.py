@@ -14,18 +14,18 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_components import decompose_apart
-from nag.decomposition.cutting import Equations
-from nag.decomposition.fibres import Tracker
 from nag.decomposition.final_checks import checked_witness_set
-from nag.decomposition.frame import Frame
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.irreducible import Class
 from nag.decomposition.isolated import contains, isolated_superset
 from nag.decomposition.orbits import Action, Orbit, irreducible_orbits
-from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
-from nag.decomposition.witness import Decomposition, PathCounts, Status, WitnessSet
-from nag.tracking.start.scaling import scaled_terms, variable_scales
+from nag.numerics.scaling import scaled_terms, variable_scales
+from nag.witness.cutting import Equations
+from nag.witness.fibres import Tracker
+from nag.witness.frame import Frame
+from nag.witness.slices import random_rows
+from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 # An answer that is left open is tried again with other random numbers, if that is not too long.
 ATTEMPTS = 3
@@ -80,7 +80,7 @@ def decompose(
         progress: called with a stage's name, the step reached and the number of steps.
         symmetries: signed permutations of the variables that keep the equations. Of the components
             that they carry into each other one is worked out and reported, with the size of its
-            orbit; `nag.decomposition.expansion.expanded` lists the others.
+            orbit; `nag.witness.expansion.expanded` lists the others.
 
     Raises:
         nag.algebra.symmetry.SymmetryError: if one of ``symmetries`` does not keep the equations.

@@ -17,16 +17,17 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.cutting import NEAR, Cut, Equations, regular_on, sharpen
 from nag.decomposition.factor import Factor, on_flag
-from nag.decomposition.fibres import SAME, Fibre, Moved, Tracker, admit
-from nag.decomposition.frame import Frame
 from nag.decomposition.hypersurface import intersect
-from nag.decomposition.membership import HIT, MISS, Membership, is_member
-from nag.decomposition.moving import orthonormal_rows
-from nag.decomposition.slices import random_rows, unit_complex
-from nag.decomposition.superset import Progress, clusters, forbidden
-from nag.decomposition.witness import PathCounts
+from nag.decomposition.superset import Progress, forbidden
+from nag.numerics.coincidence import clusters
+from nag.witness.cutting import NEAR, Cut, Equations, regular_on, sharpen
+from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
+from nag.witness.frame import Frame
+from nag.witness.membership import HIT, MISS, Membership, is_member
+from nag.witness.moving import orthonormal_rows
+from nag.witness.slices import random_rows, unit_complex
+from nag.witness.witness import PathCounts
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,7 +230,7 @@ def _take(
     rows = result.rows[d] = product.common_rows(flag[:d], common)
     fibres = result.fibres[d] = []
     lost = 0
-    for cluster in clusters(x, accuracy):
+    for cluster in clusters(x, accuracy, SAME):
         best, error = x[cluster[0]], float(accuracy[cluster[0]])
         if admit(best, error, fibres, equations, rows, rng, deflate=False):
             for i in cluster[1:]:

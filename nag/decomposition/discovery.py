@@ -16,19 +16,19 @@ from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.cutting import NEARLY_SINGULAR, ON, Cut, Equations
-from nag.decomposition.fibres import Fibre, Tracker, admit
 from nag.decomposition.final_checks import checked_witness_set
-from nag.decomposition.frame import Frame
-from nag.decomposition.gauss_newton import CLOSE, descend, polish
 from nag.decomposition.irreducible import Class
-from nag.decomposition.membership import Membership, is_member
 from nag.decomposition.monodromy import carried
 from nag.decomposition.pool import MOST_LOOPS, Pool, completed
-from nag.decomposition.slices import complex_normal, random_rows, rows_through, unit_complex
 from nag.decomposition.superset import Progress, forbidden
 from nag.decomposition.symmetric_images import in_orbits
-from nag.decomposition.witness import Decomposition, PathCounts, Status, WitnessSet
+from nag.witness.cutting import NEARLY_SINGULAR, ON, Cut, Equations
+from nag.witness.fibres import Fibre, Tracker, admit
+from nag.witness.frame import Frame
+from nag.witness.gauss_newton import CLOSE, descend, polish
+from nag.witness.membership import Membership, is_member
+from nag.witness.slices import complex_normal, random_rows, rows_through, unit_complex
+from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 STARTS = 100
 ATTEMPTS = 3

@@ -9,13 +9,13 @@ import numpy as np
 from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.cutting import Equations
-from nag.decomposition.fibres import Fibre, Tracker, cut_fibres
-from nag.decomposition.frame import Frame
 from nag.decomposition.monodromy import carried
-from nag.decomposition.moving import orthonormal_rows
-from nag.decomposition.slices import unit_complex
-from nag.decomposition.witness import PathCounts, WitnessSet
+from nag.witness.cutting import Equations
+from nag.witness.fibres import Fibre, Tracker, cut_fibres
+from nag.witness.frame import Frame
+from nag.witness.moving import orthonormal_rows
+from nag.witness.slices import unit_complex
+from nag.witness.witness import PathCounts, WitnessSet
 
 ATTEMPTS = 4
 

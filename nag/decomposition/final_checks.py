@@ -8,14 +8,14 @@ from itertools import combinations_with_replacement, permutations
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.decomposition.confirm import confirmed
-from nag.decomposition.cutting import ON, Equations, numerical_corank, sharpen
-from nag.decomposition.fibres import Fibre, Tracker, move
-from nag.decomposition.frame import Frame
 from nag.decomposition.irreducible import Class
-from nag.decomposition.multiplicity import multiplicity
-from nag.decomposition.slices import complex_normal, unit_complex
-from nag.decomposition.witness import PathCounts, Status, WitnessSet
+from nag.witness.confirm import confirmed
+from nag.witness.cutting import ON, Equations, numerical_corank, sharpen
+from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.frame import Frame
+from nag.witness.multiplicity import multiplicity
+from nag.witness.slices import complex_normal, unit_complex
+from nag.witness.witness import PathCounts, Status, WitnessSet
 
 # Multidegrees are counted only where so many choices of groups are enough.
 MOST_MULTIDEGREES = 100

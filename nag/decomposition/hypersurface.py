@@ -14,15 +14,15 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.confirm import vanishing
-from nag.decomposition.cutting import Cut, leading_power
-from nag.decomposition.fibres import Fibre, Moved, Tracker, homogeneous, moved
 from nag.decomposition.monodromy import carried
-from nag.decomposition.slices import padded, random_rows, unit_complex
-from nag.decomposition.witness import PathCounts
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.track import track
+from nag.witness.confirm import vanishing
+from nag.witness.cutting import Cut, leading_power
+from nag.witness.fibres import Fibre, Moved, Tracker, homogeneous, moved
+from nag.witness.slices import padded, random_rows, unit_complex
+from nag.witness.witness import PathCounts
 
 # Slices to which points may have to be moved to get to another flag.
 ATTEMPTS = 8

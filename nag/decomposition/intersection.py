@@ -14,18 +14,18 @@ import numpy as np
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.cutting import NEARLY_SINGULAR, ON, Equations, numerical_corank
 from nag.decomposition.diagonal import Common, meeting
 from nag.decomposition.factor import Factor, IntersectionError, on_flag
-from nag.decomposition.fibres import Fibre, Tracker, admit
 from nag.decomposition.final_checks import checked_witness_set
-from nag.decomposition.frame import Frame
 from nag.decomposition.irreducible import irreducible_classes
-from nag.decomposition.membership import component_system
-from nag.decomposition.moving import orthonormal_rows
-from nag.decomposition.slices import random_rows
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
-from nag.decomposition.witness import Decomposition, PathCounts, Status, WitnessSet
+from nag.witness.cutting import NEARLY_SINGULAR, ON, Equations, numerical_corank
+from nag.witness.fibres import Fibre, Tracker, admit
+from nag.witness.frame import Frame
+from nag.witness.membership import component_system
+from nag.witness.moving import orthonormal_rows
+from nag.witness.slices import random_rows
+from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 __all__ = [
     "Intersection",

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.decomposition.fibres import Fibre, Tracker
 from nag.decomposition.monodromy import carried, loop, merge
-from nag.decomposition.slices import random_rows, unit_complex
 from nag.decomposition.trace import is_linear, second_differences, smallest_linear_unions
-from nag.decomposition.witness import PathCounts
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.slices import random_rows, unit_complex
+from nag.witness.witness import PathCounts
 
 # Loops that merge nothing before sums of traces are searched, and loops after which to give up:
 # the worst of the measured systems needed 23.

@@ -9,12 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.cutting import Equations
-from nag.decomposition.fibres import Fibre, Tracker, admit
 from nag.decomposition.superset import Superset
-from nag.decomposition.witness import Decomposition, PathCounts, Status
-from nag.tracking.solve import solve
-from nag.tracking.start.target import StartError
+from nag.solving.solve import solve
+from nag.solving.start.target import StartError
+from nag.witness.cutting import Equations
+from nag.witness.fibres import Fibre, Tracker, admit
+from nag.witness.witness import Decomposition, PathCounts, Status
 
 # Solutions that are the same, found by two ways: relative distance.
 SAME = 1e-8

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.spatial import cKDTree
 
-from nag.decomposition.fibres import Fibre, Tracker, move
-from nag.decomposition.slices import random_rows, unit_complex
-from nag.decomposition.witness import PathCounts
+from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.slices import random_rows, unit_complex
+from nag.witness.witness import PathCounts
 
 ATTEMPTS = 3
 # An end is one of the known points when it is that near and the next one is a thousand times

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
-from nag.decomposition.fibres import Fibre, Tracker
 from nag.decomposition.irreducible import Class, irreducible_classes
 from nag.decomposition.monodromy import carried, located
-from nag.decomposition.slices import random_rows, unit_complex
 from nag.decomposition.trace import is_linear, second_differences
-from nag.decomposition.witness import PathCounts
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.slices import random_rows, unit_complex
+from nag.witness.witness import PathCounts
 
 # Loops that join nothing before the rest is split without symmetries.
 IDLE_LOOPS = 4

@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.decomposition.cutting import Cut
-from nag.decomposition.fibres import Fibre, Tracker, move
 from nag.decomposition.monodromy import carried
-from nag.decomposition.slices import random_rows, unit_complex
 from nag.decomposition.superset import Progress
 from nag.decomposition.trace import is_linear, second_differences
-from nag.decomposition.witness import PathCounts
+from nag.witness.cutting import Cut
+from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.slices import random_rows, unit_complex
+from nag.witness.witness import PathCounts
 
 # Loops after which a fibre that is not full is left undecided: 23 was the worst that was needed.
 MOST_LOOPS = 60

@@ -9,9 +9,9 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.expansion import image
-from nag.decomposition.moving import witness_at
-from nag.decomposition.witness import Slice, WitnessSet
+from nag.witness.expansion import image
+from nag.witness.moving import witness_at
+from nag.witness.witness import Slice, WitnessSet
 
 # Points nearer than this, relative to their size, are one.
 SAME = 1e-8
@@ -36,7 +36,7 @@ def in_orbits(
         symmetries: signed permutations that keep the system.
 
     Raises:
-        nag.decomposition.moving.SliceError: if points cannot be moved to the common slice.
+        nag.witness.moving.SliceError: if points cannot be moved to the common slice.
     """
 
     def moved(component: WitnessSet, target: Slice) -> np.ndarray:

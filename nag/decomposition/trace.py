@@ -8,10 +8,10 @@ from itertools import combinations
 
 import numpy as np
 
-from nag.decomposition.fibres import Fibre, Tracker
 from nag.decomposition.monodromy import carried
-from nag.decomposition.slices import complex_normal, unit_complex
-from nag.decomposition.witness import PathCounts
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.slices import complex_normal, unit_complex
+from nag.witness.witness import PathCounts
 
 # True traces lay below 2e-14 and false ones above 6e-5 in all shipped cases; near-degenerate
 # components come closer, and are then undecided rather than split.

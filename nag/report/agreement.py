@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nag.decomposition.witness import Decomposition, Status, WitnessSet
+from nag.witness.witness import Decomposition, Status, WitnessSet
 
 if TYPE_CHECKING:
-    from nag.cases import Truth
+    from nag.files.cases import Truth
 
 
 class Verdict(StrEnum):

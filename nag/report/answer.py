@@ -1,20 +1,14 @@
-"""The answer to ``nag decompose`` and ``nag model``, put together from a case and its results."""
+"""The answers to ``nag decompose`` and ``nag model`` as text."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from nag.algebra.number import Number, is_zero, number_text
-from nag.algebra.symmetry import SignedPermutation
-from nag.algebra.system import PolynomialSystem
-from nag.decomposition.expansion import expanded
-from nag.decomposition.witness import Decomposition, Status
+from nag.algebra.number import number_text
+from nag.decomposition.through import Through
+from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
-from nag.report.export import Origin
 from nag.report.table import (
     component_table,
     labelled,
@@ -24,97 +18,12 @@ from nag.report.table import (
     system_line,
     title_line,
 )
+from nag.witness.expansion import expanded
+from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
-    from nag.cases import Case
+    from nag.files.cases import Case
     from nag.mechanism.model import Model
-
-
-@dataclass(frozen=True)
-class Through:
-    """The components through a named point.
-
-    Attributes:
-        name: name of the point.
-        solution: whether the point satisfies the equations.
-        components: indices of the components through it, among all that the orbits stand for.
-        doubt: why the components are not known; empty if they are.
-    """
-
-    name: str
-    solution: bool
-    components: tuple[int, ...] = ()
-    doubt: str = ""
-
-
-def system_of(case: Case, model: Model | None) -> PolynomialSystem:
-    """The system that is decomposed."""
-    system = case.system if model is None else model.system
-    if system is None:
-        raise ValueError("a case without a system and without a mechanism")
-    return system
-
-
-def symmetries_of(case: Case, model: Model | None) -> tuple[SignedPermutation, ...]:
-    """Symmetries of the system: sign changes of Euler parameters, or what the case declares."""
-    if model is None:
-        return case.symmetries
-    return tuple(SignedPermutation.of_signs(signs) for signs in model.symmetries)
-
-
-def points_of(case: Case, model: Model | None) -> list[tuple[str, tuple[Number, ...]]]:
-    """Named points of the system: of a mechanism, its reference configuration."""
-    if model is not None:
-        return [("the reference configuration", tuple(model.reference))]
-    return [(point.name, tuple(point.at)) for point in case.points]
-
-
-def through_points(
-    decomposition: Decomposition, case: Case, model: Model | None, threads: int = 1
-) -> list[Through]:
-    """Which components pass through the case's named points."""
-    from nag.decomposition.membership import components_through
-
-    found, everything = [], expanded(decomposition)
-    for name, point in points_of(case, model):
-        if not all(is_zero(value) for value in decomposition.system(point)):
-            found.append(Through(name, solution=False))
-            continue
-        at = np.array([complex(float(x)) for x in point])
-        try:
-            indices = components_through(
-                everything,
-                at,
-                seed=decomposition.seed,
-                threads=threads,
-                settings=decomposition.settings,
-            )
-            doubt = "" if indices else "no component that was found passes through it"
-            found.append(Through(name, True, tuple(indices), doubt))
-        except ValueError as error:
-            found.append(Through(name, True, doubt=str(error)))
-    return found
-
-
-def accounted(decomposition: Decomposition, points: Sequence[Through]) -> Decomposition:
-    """The decomposition, incomplete if it leaves doubt about one of ``points``."""
-    doubts = tuple(f"{point.name}: {point.doubt}" for point in points if point.doubt)
-    if not doubts:
-        return decomposition
-    return replace(decomposition, complete=False, notes=(*decomposition.notes, *doubts))
-
-
-def origin(case: Case, model: Model | None) -> Origin:
-    """What an export says of where the system came from."""
-    from pathlib import Path
-
-    return Origin(
-        title=case.title,
-        file=Path(case.path).name,
-        kind=case.kind,
-        formulation=model.formulation if model else None,
-        reason=model.reason if model else None,
-    )
 
 
 def _model_rows(model: Model) -> list[tuple[str, str]]:

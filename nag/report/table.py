@@ -9,8 +9,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.witness import Decomposition, Status, WitnessSet
 from nag.report.agreement import in_words, kinds
+from nag.witness.witness import Decomposition, Status, WitnessSet
 
 # Length of a line; longer texts are wrapped.
 LINE = 100

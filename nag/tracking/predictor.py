@@ -6,7 +6,7 @@ from nag.machine_code.lanes import fma, fnma, load, select_less, splat, store
 
 # What a lane does: predict from its base point, correct there, or correct once more.
 PREDICT, CORRECT = 0.0, 1.0
-# Rows of the lanes' scalars, see `nag.tracking.kernel`.
+# Rows of the lanes' scalars, see `nag.tracking.straight_run`.
 T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH = range(8)
 
 

@@ -13,7 +13,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from nag.tracking.clusters import neighbours
+from nag.numerics.coincidence import neighbours
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
@@ -108,7 +108,7 @@ def track_regular(
 
 @dataclass(frozen=True, eq=False)
 class _Raw:
-    """Where the paths are after a run in doubles: see `nag.tracking.kernel.Batch`."""
+    """Where the paths are after a run in doubles: see `nag.tracking.straight_run.Batch`."""
 
     points: np.ndarray
     safe: np.ndarray
@@ -153,7 +153,7 @@ def _run(
     endgame: bool,
     weights: np.ndarray | None = None,
 ) -> _Raw:
-    from nag.tracking import jets, kernel
+    from nag.tracking import straight_run, taylor
 
     P = len(starts)
     raw = _Raw(
@@ -166,12 +166,12 @@ def _run(
     )
     if P == 0:
         return raw
-    kernel.track_lanes.prepare()
-    arrays = jets.system(homotopy, weights)
+    straight_run.track_lanes.prepare()
+    arrays = taylor.system(homotopy, weights)
     batches = max(1, min(threads, P // PATHS_PER_THREAD))
 
     def batch(first: int) -> None:
-        paths = kernel.Batch(
+        paths = straight_run.Batch(
             starts,
             P,
             first,
@@ -188,7 +188,7 @@ def _run(
             settings.safety,
             settings.contraction,
         )
-        kernel.track_lanes(arrays, jets.work(homotopy, settings.order), paths)
+        straight_run.track_lanes(arrays, taylor.work(homotopy, settings.order), paths)
 
     if batches == 1:
         batch(0)

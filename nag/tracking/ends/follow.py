@@ -173,7 +173,7 @@ def _follow_in(
     threads: int,
 ) -> np.ndarray:
     """Follow paths in one arithmetic; those that need the next one."""
-    from nag.tracking.ends import kernel
+    from nag.tracking.ends import end_run
 
     have = states.where.shape[-1]
     if have < words:
@@ -193,15 +193,15 @@ def _follow_in(
         for k, path in enumerate(pending.tolist()):
             states.digits[path] = DIGITS[words]
             outcome = states.outcome[path]
-            if outcome == kernel.LOST:
+            if outcome == end_run.LOST:
                 later.append(path)
-            elif outcome == kernel.LIMIT:
+            elif outcome == end_run.LIMIT:
                 verdict = _limit(states, limits, path, found[k], need)
-                if verdict != kernel.LIMIT:
-                    states.outcome[path] = kernel.LOST
-                    hopeful = verdict == kernel.OPEN and states.steps[path] < MAX_STEPS
+                if verdict != end_run.LIMIT:
+                    states.outcome[path] = end_run.LOST
+                    hopeful = verdict == end_run.OPEN and states.steps[path] < MAX_STEPS
                     (again if hopeful else later).append(path)
-            elif outcome == kernel.REGULAR:
+            elif outcome == end_run.REGULAR:
                 centre = states.found[path]
                 trusted = states.regular[path] and states.steps[path] == 1
                 if not trusted and not proved(terms, centre, states.errors[path]):
@@ -214,7 +214,7 @@ def _follow_in(
                 else:
                     continue
                 del states.found[path]
-                states.outcome[path] = kernel.LOST
+                states.outcome[path] = end_run.LOST
         pending = np.array(again, dtype=np.int64)
     return np.array(sorted(later), dtype=np.int64)
 
@@ -227,7 +227,7 @@ def _ambiguous(homotopy: Homotopy, states: _States, path: int, need: float) -> b
 
 def _limit(states: _States, limits: Limits, path: int, found: np.ndarray, need: float) -> int:
     """`LIMIT` if the equations agree, `OPEN` if further in they may, `LOST` in more digits."""
-    from nag.tracking.ends import kernel
+    from nag.tracking.ends import end_run
 
     known, t, w = states.known(path), states.t[path, 0], int(states.winding[path])
     limit = limits.of(states.where[path], found, known, states.t[path], w)
@@ -235,18 +235,18 @@ def _limit(states: _States, limits: Limits, path: int, found: np.ndarray, need: 
         # No branch point at t = 0: Newton's method is tried at the limit before it counts.
         states.ends[path], states.tried[path] = limit.centre, 0
         states.asked[path] = limits.words
-        return kernel.OPEN
+        return end_run.OPEN
     if limit is not None and limit.residual <= need:
         states.limits[path] = limit
         states.winding[path] = limit.winding
-        return kernel.LIMIT
+        return end_run.LIMIT
     shrink = 1e-3
     if limit is not None:
         # The last term of the series is about the power of r of its order.
         shrink = min(0.1, max(1e-8, (need / limit.residual) ** (w / ORDER)))
     states.latest[path] = t * shrink
     noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
-    return kernel.LOST if noise > 1e-3 * need and limits.words == 2 else kernel.OPEN
+    return end_run.LOST if noise > 1e-3 * need and limits.words == 2 else end_run.OPEN
 
 
 def _run(
@@ -258,9 +258,9 @@ def _run(
     threads: int,
 ) -> np.ndarray:
     """Run the kernel; what it extrapolated for the chosen paths that converged to limits."""
-    from nag.tracking.ends import kernel
+    from nag.tracking.ends import end_run
 
-    compiled = kernel.KERNELS[words]
+    compiled = end_run.KERNELS[words]
     compiled.prepare()
     system = records.equations(homotopy, words, ORDER)
     batches = max(1, min(threads, len(chosen) // 8))
@@ -274,7 +274,7 @@ def _run(
         safe, safe_t = states.safe[own].copy(), states.safe_t[own].copy()
         t, curvature = states.t[own], states.curvature[own]
         own_limits = np.zeros((count, N, 4, 2, words))
-        batch = kernel.Batch(
+        batch = end_run.Batch(
             count,
             ORDER,
             states.ends[own].ravel(),
@@ -299,7 +299,7 @@ def _run(
         compiled(system, records.room(homotopy, words, ORDER), batch)
         states.outcome[own], states.winding[own] = whole[0], whole[1]
         states.steps[own] += whole[2]
-        regular = whole[0] == kernel.REGULAR
+        regular = whole[0] == end_run.REGULAR
         states.found |= {int(own[k]): points[k] for k in np.flatnonzero(regular)}
         states.where[own[~regular]] = points[~regular]
         states.errors[own] = errors
@@ -317,7 +317,7 @@ def _run(
 
 
 def _paths(homotopy: Homotopy, states: _States) -> Paths:
-    from nag.tracking.ends import kernel
+    from nag.tracking.ends import end_run
 
     P = len(states.t)
     points = np.zeros((P, homotopy.N), dtype=np.complex128)
@@ -328,12 +328,12 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
     infinite = list(homotopy.infinity)
     for path in range(P):
         points[path] = states.point(path)
-        if states.outcome[path] == kernel.REGULAR:
+        if states.outcome[path] == end_run.REGULAR:
             finite = bool(states.known(path)[infinite].all())
             status[path] = PathStatus.REGULAR if finite else PathStatus.AT_INFINITY
             accuracy[path] = max(2e-16, float(states.errors[path].max()))
             balls[path] = Ball(states.found[path], states.errors[path])
-        elif states.outcome[path] == kernel.LIMIT:
+        elif states.outcome[path] == end_run.LIMIT:
             limit = states.limits[path]
             points[path] = limit.point
             branches[path] = Branch(limit.winding, limit.orders, limit.branch, limit.bends)
@@ -355,7 +355,7 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
         states.steps,
         states.digits.astype(np.int16),
         np.where(failed, Reason.ENDGAME, Reason.NONE).astype(np.int8),
-        states.outcome == kernel.REGULAR,
+        states.outcome == end_run.REGULAR,
         balls,
         branches,
     )

@@ -1,0 +1,93 @@
+"""What ``nag bench`` measured, as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from nag.report.table import align
+
+if TYPE_CHECKING:
+    from nag.bench.decomposition import Decomposed, PeerDecomposed
+    from nag.bench.measure import Measured
+    from nag.bench.peers import Peer
+
+
+def table(
+    rows: list[Measured], peers: dict[str, dict[str, Peer]], programs: list[str], rate: float
+) -> list[str]:
+    """The benchmarks as aligned lines; times in seconds, those of a step in microseconds."""
+    head = ["system", "solutions", "known", "start", "paths", "steps/path", "solve", "2 threads"]
+    head += ["process", "us/step", "bound"]
+    head += [cell for p in programs for cell in (f"{p} found", f"{p} solve", f"{p} process")]
+    head += [f"x {p}" for p in programs]
+    lines = [head]
+    for row in rows:
+        cells = [
+            row.case,
+            str(row.solutions) + ("" if row.complete else " incomplete"),
+            "-" if row.expected is None else str(row.expected),
+            row.start,
+            str(row.paths),
+            f"{row.steps / max(row.paths, 1):.0f}",
+            f"{row.seconds:.4f}",
+            f"{row.two_threads:.4f}",
+            f"{row.process:.2f}",
+            f"{row.microseconds:.2f}",
+            f"{row.bound:.2f}",
+        ]
+        found = peers.get(row.case, {})
+        for p in programs:
+            peer = found[p]
+            seconds = "-" if peer.seconds is None else f"{peer.seconds:.3f}"
+            cells += [str(peer.solutions or peer.remark), seconds, f"{peer.process:.2f}"]
+        for p in programs:
+            reference = found[p].seconds or found[p].process
+            cells.append(f"{reference / row.seconds:.0f}" if found[p].solutions else "-")
+        lines.append(cells)
+    text = align(lines, {0, 3})
+    text += [
+        "",
+        "solve: seconds, warm, one thread; process: a whole process; bound: microseconds that a",
+        f"step's operations take at {rate / 1e9:.1f} Gflop/s, measured; x: how many times as long",
+        "the other program solves (its whole process where it does not say).",
+    ]
+    wrong = [row.case for row in rows if not row.right]
+    if wrong:
+        text.append(f"WRONG: {', '.join(wrong)}")
+    return text
+
+
+def decomposition_table(rows: list[Decomposed], peers: dict[str, PeerDecomposed]) -> list[str]:
+    """Decompositions as aligned lines, times in seconds of the processor."""
+    head = ["system", "components", "dimension", "paths", "failed", "answer", "seconds"]
+    lines = [[*head, *(["M2 seconds", "x", "M2 answer"] if peers else [])]]
+    for row in rows:
+        answer = "right" if row.right else "WRONG" if row.complete else "incomplete"
+        cells = [row.case, row.components, row.dimension, row.paths, row.failed, answer]
+        cells.append(f"{row.seconds:.4f}")
+        if peers:
+            peer = peers[row.case]
+            if peer.seconds is None:
+                cells += ["-", f"> {peer.process / row.seconds:.0f}", peer.remark]
+            else:
+                cells += [f"{peer.seconds:.3f}", f"{peer.seconds / row.seconds:.1f}"]
+                cells.append("right" if peer.right else peer.remark)
+        lines.append([str(cell) for cell in cells])
+    left = {0, 5, 9} if peers else {0, 5}
+    text = [*align(lines, left), "", "seconds: processor time, warm, one thread, best of five."]
+    if peers:
+        text.append(
+            "x: how many times as long numericalIrreducibleDecomposition of M2 takes, once."
+        )
+    return text
+
+
+def growth_table(rows: list[Decomposed]) -> list[str]:
+    """Chains as aligned lines, and the exponents of time and paths."""
+    from nag.bench.decomposition import growth_exponent
+
+    lines = decomposition_table(rows, {})[:-1]
+    for quantity in ("seconds", "paths"):
+        slope = growth_exponent(rows, quantity)
+        lines.append(f"{quantity} grow as the number of components to the power {slope:.2f}")
+    return lines

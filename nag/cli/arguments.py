@@ -1,0 +1,135 @@
+"""What the commands share: bad input, exit status, the options of every run, reading a case."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from nag.files.cases import Case
+    from nag.mechanism.model import Model
+
+COMPLETE, INCOMPLETE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+SETTINGS = ("fast", "default", "careful")
+MOST_THREADS = 256
+LARGEST_SEED = 2**63 - 1
+
+
+class UsageError(ValueError):
+    """Bad input; the message is one line for the user.
+
+    Attributes:
+        answer: lines that are printed all the same, when a file could not be written.
+    """
+
+    def __init__(self, message: str, answer: Sequence[str] = ()) -> None:
+        super().__init__(message)
+        self.answer = answer
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors are bad input like any other."""
+
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"{message} (see {self.prog} --help)")
+
+
+def whole(text: str, least: int, most: int) -> int:
+    """A whole number on the command line, from ``least`` to ``most``."""
+    digits = text.strip()
+    if not (digits.isascii() and digits.isdigit() and len(digits) < 30):
+        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a whole number from {least} up")
+    value = int(digits)
+    if not least <= value <= most:
+        raise argparse.ArgumentTypeError(f"{value} is not between {least} and {most}")
+    return value
+
+
+def _seed(text: str) -> int:
+    return whole(text, 0, LARGEST_SEED)
+
+
+def _threads(text: str) -> int:
+    return whole(text, 1, MOST_THREADS)
+
+
+def _available_threads() -> int:
+    if hasattr(os, "sched_getaffinity"):
+        return min(len(os.sched_getaffinity(0)), MOST_THREADS)
+    return min(os.cpu_count() or 1, MOST_THREADS)
+
+
+def add_case(parser: argparse.ArgumentParser) -> None:
+    """The case file and the formulation of its model."""
+    parser.add_argument("case", metavar="CASE", help="case file (TOML)")
+    add_formulation(parser)
+
+
+def add_formulation(parser: argparse.ArgumentParser) -> None:
+    """The formulation of a mechanism's model."""
+    parser.add_argument(
+        "--formulation",
+        choices=("E", "H"),
+        help="model of a mechanism: E Euler parameters, H half angles (default: the smaller one)",
+    )
+
+
+def add_running(parser: argparse.ArgumentParser) -> None:
+    """The options of every command that tracks paths."""
+    parser.add_argument(
+        "--seed", type=_seed, default=0, help="seed of the random numbers (default: 0)"
+    )
+    parser.add_argument(
+        "--threads",
+        type=_threads,
+        default=_available_threads(),
+        help="threads; the answer is the same for any number (default: one a processor)",
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
+    parser.add_argument(
+        "--settings",
+        choices=SETTINGS,
+        default="default",
+        help="how carefully paths are tracked (default: default)",
+    )
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+
+
+def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
+    """The case, and its model if it is a mechanism."""
+    from nag.files.cases import CaseError, read_case
+
+    try:
+        case = read_case(arguments.case)
+    except CaseError as error:
+        raise UsageError(str(error)) from None
+    except OSError as error:
+        raise UsageError(f"{arguments.case}: {error.strerror or error}") from None
+    if case.mechanism is None:
+        if arguments.formulation is not None:
+            raise UsageError(
+                f"{arguments.case}: is a polynomial system; --formulation is for mechanisms"
+            )
+        return case, None
+
+    from nag.mechanism.model import ModelError, model
+
+    try:
+        return case, model(case.mechanism, arguments.formulation or "auto")
+    except ModelError as error:
+        raise UsageError(f"{arguments.case}: {error}") from None
+
+
+def check_json(target: str, case: str = "") -> None:
+    """Refuse, before any work is done, a file that the answer could not be written to."""
+    from nag.files.written_file import TargetError, check_target
+
+    try:
+        check_target(target)
+    except TargetError as error:
+        raise UsageError(f"--json: {error}") from None
+    if os.path.exists(target) and os.path.exists(case) and os.path.samefile(target, case):
+        raise UsageError(f"--json: {target}: is the case file; name another file")

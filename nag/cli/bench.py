@@ -1,0 +1,124 @@
+"""The command ``nag bench``: the benchmark systems, their counts and their times."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from nag.cli import bench_decompose
+from nag.cli.arguments import UsageError, check_json
+
+FOLDER = Path("cases") / "benchmarks"
+# Another program is given up after so many seconds.
+PATIENCE = 300.0
+# Run unless names are given.
+NAMES = (
+    "katsura-8",
+    "katsura-9",
+    "katsura-10",
+    "katsura-11",
+    "cyclic-5",
+    "cyclic-6",
+    "cyclic-7",
+    "noon-5",
+    "noon-6",
+    "chandra-8",
+    "eco-8",
+    "reimer-5",
+    "inverse-6r",
+    "stewart-gough",
+    "planar-3-rpr",
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``nag bench``."""
+    parser.add_argument(
+        "--case",
+        action="append",
+        metavar="NAME",
+        help="a benchmark, by its file's name without .toml, or a case file (repeatable)",
+    )
+    parser.add_argument(
+        "--folder",
+        default=str(FOLDER),
+        metavar="DIR",
+        help=f"folder of the benchmarks (default: {FOLDER})",
+    )
+    parser.add_argument("--peers", action="store_true", help="run M2 and phc too, where installed")
+    parser.add_argument("--json", metavar="FILE", help="write the table to FILE as JSON")
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    bench_decompose.add_arguments(parser)
+
+
+def files(names: list[str] | None, folder: str) -> list[Path]:
+    """The case files to run.
+
+    Raises:
+        UsageError: if there is no such benchmark.
+    """
+    there = Path(folder)
+    if not there.is_dir() and not names:
+        raise UsageError(f"--folder: {folder}: is no folder; name the one that has the benchmarks")
+    result = []
+    for name in names or NAMES:
+        path = Path(name) if name.endswith(".toml") else there / f"{name}.toml"
+        if not path.is_file():
+            known = ", ".join(sorted(p.stem for p in there.glob("*.toml")))
+            raise UsageError(f"--case: {name}: no such benchmark; there are {known or 'none'}")
+        result.append(path)
+    return result
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Run the benchmarks; returns the lines to print and whether all counts are right.
+
+    Raises:
+        UsageError: if a benchmark cannot be read, or the table cannot be written.
+    """
+    if options.json is not None:
+        check_json(options.json)
+    if options.decompose or options.growth is not None or options.chart is not None:
+        return bench_decompose.run(options)
+
+    from nag.bench.measure import as_json, flop_rate, measure
+    from nag.bench.peers import installed, run_peer
+    from nag.bench.table import table
+    from nag.files.cases import CaseError, read_case
+    from nag.files.written_file import TargetError, write_target
+    from nag.mechanism.model import ModelError, model
+    from nag.solving.start.target import StartError
+
+    cases = []
+    for path in files(options.case, options.folder):
+        try:
+            case = read_case(path)
+            made = model(case.mechanism) if case.mechanism is not None else None
+        except (CaseError, ModelError) as error:
+            raise UsageError(str(error)) from None
+        formulation = made.formulation if made else None
+        known = [t for t in case.truth if t.dimension == 0 and t.formulation in (None, formulation)]
+        system = made.system if made else case.system
+        expected = sum(t.count for t in known) if known else None
+        cases.append((path, system, expected, case.family))
+    rate = flop_rate()
+    programs = installed() if options.peers else []
+    rows, peers = [], {}
+    for path, system, expected, family in cases:
+        if not options.quiet:
+            print(f"{path.stem} ...", file=sys.stderr, flush=True)
+        try:
+            rows.append(measure(path.stem, path, system, expected, 0, rate, family=family))
+        except StartError as error:
+            raise UsageError(f"{path}: {error}") from None
+        peers[path.stem] = {p: run_peer(p, system, PATIENCE) for p in programs}
+    if options.json is not None:
+        documents = {
+            name: {p: peer.document() for p, peer in found.items()} for name, found in peers.items()
+        }
+        try:
+            write_target(options.json, as_json(rows, rate, documents))
+        except TargetError as error:
+            raise UsageError(f"--json: {error}") from None
+    return table(rows, peers, programs, rate), all(row.right for row in rows)

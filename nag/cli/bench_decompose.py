@@ -1,0 +1,125 @@
+"""``nag bench --decompose`` and ``--growth``: decompositions, their times, and how they grow."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from nag.cli.arguments import UsageError
+
+if TYPE_CHECKING:
+    from nag.bench.decomposition import Decomposed, PeerDecomposed
+
+CASES = Path("cases")
+# Macaulay2 is given up after so many seconds.
+PATIENCE = 200.0
+LONGEST_CHAIN = 4
+# Run unless names are given.
+NAMES = (
+    "slider-crank",
+    "four-bar",
+    "rhombus",
+    "double-rhombus",
+    "literature/sphere-and-cubic",
+    "gonzalez",
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``nag bench`` that are about decompositions."""
+    parser.add_argument(
+        "--decompose",
+        action="store_true",
+        help="decompose instead of solve: cases named by their path under cases/ without .toml",
+    )
+    parser.add_argument(
+        "--growth",
+        type=_chain,
+        nargs="?",
+        const=LONGEST_CHAIN,
+        metavar="K",
+        help="decompose chains of 1 to K rhombi, which have 3^K components "
+        f"(default: {LONGEST_CHAIN})",
+    )
+    parser.add_argument(
+        "--chart", metavar="FILE", help="with --growth: draw time and paths (needs matplotlib)"
+    )
+
+
+def _chain(text: str) -> int:
+    if text not in ("2", "3", "4", "5", "6"):
+        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a number from 2 to 6")
+    return int(text)
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Run what is asked for; returns the lines to print and whether all answers are right.
+
+    Raises:
+        UsageError: if a case cannot be read, or a file cannot be written.
+    """
+    from nag.files.written_file import TargetError, check_target, write_target
+
+    if options.chart is not None and options.growth is None:
+        raise UsageError("--chart: is drawn with --growth; ask for that as well")
+    if options.chart is not None and importlib.util.find_spec("matplotlib") is None:
+        raise UsageError('--chart: matplotlib is missing; install it with pip install "nag[plot]"')
+    for name in ("json", "chart"):
+        if getattr(options, name) is not None:
+            try:
+                check_target(getattr(options, name))
+            except TargetError as error:
+                raise UsageError(f"--{name}: {error}") from None
+
+    from nag.bench.decomposition import as_json, growth, growth_chart
+    from nag.bench.table import decomposition_table, growth_table
+
+    peers: dict[str, PeerDecomposed] = {}
+    if options.growth is not None:
+        rows = growth(options.growth)
+        lines = growth_table(rows)
+        if options.chart is not None:
+            try:
+                growth_chart(rows, options.chart)
+            except (OSError, ValueError) as error:
+                raise UsageError(f"--chart: {options.chart}: {error}") from None
+    else:
+        rows, peers = _cases(options)
+        lines = decomposition_table(rows, peers)
+    if options.json is not None:
+        try:
+            write_target(options.json, as_json(rows, peers))
+        except TargetError as error:
+            raise UsageError(f"--json: {error}") from None
+    return lines, all(row.right for row in rows)
+
+
+def _cases(options: argparse.Namespace) -> tuple[list[Decomposed], dict[str, PeerDecomposed]]:
+    from nag.bench.decomposition import macaulay2, macaulay2_installed, measure_decomposition
+    from nag.files.cases import CaseError, read_case
+    from nag.files.problem import system_of
+    from nag.mechanism.model import ModelError, model
+
+    known = []
+    for name in options.case or NAMES:
+        path = Path(name) if name.endswith(".toml") else CASES / f"{name}.toml"
+        if not path.is_file():
+            raise UsageError(f"--case: {name}: there is no {path}; name a case file")
+        try:
+            case = read_case(path)
+            known.append((path, case, model(case.mechanism) if case.mechanism else None))
+        except (CaseError, ModelError) as error:
+            raise UsageError(str(error)) from None
+    rows, peers = [], {}
+    for path, case, made in known:
+        if not options.quiet:
+            print(f"{path.stem} ...", file=sys.stderr, flush=True)
+        system, formulation = system_of(case, made), made.formulation if made else None
+        truth = [t for t in case.truth if t.formulation in (None, formulation)]
+        rows.append(measure_decomposition(path.stem, system, truth, formulation=formulation))
+        if options.peers and macaulay2_installed():
+            peers[path.stem] = macaulay2(system, truth, PATIENCE)
+    return rows, peers

@@ -1,0 +1,148 @@
+"""The command line's grammar, and how a command ends.
+
+Exit status: 0 for a complete answer, 1 for an incomplete one, 2 for bad input (one line on
+standard error), 130 after Ctrl-C. Modules that load numpy or llvmlite are imported by the commands
+that need them, so that ``nag --help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+from collections.abc import Sequence
+from types import ModuleType
+
+import nag
+from nag.cli import bench, decompose, intersect, member, model, sample, solve
+from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
+
+FROM_COMPONENTS = (
+    "The components are those of an export of `nag decompose --json`, or of a case, which is "
+    "decomposed first."
+)
+
+# Each command: its module, what it does, and more about it.
+COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
+    (
+        "decompose",
+        decompose,
+        "find the irreducible components of a case",
+        "Find the irreducible components of a mechanism's configuration space, or of the zero set "
+        "of a polynomial system, and the mobility.",
+    ),
+    (
+        "member",
+        member,
+        "say which components a point lies on",
+        f"Say which components a point lies on. {FROM_COMPONENTS}",
+    ),
+    (
+        "sample",
+        sample,
+        "find random points of a component",
+        f"Find random points of a component. {FROM_COMPONENTS}",
+    ),
+    (
+        "intersect",
+        intersect,
+        "find the intersection of two components",
+        f"Find the intersection of two components. {FROM_COMPONENTS}",
+    ),
+    (
+        "solve",
+        solve,
+        "find the isolated solutions of a case",
+        "Find all isolated solutions of a polynomial system, with multiplicities, by tracking "
+        "paths from a solved system.",
+    ),
+    (
+        "bench",
+        bench,
+        "solve the benchmark systems and measure how fast",
+        "Solve the benchmark systems, check their numbers of solutions and measure the time, "
+        "beside other programs if they are installed.",
+    ),
+    (
+        "model",
+        model,
+        "print the polynomial system of a case",
+        "Print the polynomial system that `nag decompose` decomposes.",
+    ),
+)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line's grammar."""
+    root = Parser(
+        prog="nag",
+        description="Numerical algebraic geometry for mechanisms.",
+        epilog="Exit status: 0 complete answer, 1 incomplete answer, 2 bad input.",
+        allow_abbrev=False,
+    )
+    root.add_argument("--version", action="version", version=f"nag {nag.__version__}")
+    commands = root.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, module, text, description in COMMANDS:
+        command = commands.add_parser(name, allow_abbrev=False, help=text, description=description)
+        module.add_arguments(command)
+        command.set_defaults(module=module)
+    return root
+
+
+def _print(lines: Sequence[str] = ()) -> None:
+    """Write lines to standard output; a reader who has gone away is no error."""
+    try:
+        sys.stdout.write("".join(f"{line}\n" for line in lines))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _abandon_output()
+    except OSError as error:
+        _abandon_output()
+        raise UsageError(f"standard output cannot be written: {error.strerror}") from None
+
+
+def _complain(message: str) -> None:
+    from nag.report.table import printable
+
+    with contextlib.suppress(OSError, ValueError):
+        sys.stderr.write(f"nag: {printable(message)}\n")
+        sys.stderr.flush()
+
+
+def _abandon_output() -> None:
+    """Give standard output nowhere to go, so that the interpreter's last flush cannot fail."""
+    with contextlib.suppress(OSError, ValueError):
+        sink = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(sink, sys.stdout.fileno())
+        os.close(sink)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line; returns the exit status."""
+    # A stream that was closed before the start is None.
+    sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115
+    sys.stderr = sys.stderr or open(os.devnull, "w")  # noqa: SIM115
+    for stream in (sys.stdout, sys.stderr):
+        # What a terminal's encoding cannot show is escaped; it must not end the run.
+        with contextlib.suppress(AttributeError):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        try:
+            arguments = parser().parse_args(argv)
+        except SystemExit:  # after --help or --version
+            _print()
+            return COMPLETE
+        lines, complete = arguments.module.run(arguments)
+        _print(lines)
+        return COMPLETE if complete else INCOMPLETE
+    except UsageError as error:
+        _print(error.answer)
+        _complain(str(error))
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        _complain("interrupted")
+        return INTERRUPTED
+    except MemoryError:
+        _complain("not enough memory for this case")
+        return INCOMPLETE

@@ -1,0 +1,113 @@
+"""The command ``nag intersect``: the components of the intersection of two components."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+
+from nag.cli.arguments import UsageError, add_running, check_json
+from nag.cli.witness_input import (
+    add_input,
+    component_number,
+    component_of,
+    given,
+    head,
+    like,
+    write_document,
+)
+
+FORMAT = "nag-intersection"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments that ``nag intersect`` has besides those of every command that runs a case."""
+    add_input(parser)
+    add_running(parser)
+    parser.add_argument(
+        "--components",
+        type=component_number,
+        nargs=2,
+        required=True,
+        metavar=("I", "J"),
+        help="numbers of the components, in the order of the export; they may be equal",
+    )
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Intersect and write the export; returns the lines to print and whether all is known.
+
+    Raises:
+        UsageError: for bad input, or an export that cannot be written.
+    """
+    from nag.cli.progress import compilation_notice, progress_line
+    from nag.report.table import (
+        component_table,
+        labelled,
+        paths_line,
+        printable,
+        remarks,
+        title_line,
+    )
+
+    started = time.perf_counter()
+    if options.json is not None:
+        check_json(options.json, options.case)
+    with compilation_notice(sys.stderr, options.quiet):
+        from nag.decomposition.intersection import IntersectionError, intersect_components
+
+        found = given(options)
+        pair = [component_of(found, number, "--components") for number in options.components]
+        try:
+            with progress_line(sys.stderr, options.quiet) as progress:
+                result = intersect_components(
+                    found.decomposition.system,
+                    *pair,
+                    seed=options.seed,
+                    threads=options.threads,
+                    settings=options.settings,
+                    progress=progress,
+                )
+        except IntersectionError as error:
+            raise UsageError(f"{options.case}: {error}") from None
+    undecided = [n for n, c in zip(options.components, pair, strict=True) if c.note]
+    complete = result.complete and not undecided
+    if options.json is not None:
+        from nag.files.export import component_document
+
+        document = head(found, FORMAT, options) | {
+            "complete": complete,
+            "notes": list(result.notes),
+            "of": [{"number": n, **like(c)} for n, c in zip(options.components, pair, strict=True)],
+            "paths": {
+                "tracked": result.paths.tracked,
+                "failed": result.paths.failed,
+                "at_infinity": result.paths.at_infinity,
+            },
+            "system": {
+                "variables": list(result.system.variables),
+                "polynomials": result.system.text(),
+            },
+            "components": [
+                component_document(c, result.system.variables) for c in result.components
+            ],
+        }
+        write_document(document, options.json)
+    top = []
+    for number, component in zip(options.components, pair, strict=True):
+        kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
+        top.append(("component", f"{kind}, {component.status}"))
+    top.append(("answer", title_line(result) if result.components else "they do not meet"))
+    if not complete:
+        top.append(("", "INCOMPLETE, see below"))
+    seconds = time.perf_counter() - started
+    tail = [("open", line) for line in remarks(result)]
+    tail += [("open", f"component {number} is undecided") for number in undecided]
+    tail += [
+        ("paths", paths_line(result)),
+        ("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"),
+    ]
+    width = max(len(label) for label, _ in top + tail)
+    table = component_table(result)
+    lines = [printable(found.title), "", *labelled(top, width), ""]
+    return [*lines, *([*table, ""] if table else []), *labelled(tail, width)], complete

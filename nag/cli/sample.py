@@ -1,0 +1,114 @@
+"""The command ``nag sample``: random points of a component."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+
+from nag.cli.arguments import add_running, check_json
+from nag.cli.witness_input import (
+    add_input,
+    component_number,
+    component_of,
+    doubts,
+    given,
+    head,
+    like,
+    write_document,
+)
+
+FORMAT = "nag-samples"
+MOST_SAMPLES = 1_000_000
+# Longer lists and wider points are left to the export.
+MOST_ROWS, MOST_COLUMNS = 20, 4
+
+
+def _count(text: str) -> int:
+    digits = text.strip()
+    if not (digits.isascii() and digits.isdigit() and len(digits) < 10):
+        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a whole number from 1 up")
+    if not 1 <= int(digits) <= MOST_SAMPLES:
+        raise argparse.ArgumentTypeError(f"{digits} is not between 1 and {MOST_SAMPLES}")
+    return int(digits)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments that ``nag sample`` has besides those of every command that runs a case."""
+    add_input(parser)
+    add_running(parser)
+    parser.add_argument(
+        "--component",
+        type=component_number,
+        default=1,
+        metavar="K",
+        help="number of the component, in the order of the export (default: 1)",
+    )
+    parser.add_argument(
+        "--count", type=_count, default=10, metavar="N", help="number of points (default: 10)"
+    )
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Sample a component and write the export; returns the lines to print and whether it is whole.
+
+    Raises:
+        UsageError: for bad input, or an export that cannot be written.
+    """
+    from nag.cli.progress import compilation_notice
+    from nag.report.table import align, labelled, magnitude, printable
+
+    started = time.perf_counter()
+    if options.json is not None:
+        check_json(options.json, options.case)
+    with compilation_notice(sys.stderr, options.quiet):
+        from nag.witness.sampling import SamplingError, sample
+
+        found = given(options)
+        component = component_of(found, options.component, "--component")
+        system = found.decomposition.system
+        try:
+            samples = sample(
+                system,
+                component,
+                options.count,
+                seed=options.seed,
+                threads=options.threads,
+                settings=options.settings,
+            )
+            doubt = ""
+        except SamplingError as error:
+            samples, doubt = error.found, str(error)
+    # A point of a component needs no other component to be known.
+    complete = str(component.status) == "irreducible" and not doubt
+    if options.json is not None:
+        from nag.files.json_text import pairs
+
+        document = head(found, FORMAT, options) | {
+            "complete": complete,
+            "variables": list(system.variables),
+            "component": {"number": options.component, **like(component)},
+            "residual": samples.residual,
+            "accuracy": samples.accuracy,
+            "points": pairs(samples.points),
+        }
+        write_document(document, options.json)
+    seconds = time.perf_counter() - started
+    wide = system.n > MOST_COLUMNS
+    rows = [["point", *system.variables[:MOST_COLUMNS], *(["..."] if wide else [])]]
+    for i, point in enumerate(samples.points[:MOST_ROWS]):
+        cells = [f"{z.real:.6f}{z.imag:+.6f}i" for z in point[:MOST_COLUMNS]]
+        rows.append([str(i + 1), *cells, *(["..."] if wide else [])])
+    kind = f"{options.component}: dimension {component.dimension}, degree {component.degree}"
+    top = [("component", f"{kind}, {component.status}")]
+    tail = [
+        ("residual", f"{magnitude(samples.residual)}, accuracy {magnitude(samples.accuracy)}"),
+        *([("open", doubt)] if doubt else []),
+        *doubts(found),
+        ("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"),
+    ]
+    if len(samples.points) > MOST_ROWS:
+        tail.insert(0, ("points", f"{len(samples.points)}, the first {MOST_ROWS} are shown"))
+    width = max(len(label) for label, _ in top + tail)
+    lines = [printable(found.title), "", *labelled(top, width), "", *align(rows), ""]
+    return [*lines, *labelled(tail, width)], complete

@@ -1,0 +1,115 @@
+"""The command ``nag solve``: all isolated solutions of a case."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from nag.cli.arguments import UsageError, add_case, add_running, check_json, read_problem
+
+if TYPE_CHECKING:
+    from nag.algebra.system import PolynomialSystem
+    from nag.files.cases import Case
+    from nag.solving.solutions import SolveResult
+    from nag.solving.solve import Progress
+
+STARTS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy", "parameter")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``nag solve``."""
+    add_case(parser)
+    add_running(parser)
+    parser.add_argument(
+        "--start",
+        choices=STARTS,
+        default="auto",
+        help="start system (default: auto, the one with the least work, or parameter where the "
+        "case has a [family])",
+    )
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Solve a case and write its export; returns the lines to print and whether all is known.
+
+    Raises:
+        UsageError: if the system cannot be solved, or the export cannot be written.
+    """
+    from nag.cli.progress import compilation_notice, progress_line
+    from nag.files.problem import system_of
+    from nag.files.written_file import TargetError
+    from nag.report.solutions import solution_lines
+    from nag.solving.start.target import StartError
+
+    started = time.perf_counter()
+    if options.json is not None:
+        check_json(options.json, options.case)
+    case, model = read_problem(options)
+    system = system_of(case, model)
+    try:
+        with (
+            compilation_notice(sys.stderr, options.quiet),
+            progress_line(sys.stderr, options.quiet) as progress,
+        ):
+            result = solve_case(
+                case,
+                system,
+                options.start,
+                seed=options.seed,
+                threads=options.threads,
+                settings=options.settings,
+                progress=progress,
+            )
+    except StartError as error:
+        raise UsageError(f"{options.case}: {error}") from None
+    if options.json is not None:
+        from nag.files.solutions_export import write_solutions
+
+        try:
+            write_solutions(result, options.json, case.title, os.path.basename(options.case))
+        except TargetError as error:
+            raise UsageError(f"--json: {error}") from None
+    seconds = time.perf_counter() - started
+    return solution_lines(result, case, model, seconds), result.complete
+
+
+def solve_case(
+    case: Case,
+    system: PolynomialSystem,
+    start: str,
+    *,
+    seed: int,
+    threads: int,
+    settings: str,
+    progress: Progress | None = None,
+) -> SolveResult:
+    """All isolated solutions of a case's system, by way of its family if it declares one.
+
+    Raises:
+        nag.solving.start.target.StartError: if there is no such start for the case.
+    """
+    from nag.algebra.rational_map import MapError
+    from nag.solving.parameter import solve_family, solve_generic
+    from nag.solving.solve import solve
+    from nag.solving.start.target import StartError
+
+    family = case.family
+    if start == "parameter" and family is None:
+        raise StartError("parameter: the case has no [family]; leave out --start")
+    common = {"seed": seed, "threads": threads, "settings": settings}
+    if family is None or start not in ("auto", "parameter"):
+        return solve(system, start=start, progress=progress, **common)
+    try:
+        solved = solve_generic(
+            family.symmetric,
+            start="parameter",
+            count=family.solutions,
+            progress=progress,
+            **common,
+        )
+    except MapError as error:
+        raise StartError(f"[family]: {error}") from None
+    return solve_family(solved, [family.values], **common)[0]

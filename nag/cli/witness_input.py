@@ -1,0 +1,212 @@
+"""What the commands that work with components start from: an export, or a case that is decomposed.
+
+Components are numbered from 1 in the order of the export; of an orbit, each one has a number.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from nag.cli.arguments import UsageError, add_formulation, read_problem
+
+if TYPE_CHECKING:
+    from nag.algebra.number import Number
+    from nag.witness.witness import Decomposition, WitnessSet
+
+Points = Mapping[str, tuple["Number", ...]]
+Check = Callable[[Sequence[str], Points], object]
+
+
+@dataclass(frozen=True)
+class Given:
+    """A decomposition, with every component of each orbit, and where it came from.
+
+    Attributes:
+        title: title of the case.
+        file: name of the case file, without its folder.
+        points: named points of the case; none if an export was given.
+    """
+
+    decomposition: Decomposition
+    title: str
+    file: str
+    points: Points
+
+
+def add_input(parser: argparse.ArgumentParser) -> None:
+    """The argument for the export or case, which ``arguments.case`` holds."""
+    parser.add_argument(
+        "case", metavar="EXPORT_OR_CASE", help="export of `nag decompose --json`, or case file"
+    )
+    add_formulation(parser)
+
+
+def is_export(path: str) -> bool:
+    """Whether a file is JSON, by its first character; case files cannot begin like that."""
+    try:
+        with Path(path).open("rb") as file:
+            return file.read(256).lstrip()[:1] == b"{"
+    except (OSError, ValueError):
+        return False
+
+
+def given(options: argparse.Namespace, check: Check | None = None) -> Given:
+    """The decomposition to work with; a case is decomposed now.
+
+    Args:
+        check: called with the variables and the named points before a case is decomposed.
+
+    Raises:
+        UsageError: if the export cannot be read.
+    """
+    from nag.files.json_values import ExportError
+    from nag.witness.expansion import expanded
+
+    if is_export(options.case):
+        from nag.files.export import read_export
+
+        if options.formulation is not None:
+            raise UsageError(f"{options.case}: is an export; --formulation is for cases")
+        try:
+            export = read_export(options.case)
+        except ExportError as error:
+            raise UsageError(str(error)) from None
+        if check is not None:
+            check(export.decomposition.system.variables, {})
+        origin = export.origin
+        title = origin.title if origin else "a system built in memory"
+        file = origin.file if origin else Path(options.case).name
+        return Given(expanded(export.decomposition), title, file, {})
+
+    from nag.cli.progress import progress_line
+    from nag.decomposition import decompose
+    from nag.files.problem import points_of, symmetries_of, system_of
+
+    case, model = read_problem(options)
+    points = dict(points_of(case, model))
+    if model is not None:
+        points = {"reference": tuple(model.reference)}
+    if check is not None:
+        check(system_of(case, model).variables, points)
+    with progress_line(sys.stderr, options.quiet) as progress:
+        decomposition = decompose(
+            system_of(case, model),
+            seed=options.seed,
+            threads=options.threads,
+            settings=options.settings,
+            progress=progress,
+            symmetries=symmetries_of(case, model),
+        )
+    return Given(expanded(decomposition), case.title, Path(case.path).name, points)
+
+
+def component_number(text: str) -> int:
+    """A component's number on the command line."""
+    digits = text.strip()
+    if not (digits.isascii() and digits.isdigit() and len(digits) < 10 and int(digits) > 0):
+        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a component's number, 1 or more")
+    return int(digits)
+
+
+def component_of(found: Given, number: int, option: str) -> WitnessSet:
+    """The component with a number.
+
+    Raises:
+        UsageError: if there is none.
+    """
+    components = found.decomposition.components
+    if not 1 <= number <= len(components):
+        have = {0: "there are no components", 1: "there is one component, number 1"}.get(
+            len(components), f"there are components 1 to {len(components)}"
+        )
+        raise UsageError(f"{option}: {number}: {have}")
+    return components[number - 1]
+
+
+def point_at(text: str, variables: Sequence[str]) -> tuple[Number, ...]:
+    """The point that ``"x = 0, y = 1/2"`` spells, exact.
+
+    Raises:
+        UsageError: if a variable is unknown, missing or given twice, or a value is no
+            number.
+    """
+    from nag.algebra.expression import parse_number
+    from nag.algebra.tokens import nearest, quote
+
+    values: dict[str, Number] = {}
+    for part in text.split(","):
+        name, equals, value = part.partition("=")
+        name = name.strip()
+        if not equals:
+            raise UsageError(f"--at: {quote(part.strip())}: write 'variable = number'")
+        if name not in variables:
+            raise UsageError(
+                f"--at: {quote(name)} is not one of the variables{nearest(name, variables)}"
+            )
+        if name in values:
+            raise UsageError(f"--at: {name} is given twice")
+        try:
+            values[name] = parse_number(value)
+        except ValueError as error:
+            raise UsageError(f"--at: {name}: {error}") from None
+    missing = [name for name in variables if name not in values]
+    if missing:
+        more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+        raise UsageError(f"--at: no value for {missing[0]}{more}")
+    return tuple(values[name] for name in variables)
+
+
+def like(component: WitnessSet) -> dict[str, Any]:
+    """What a document says of a component that it refers to."""
+    return {
+        "dimension": component.dimension,
+        "degree": component.degree,
+        "multiplicity": component.multiplicity,
+        "status": str(component.status),
+    }
+
+
+def head(found: Given, kind: str, options: argparse.Namespace) -> dict[str, Any]:
+    """The first keys of every document."""
+    return {
+        "format": kind,
+        "version": 1,
+        "case": {"title": found.title, "file": found.file},
+        "seed": options.seed,
+        "settings": options.settings,
+    }
+
+
+def schema(kind: str) -> dict[str, Any]:
+    """The JSON Schema of ``"nag-membership"``, ``"nag-samples"`` or ``"nag-intersection"``."""
+    from importlib import resources
+
+    return json.loads((resources.files("nag.files") / "schema" / f"{kind}-1.json").read_text())
+
+
+def write_document(document: dict[str, Any], target: str) -> None:
+    """Write a document as JSON.
+
+    Raises:
+        UsageError: if the file cannot be written.
+    """
+    from nag.files.json_text import lay_out
+    from nag.files.written_file import TargetError, write_target
+
+    try:
+        write_target(target, lay_out(document) + "\n")
+    except TargetError as error:
+        raise UsageError(f"--json: {error}") from None
+
+
+def doubts(found: Given) -> list[tuple[str, str]]:
+    """What makes the decomposition itself incomplete, as labelled lines."""
+    if found.decomposition.complete:
+        return []
+    return [("open", f"the decomposition is incomplete: {'; '.join(found.decomposition.notes)}")]

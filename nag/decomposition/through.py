@@ -1,0 +1,65 @@
+"""The components through the points that a case names, and what that says of the decomposition."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nag.algebra.number import Number, is_zero
+from nag.witness.expansion import expanded
+from nag.witness.membership import components_through
+from nag.witness.witness import Decomposition
+
+
+@dataclass(frozen=True)
+class Through:
+    """The components through a named point.
+
+    Attributes:
+        name: name of the point.
+        solution: whether the point satisfies the equations.
+        components: indices of the components through it, among all that the orbits stand for.
+        doubt: why the components are not known; empty if they are.
+    """
+
+    name: str
+    solution: bool
+    components: tuple[int, ...] = ()
+    doubt: str = ""
+
+
+def through_points(
+    decomposition: Decomposition,
+    points: Sequence[tuple[str, tuple[Number, ...]]],
+    threads: int = 1,
+) -> list[Through]:
+    """Which components pass through named points of the system."""
+    found, everything = [], expanded(decomposition)
+    for name, point in points:
+        if not all(is_zero(value) for value in decomposition.system(point)):
+            found.append(Through(name, solution=False))
+            continue
+        at = np.array([complex(float(x)) for x in point])
+        try:
+            indices = components_through(
+                everything,
+                at,
+                seed=decomposition.seed,
+                threads=threads,
+                settings=decomposition.settings,
+            )
+            doubt = "" if indices else "no component that was found passes through it"
+            found.append(Through(name, True, tuple(indices), doubt))
+        except ValueError as error:
+            found.append(Through(name, True, doubt=str(error)))
+    return found
+
+
+def accounted(decomposition: Decomposition, points: Sequence[Through]) -> Decomposition:
+    """The decomposition, incomplete if it leaves doubt about one of ``points``."""
+    doubts = tuple(f"{point.name}: {point.doubt}" for point in points if point.doubt)
+    if not doubts:
+        return decomposition
+    return replace(decomposition, complete=False, notes=(*decomposition.notes, *doubts))

@@ -1,0 +1,388 @@
+"""Case files: a polynomial system or a mechanism, and what is known about it, in TOML.
+
+A case file is data: nothing in it is evaluated as code, and its size and the work that its
+expressions ask for are bounded before they are spent.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal
+
+from nag.algebra.expression import Budget, parse_number, parse_polynomial
+from nag.algebra.family import Family
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
+from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import is_name, names_in, nearest, quote
+from nag.files.case_table import CaseError, Table, kind_of, read_toml, shown
+
+if TYPE_CHECKING:
+    from nag.files.case_family import CaseFamily
+    from nag.mechanism.graph import Mechanism
+
+__all__ = ["Case", "CaseError", "NamedPoint", "Truth", "read_case"]
+
+_KINDS = ("system", "mechanism")
+_KEYS = {
+    "system": (
+        "title",
+        "kind",
+        "variables",
+        "equations",
+        "groups",
+        "parameters",
+        "family",
+        "symmetry",
+        "point",
+        "truth",
+    ),
+    "mechanism": ("title", "kind", "ground", "parameters", "joint", "body", "truth"),
+}
+_TRUTH_KEYS = (
+    "dimension",
+    "degree",
+    "count",
+    "multiplicity",
+    "multidegree",
+    "formulation",
+    "source",
+)
+
+
+@dataclass(frozen=True)
+class NamedPoint:
+    """A point of interest, one coordinate for each variable of the system."""
+
+    name: str
+    at: tuple[Number, ...]
+
+
+@dataclass(frozen=True)
+class Truth:
+    """``count`` irreducible components over the complex numbers that are known to be there.
+
+    Attributes:
+        dimension: of each.
+        degree: of each, in the variables of the system.
+        count: how many there are.
+        multiplicity: of each.
+        multidegree: of each in the system's variable groups, nested by dimension, or None.
+        formulation: formulation of the mechanism for which this holds, or None for a system.
+        source: where it is known from.
+    """
+
+    dimension: int
+    degree: int
+    count: int = 1
+    multiplicity: int = 1
+    multidegree: tuple[Any, ...] | None = None
+    formulation: str | None = None
+    source: str = ""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A case file, read and checked. Either `system` or `mechanism` is there, as `kind` says.
+
+    `symmetries` are those that the file declares; each was verified exactly on the equations.
+    `family` is the one that the file declares the system to belong to.
+    """
+
+    title: str
+    kind: Literal["system", "mechanism"]
+    path: Path
+    parameters: Mapping[str, Number]
+    system: PolynomialSystem | None = None
+    mechanism: Mechanism | None = None
+    points: tuple[NamedPoint, ...] = ()
+    truth: tuple[Truth, ...] = ()
+    symmetries: tuple[SignedPermutation, ...] = ()
+    family: CaseFamily | None = None
+
+
+def read_case(path: str | os.PathLike[str]) -> Case:
+    """Read the case file at ``path``.
+
+    Raises:
+        CaseError: if it cannot be read or makes no sense.
+    """
+    path = Path(path)
+    top = Table(str(path), "", read_toml(path))
+    top.allow(sorted({key for keys in _KEYS.values() for key in keys}))
+    kind = top.text("kind")
+    if kind not in _KINDS:
+        top.fail("kind", f"{quote(kind)} is no kind of case; write 'system' or 'mechanism'")
+    for key in sorted(top.values.keys() - set(_KEYS[kind])):
+        other = next(k for k in _KINDS if k != kind)
+        top.fail(key, f"belongs to a case of kind {other!r}; leave it out")
+    title = top.text("title")
+    budget = Budget()
+    parameters = _read_parameters(top.table("parameters"), budget)
+    numbers = _Numbers(parameters, budget)
+    truth = _read_truth(top, kind)
+    if kind == "mechanism":
+        mechanism = _read_mechanism(top, numbers)
+        return Case(title, "mechanism", path, parameters, mechanism=mechanism, truth=truth)
+    system, family = _read_system(top, numbers)
+    return Case(
+        title,
+        "system",
+        path,
+        parameters,
+        system=system,
+        points=_read_points(top, system, numbers),
+        truth=truth,
+        symmetries=_read_symmetries(top, system),
+        family=family,
+    )
+
+
+@dataclass(frozen=True)
+class _Numbers:
+    """Reads numbers and polynomials with the parameters of the case, on one budget."""
+
+    parameters: Mapping[str, Number]
+    budget: Budget
+
+    def number(self, value: Any) -> Number:
+        return parse_number(value, self.parameters, self.budget)
+
+    def polynomial(self, text: str, variables: Sequence[str]) -> Polynomial:
+        known = {k: v for k, v in self.parameters.items() if k not in variables}
+        return parse_polynomial(text, variables, known, self.budget)
+
+
+def _read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
+    """Values of the parameters, which may refer to each other in any order but not in circles."""
+    uses = {}
+    for name, value in table.values.items():
+        if not is_name(name):
+            table.fail(
+                shown(name), "cannot name a parameter; use letters, digits and _, not a function"
+            )
+        if not isinstance(value, str | int | Decimal) or isinstance(value, bool):
+            table.fail(name, f'is {kind_of(value)}; write a number or an expression like "5/6"')
+        names = names_in(value) if isinstance(value, str) else frozenset()
+        for unknown in sorted(names - table.values.keys()):
+            table.fail(
+                name,
+                f"unknown name {quote(unknown)}{nearest(unknown, table.values)}; write numbers, "
+                "other parameters, sqrt, sin, cos or pi",
+            )
+        uses[name] = sorted(names)
+    try:
+        order = list(TopologicalSorter(uses).static_order())
+    except CycleError as error:
+        circle = [str(name) for name in reversed(error.args[1])]
+        table.fail(circle[0], f"refers to itself: {' -> '.join(circle[:10])}; break the circle")
+    values: dict[str, Number] = {}
+    for name in order:
+        with table.at(name):
+            values[name] = parse_number(table.values[name], values, budget)
+    return MappingProxyType({name: values[name] for name in table.values})
+
+
+def _read_system(top: Table, numbers: _Numbers) -> tuple[PolynomialSystem, CaseFamily | None]:
+    variables = top.texts("variables", "names of variables")
+    for i, name in enumerate(variables, 1):
+        if not is_name(name):
+            top.fail(
+                f"variables {i}",
+                f"{quote(name)} cannot name a variable; use letters, digits and _, not a function",
+            )
+        if name in variables[: i - 1]:
+            top.fail(f"variables {i}", f"{quote(name)} is there twice; name each variable once")
+        if name in numbers.parameters:
+            top.fail(f"variables {i}", f"{quote(name)} is a parameter as well; rename one of them")
+    if "family" in top.values:
+        family = _read_family(top, numbers, variables)
+        polynomials = family.symmetric.original.at(family.values).polynomials
+        groups = _read_groups(top, variables)
+        return PolynomialSystem(tuple(variables), polynomials, groups=groups), family
+    equations = _read_equations(top, numbers, variables)
+    groups = _read_groups(top, variables)
+    return PolynomialSystem(tuple(variables), equations, groups=groups), None
+
+
+def _read_equations(top: Table, numbers: _Numbers, names: list[str]) -> tuple[Polynomial, ...]:
+    equations = []
+    for i, text in enumerate(top.texts("equations", "equations"), 1):
+        with top.at(f"equations {i}"):
+            equations.append(numbers.polynomial(text, names))
+    return tuple(equations)
+
+
+def _read_family(top: Table, numbers: _Numbers, variables: list[str]) -> CaseFamily:
+    from nag.files.case_family import family_parameters, read_family
+
+    table = top.table("family")
+    free = family_parameters(table, numbers.parameters)
+    equations = _read_equations(top, numbers, [*variables, *free])
+    if len(equations) != len(variables):
+        table.fail(
+            None,
+            f"{len(equations)} equations in {len(variables)} variables; a family has as many of "
+            "them, so leave it out",
+        )
+    values = [numbers.parameters[name] for name in free]
+    if not all(isinstance(v, Fraction) for v in values) or not all(f.exact for f in equations):
+        table.fail(None, "has irrational numbers; write rational ones, or leave it out")
+    family = Family(tuple(variables), tuple(free), equations)
+    return read_family(table, family, values, numbers.polynomial)
+
+
+def _read_groups(top: Table, variables: list[str]) -> tuple[tuple[int, ...], ...]:
+    if "groups" not in top.values:
+        return ()
+    groups, seen = [], set()
+    for i, group in enumerate(top.items("groups", "lists of variables"), 1):
+        if not isinstance(group, list) or not group or not all(isinstance(g, str) for g in group):
+            top.fail(f"groups {i}", "is no list of names; write a list of variables")
+        for name in group:
+            if name not in variables:
+                top.fail(
+                    f"groups {i}",
+                    f"unknown variable {quote(name)}{nearest(name, variables)}; "
+                    "write names from 'variables'",
+                )
+            if name in seen:
+                top.fail(f"groups {i}", f"{name!r} is in a group already; write it in one only")
+            seen.add(name)
+        groups.append(tuple(variables.index(name) for name in group))
+    missing = [name for name in variables if name not in seen]
+    if missing:
+        top.fail("groups", f"{missing[0]!r} is in no group; write every variable in one group")
+    return tuple(groups)
+
+
+def _read_points(top: Table, system: PolynomialSystem, numbers: _Numbers) -> tuple[NamedPoint, ...]:
+    points: list[NamedPoint] = []
+    for table in top.tables("point"):
+        table.allow(("name", "at"))
+        name = table.text("name")
+        table = table.called(name)
+        if any(name == p.name for p in points):
+            table.fail("name", "another point has that name; give each a name of its own")
+        coordinates = Table(
+            table.file, f"{table.place}: at", table.get("at", dict, "{ variable = number, ... }")
+        )
+        coordinates.allow(system.variables)
+        at = []
+        for variable in system.variables:
+            if variable not in coordinates.values:
+                coordinates.fail(variable, "is missing; give a number for every variable")
+            with coordinates.at(variable):
+                at.append(numbers.number(coordinates.values[variable]))
+        points.append(NamedPoint(name, tuple(at)))
+    return tuple(points)
+
+
+def _read_symmetries(top: Table, system: PolynomialSystem) -> tuple[SignedPermutation, ...]:
+    symmetries = []
+    for table in top.tables("symmetry"):
+        table.allow(("map",))
+        wanted = '{ variable = "-variable", ... }'
+        images = table.get("map", dict, wanted)
+        for name, image in images.items():
+            if not isinstance(image, str):
+                table.fail("map", f"{quote(name)} is {kind_of(image)}; write {wanted}")
+        try:
+            symmetry = SignedPermutation.of_map(images, system.variables)
+        except SymmetryError as error:
+            table.fail("map", str(error))
+        try:
+            check_symmetry(system, symmetry)
+        except SymmetryError as error:
+            table.fail("map", f"is no symmetry: {error}; correct it or leave it out")
+        symmetries.append(symmetry)
+    return tuple(symmetries)
+
+
+def _read_truth(top: Table, kind: str) -> tuple[Truth, ...]:
+    known = top.table("truth")
+    known.allow(("component",))
+    return tuple(_read_component(t, kind) for t in known.tables("component", "truth."))
+
+
+def _read_component(table: Table, kind: str) -> Truth:
+    table.allow(_TRUTH_KEYS)
+    formulation = None
+    if "formulation" in table.values:
+        if kind == "system":
+            table.fail("formulation", "a system has no formulation; leave it out")
+        formulation = table.text("formulation")
+        if formulation not in ("E", "H"):
+            table.fail("formulation", f"{quote(formulation)} is unknown; write 'E' or 'H'")
+    multidegree = None
+    if "multidegree" in table.values:
+        multidegree = _read_multidegree(table, table.items("multidegree", "whole numbers"))
+    return Truth(
+        dimension=table.count("dimension", 0),
+        degree=table.count("degree", 1),
+        count=table.count("count", 1, default=1),
+        multiplicity=table.count("multiplicity", 1, default=1),
+        multidegree=multidegree,
+        formulation=formulation,
+        source=table.text("source"),
+    )
+
+
+def _read_multidegree(table: Table, values: list[Any]) -> tuple[Any, ...]:
+    def is_degree(value: Any) -> bool:
+        return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 10**9
+
+    if not all(is_degree(v) or isinstance(v, list) for v in values):
+        table.fail("multidegree", "holds something else; write whole numbers from 0 up")
+    return tuple(_read_multidegree(table, v) if isinstance(v, list) else v for v in values)
+
+
+def _read_mechanism(top: Table, numbers: _Numbers) -> Mechanism:
+    from nag.mechanism.graph import Body, Joint, Mechanism, MechanismError
+
+    ground = top.text("ground")
+    if "joint" not in top.values:
+        top.fail("joint", "is missing; write a table [[joint]] for every joint")
+    joint_tables = [(t.text("name"), t) for t in top.tables("joint")]
+    body_tables = [(t.text("name"), t) for t in top.tables("body")]
+    try:
+        joints = [_read_joint(name, t.called(name), numbers, Joint) for name, t in joint_tables]
+        bodies = [_read_body(name, t.called(name), numbers, Body) for name, t in body_tables]
+        return Mechanism(ground, tuple(joints), tuple(bodies))
+    except MechanismError as error:
+        # The last table of a name, as a repeated name is the fault of the later one.
+        for culprit, tables in ((error.joint, joint_tables), (error.body, body_tables)):
+            for name, table in reversed(tables):
+                if name == culprit:
+                    table.called(name).fail(error.key, str(error))
+        top.fail(error.key, str(error))
+
+
+def _read_joint(name: str, table: Table, numbers: _Numbers, joint: Any) -> Any:
+    table.allow(("name", "type", "bodies", "point", "axis"))
+    bodies = table.texts("bodies", "names of bodies", 2)
+    if not all(b.strip() and b.isprintable() for b in bodies):
+        table.fail("bodies", "holds an empty or unprintable name; write names of bodies")
+    return joint(
+        name=name,
+        type=table.text("type"),
+        bodies=tuple(bodies),
+        point=table.vector("point", 3, numbers.number),
+        axis=table.vector("axis", 3, numbers.number),
+    )
+
+
+def _read_body(name: str, table: Table, numbers: _Numbers, body: Any) -> Any:
+    table.allow(("name", "orientation"))
+    orientation = None
+    if "orientation" in table.values:
+        orientation = table.vector("orientation", 4, numbers.number)
+    return body(name=name, orientation=orientation)

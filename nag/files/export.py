@@ -1,0 +1,260 @@
+"""Decompositions as JSON: written, and read back to equal objects.
+
+The format is ``nag-decomposition``, version 1; its JSON Schema is in ``schema/`` beside this
+module. A file holds all that is needed to go on from it (system, slices, points, seed, settings)
+and nothing that differs between runs with the same seed (no times, no folders, no thread counts).
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.symmetry import SignedPermutation, SymmetryError
+from nag.algebra.system import PolynomialSystem
+from nag.files.json_text import lay_out, pairs, real_or_null, system_document
+from nag.files.json_values import (
+    ExportError,
+    as_count,
+    as_document,
+    as_double,
+    as_flag,
+    as_list,
+    as_matrix,
+    as_system,
+    as_table,
+    as_text,
+    as_texts,
+    as_vector,
+    entry,
+    read_file,
+    wrong,
+)
+from nag.files.written_file import write_target
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+
+FORMAT = "nag-decomposition"
+VERSION = 1
+
+# A file is taken into memory whole, several times its size as Python objects.
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a decomposed system came from.
+
+    Attributes:
+        title: title of the case.
+        file: name of the case file, without its folder.
+        kind: ``"system"`` or ``"mechanism"``.
+        formulation: formulation of a mechanism's model, ``"E"`` or ``"H"``.
+        reason: why that model was chosen.
+    """
+
+    title: str
+    file: str
+    kind: str
+    formulation: str | None = None
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
+class Export:
+    """What a file holds."""
+
+    decomposition: Decomposition
+    origin: Origin | None = None
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of the format."""
+    name = f"{FORMAT}-{VERSION}.json"
+    return json.loads((resources.files("nag.files") / "schema" / name).read_text("utf-8"))
+
+
+def component_document(component: WitnessSet, variables: Sequence[str]) -> dict[str, Any]:
+    orbit: dict[str, Any] = {"size": component.orbit}
+    if component.images:
+        orbit["images"] = [g.text(variables) for g in component.images]
+    document: dict[str, Any] = {"dimension": component.dimension, "degree": component.degree}
+    if component.multidegree is not None:
+        document["multidegree"] = component.multidegree.tolist()
+    return document | {
+        "multiplicity": component.multiplicity,
+        "status": str(component.status),
+        "note": component.note,
+        "orbit": orbit,
+        "residual": real_or_null(component.residual),
+        "accuracy": real_or_null(component.accuracy),
+        "precision": component.precision,
+        "corank": component.corank,
+        "slice": {"A": pairs(component.slice.A), "b": pairs(component.slice.b)},
+        "points": pairs(component.points),
+    }
+
+
+def document(decomposition: Decomposition, origin: Origin | None = None) -> dict[str, Any]:
+    """The export as a JSON object (dicts, lists, strings, numbers, None)."""
+    system = decomposition.system
+    case = origin and {"title": origin.title, "file": origin.file, "kind": origin.kind}
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "case": case,
+        "formulation": origin and origin.formulation,
+        "reason": origin and origin.reason,
+        "seed": decomposition.seed,
+        "settings": decomposition.settings,
+        "complete": decomposition.complete,
+        "notes": list(decomposition.notes),
+        "paths": {
+            "tracked": decomposition.paths.tracked,
+            "failed": decomposition.paths.failed,
+            "at_infinity": decomposition.paths.at_infinity,
+        },
+        "order": [int(i) for i in decomposition.order],
+        "system": system_document(system),
+        "components": [component_document(c, system.variables) for c in decomposition.components],
+    }
+
+
+def export_text(decomposition: Decomposition, origin: Origin | None = None) -> str:
+    """The export as JSON text, ASCII, the same for equal arguments."""
+    return lay_out(document(decomposition, origin)) + "\n"
+
+
+def write_decomposition(
+    decomposition: Decomposition,
+    path: str | os.PathLike[str],
+    origin: Origin | None = None,
+) -> None:
+    """Write the export to ``path`` in one step.
+
+    Raises:
+        nag.files.written_file.TargetError: if the file cannot be written.
+    """
+    write_target(path, export_text(decomposition, origin))
+
+
+def _multidegree(value: Any, groups: int, dimension: int, place: str) -> np.ndarray:
+    try:
+        array = np.array(value)
+    except ValueError:
+        array = np.array(None)
+    if array.shape != (groups,) * dimension or array.dtype.kind not in "iu" or (array < 0).any():
+        raise wrong(place, f"{groups} counts in each of {dimension} nested lists")
+    return array
+
+
+def _component(value: Any, system: PolynomialSystem, place: str) -> WitnessSet:
+    table = as_table(value, place)
+
+    def get(key: str, convert: Any, *arguments: Any) -> Any:
+        return convert(entry(table, key, place), *arguments, f"{place}.{key}")
+
+    cut = get("slice", as_table)
+    b = as_vector(entry(cut, "b", f"{place}.slice"), f"{place}.slice.b")
+    a = as_matrix(entry(cut, "A", f"{place}.slice"), system.n, f"{place}.slice.A")
+    points = get("points", as_matrix, system.n)
+    if len(a) != len(b) or get("dimension", as_count) != len(b):
+        raise wrong(f"{place}.dimension", "the number of rows of the slice's A and b")
+    if get("degree", as_count) != len(points):
+        raise wrong(f"{place}.degree", "the number of points")
+    status = get("status", as_text)
+    if status not in set(Status):
+        raise wrong(f"{place}.status", " or ".join(Status))
+    multidegree = None
+    if "multidegree" in table:
+        multidegree = get("multidegree", _multidegree, len(system.groups), len(b))
+    orbit = get("orbit", as_table)
+    size = as_count(entry(orbit, "size", f"{place}.orbit"), f"{place}.orbit.size", 1)
+    return WitnessSet(
+        slice=Slice(a, b),
+        points=points,
+        multiplicity=get("multiplicity", as_count),
+        status=Status(status),
+        residual=get("residual", as_double),
+        accuracy=get("accuracy", as_double),
+        corank=get("corank", as_count),
+        multidegree=multidegree,
+        orbit=size,
+        precision=get("precision", as_text),
+        note=get("note", as_text),
+        images=_images(orbit.get("images", []), size, system, f"{place}.orbit.images"),
+    )
+
+
+def _images(
+    value: Any, size: int, system: PolynomialSystem, place: str
+) -> tuple[SignedPermutation, ...]:
+    found = []
+    for i, item in enumerate(as_list(value, place)):
+        table = as_table(item, f"{place}[{i}]")
+        texts = {key: as_text(text, f"{place}[{i}].{key}") for key, text in table.items()}
+        try:
+            found.append(SignedPermutation.of_map(texts, system.variables))
+        except SymmetryError as error:
+            raise ExportError(f"{place}[{i}]: {error}") from None
+    if len(found) not in (0, size - 1):
+        raise wrong(place, "one symmetry for each other component of the orbit")
+    return tuple(found)
+
+
+def _export(value: Any) -> Export:
+    table = as_document(value, FORMAT, VERSION)
+
+    def get(key: str, convert: Any) -> Any:
+        return convert(entry(table, key, "the file"), key)
+
+    system = get("system", as_system)
+    paths = get("paths", as_table)
+    order = [as_count(v, f"order[{i}]") for i, v in enumerate(get("order", as_list))]
+    components = [
+        _component(v, system, f"components[{i}]") for i, v in enumerate(get("components", as_list))
+    ]
+    decomposition = Decomposition(
+        system=system,
+        components=tuple(components),
+        paths=PathCounts(
+            *(as_count(entry(paths, k, "paths"), f"paths.{k}") for k in PathCounts.__match_args__)
+        ),
+        seed=get("seed", as_count),
+        settings=get("settings", as_text),
+        order=tuple(order),
+        complete=get("complete", as_flag),
+        notes=tuple(get("notes", as_texts)),
+    )
+    if table.get("case") is None:
+        return Export(decomposition)
+    case = as_table(table["case"], "case")
+    known = {
+        key: as_text(entry(case, key, "case"), f"case.{key}") for key in ("title", "file", "kind")
+    }
+    model = {k: table[k] for k in ("formulation", "reason") if table.get(k) is not None}
+    return Export(decomposition, Origin(**known, **{k: as_text(v, k) for k, v in model.items()}))
+
+
+def read_export(path: str | os.PathLike[str]) -> Export:
+    """Read a file that `write_decomposition` wrote: the decomposition and where it came from.
+
+    Raises:
+        ExportError: if the file cannot be read or is not an export.
+    """
+    return read_file(path, _export)
+
+
+def read_decomposition(path: str | os.PathLike[str]) -> Decomposition:
+    """Read a decomposition that `write_decomposition` wrote, equal to the one written.
+
+    Values that were not finite are written as null and come back as not-a-number.
+
+    Raises:
+        ExportError: if the file cannot be read or is not an export.
+    """
+    return read_export(path).decomposition

@@ -1,0 +1,49 @@
+"""What a case asks: the system that is decomposed or solved, its symmetries and its points."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from nag.algebra.number import Number
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.files.export import Origin
+
+if TYPE_CHECKING:
+    from nag.files.cases import Case
+    from nag.mechanism.model import Model
+
+
+def system_of(case: Case, model: Model | None) -> PolynomialSystem:
+    """The system that is decomposed."""
+    system = case.system if model is None else model.system
+    if system is None:
+        raise ValueError("a case without a system and without a mechanism")
+    return system
+
+
+def symmetries_of(case: Case, model: Model | None) -> tuple[SignedPermutation, ...]:
+    """Symmetries of the system: sign changes of Euler parameters, or what the case declares."""
+    if model is None:
+        return case.symmetries
+    return tuple(SignedPermutation.of_signs(signs) for signs in model.symmetries)
+
+
+def points_of(case: Case, model: Model | None) -> list[tuple[str, tuple[Number, ...]]]:
+    """Named points of the system: of a mechanism, its reference configuration."""
+    if model is not None:
+        return [("the reference configuration", tuple(model.reference))]
+    return [(point.name, tuple(point.at)) for point in case.points]
+
+
+def origin(case: Case, model: Model | None) -> Origin:
+    """What an export says of where the system came from."""
+    from pathlib import Path
+
+    return Origin(
+        title=case.title,
+        file=Path(case.path).name,
+        kind=case.kind,
+        formulation=model.formulation if model else None,
+        reason=model.reason if model else None,
+    )

@@ -1,0 +1,174 @@
+"""Solutions as JSON: written, and read back to equal objects.
+
+The format is ``nag-solutions``, version 1; its JSON Schema is in ``schema/`` beside this module.
+A file holds nothing that differs between runs with the same seed.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, fields
+from importlib import resources
+from typing import Any
+
+from nag.files.json_text import lay_out, pairs, real_or_null, system_document
+from nag.files.json_values import (
+    as_count,
+    as_document,
+    as_double,
+    as_flag,
+    as_list,
+    as_matrix,
+    as_system,
+    as_table,
+    as_text,
+    as_texts,
+    as_vector,
+    entry,
+    read_file,
+    wrong,
+)
+from nag.files.written_file import write_target
+from nag.solving.solutions import PathStatistics, Solution, SolveResult
+
+FORMAT = "nag-solutions"
+VERSION = 1
+
+
+@dataclass(frozen=True)
+class SolutionsExport:
+    """What a file holds: the result, and the title and file of the case it came from."""
+
+    result: SolveResult
+    title: str | None = None
+    file: str | None = None
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of the format."""
+    name = f"{FORMAT}-{VERSION}.json"
+    return json.loads((resources.files("nag.files") / "schema" / name).read_text("utf-8"))
+
+
+def _solution_document(solution: Solution) -> dict[str, Any]:
+    return {
+        "point": pairs(solution.point),
+        "multiplicity": solution.multiplicity,
+        "real": solution.real,
+        "residual": real_or_null(solution.residual),
+        "accuracy": real_or_null(solution.accuracy),
+        "condition": real_or_null(solution.condition),
+        "precision": solution.precision,
+    }
+
+
+def document(
+    result: SolveResult, title: str | None = None, file: str | None = None
+) -> dict[str, Any]:
+    """The export as a JSON object (dicts, lists, strings, numbers, None)."""
+    system = result.system
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "case": None if title is None else {"title": title, "file": file or ""},
+        "seed": result.seed,
+        "settings": result.settings,
+        "start": result.start,
+        "reason": result.reason,
+        "complete": result.complete,
+        "notes": list(result.notes),
+        "paths": {f.name: int(getattr(result.paths, f.name)) for f in fields(PathStatistics)},
+        "system": system_document(system),
+        "solutions": [_solution_document(s) for s in result.solutions],
+        "excluded": result.excluded,
+        "on_components": pairs(result.on_components),
+        "undecided": pairs(result.undecided),
+    }
+
+
+def export_text(result: SolveResult, title: str | None = None, file: str | None = None) -> str:
+    """The export as JSON text, ASCII, the same for equal arguments."""
+    return lay_out(document(result, title, file)) + "\n"
+
+
+def write_solutions(
+    result: SolveResult,
+    path: str | os.PathLike[str],
+    title: str | None = None,
+    file: str | None = None,
+) -> None:
+    """Write the export to ``path`` in one step.
+
+    Raises:
+        nag.files.written_file.TargetError: if the file cannot be written.
+    """
+    write_target(path, export_text(result, title, file))
+
+
+def _solution(value: Any, n: int, place: str) -> Solution:
+    table = as_table(value, place)
+
+    def get(key: str, convert: Any, *arguments: Any) -> Any:
+        return convert(entry(table, key, place), f"{place}.{key}", *arguments)
+
+    point = get("point", as_vector)
+    if len(point) != n:
+        raise wrong(f"{place}.point", f"of length {n}, one entry for each variable")
+    return Solution(
+        point=point,
+        multiplicity=get("multiplicity", as_count, 1),
+        real=get("real", as_flag),
+        residual=get("residual", as_double),
+        accuracy=get("accuracy", as_double),
+        condition=get("condition", as_double),
+        precision=get("precision", as_count, 1),
+    )
+
+
+def _export(value: Any) -> SolutionsExport:
+    table = as_document(value, FORMAT, VERSION)
+
+    def get(key: str, convert: Any) -> Any:
+        return convert(entry(table, key, "the file"), key)
+
+    system = get("system", as_system)
+    paths = get("paths", as_table)
+    points = {}
+    for key in ("on_components", "undecided"):
+        points[key] = as_matrix(entry(table, key, "the file"), system.n, key)
+    result = SolveResult(
+        system=system,
+        solutions=tuple(
+            _solution(v, system.n, f"solutions[{i}]")
+            for i, v in enumerate(get("solutions", as_list))
+        ),
+        excluded=get("excluded", as_count),
+        paths=PathStatistics(
+            *(
+                as_count(entry(paths, f.name, "paths"), f"paths.{f.name}")
+                for f in fields(PathStatistics)
+            )
+        ),
+        start=get("start", as_text),
+        reason=get("reason", as_text),
+        seed=get("seed", as_count),
+        settings=get("settings", as_text),
+        complete=get("complete", as_flag),
+        notes=tuple(get("notes", as_texts)),
+        **points,
+    )
+    if table.get("case") is None:
+        return SolutionsExport(result)
+    case = as_table(table["case"], "case")
+    title, file = (as_text(entry(case, key, "case"), f"case.{key}") for key in ("title", "file"))
+    return SolutionsExport(result, title, file)
+
+
+def read_solutions(path: str | os.PathLike[str]) -> SolutionsExport:
+    """Read a file that `write_solutions` wrote.
+
+    Raises:
+        ExportError: if the file cannot be read or is not an export.
+    """
+    return read_file(path, _export)

@@ -1,0 +1,320 @@
+"""Isolated solutions of systems that fall apart exactly: those of the branches, joined.
+
+Branches whose zeros are algebraic numbers of one variable are solved exactly, the others by
+tracking paths.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import islice
+
+import numpy as np
+
+from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.branches import branches
+from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.evaluation import Evaluator, may_vanish
+from nag.algebra.factoring import Factors, factored
+from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.algebra.vanishing import Vanishing, follows
+from nag.numerics.singular_point import SingularEnd
+from nag.numerics.zero_values import multiplicity_of_all, possible_zeros, vanishes_at_all
+from nag.solving.solutions import PathStatistics, Solution, SolveResult
+
+# Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
+NONZERO = 1e-6
+# Solutions that may be the same, found in two branches: relative distance.
+NEAR = 1e-7
+# Bits of the coordinates of exact zeros whose local rings are looked at.
+BITS = 400
+
+Tracked = Callable[[PolynomialSystem], SolveResult]
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """A solution of one branch.
+
+    Attributes:
+        zero: the exact zero, where it is one of an algebraic branch.
+        elimination: what led from the branch to the system that was tracked otherwise.
+    """
+
+    solution: Solution
+    zero: AlgebraicZero | None = None
+    elimination: Elimination | None = None
+
+    @cached_property
+    def vanishes(self) -> Vanishing:
+        """Whether a polynomial vanishes at the exact zero."""
+        return Vanishing(self._vanishes)
+
+    def _vanishes(self, f: Polynomial) -> bool | None:
+        x = self.solution.point
+        if self.zero is not None and f.exact:
+            return self.zero.vanishes(f)
+        if Evaluator.of([f], f.n).residuals(x[None])[0, 0] > NONZERO:
+            return False
+        if self.zero is not None:
+            return None
+        assert self.elimination is not None
+        reduced = self.elimination
+        image = f.compose(reduced.images)
+        if follows(image, reduced):
+            return True
+        return vanishes_at_all(self._zeros, image)
+
+    @cached_property
+    def _zeros(self) -> tuple[SingularEnd, ...]:
+        """The exact zeros of the system that was tracked that this may be."""
+        assert self.elimination is not None
+        reduced, x = self.elimination, self.solution.point
+        y, rng = reduced.project(x), np.random.default_rng(0)
+        return possible_zeros(reduced.system.polynomials, y, self.solution.accuracy, rng)
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """A branch and what was found of it.
+
+    Attributes:
+        result: of the system that was tracked; None where nothing was.
+        curves: points on solution sets of positive dimension, shape ``(k, n)``.
+        undecided: shape ``(k, n)``.
+    """
+
+    system: PolynomialSystem
+    found: tuple[_Found, ...]
+    result: SolveResult | None
+    curves: np.ndarray
+    undecided: np.ndarray
+
+    @property
+    def finite(self) -> bool:
+        """Whether nothing says that its zero set has positive dimension."""
+        return not len(self.curves)
+
+
+def solve_apart(
+    system: PolynomialSystem, tracked: Tracked, seed: int, settings: str, exactly: bool
+) -> SolveResult | None:
+    """The isolated solutions of a system that falls apart, or has zeros that are known exactly.
+
+    Args:
+        tracked: solves a system as a whole.
+        exactly: whether to solve exactly also what does not fall apart, or leaves two variables.
+
+    Returns:
+        None if the system neither falls apart nor comes down to one variable.
+    """
+    if system.n == 0:
+        return None
+    apart = branches(replace(system, nonzero=()))
+    if apart is None:
+        whole = replace(system, nonzero=())
+        zeros = algebraic_zeros(whole) if exactly else None
+        if zeros is None:
+            return None
+        parts = [_algebraic(whole, zeros)]
+    else:
+        parts = [_part(b.system(replace(system, nonzero=())), tracked, exactly) for b in apart]
+    return _joined(system, parts, seed, settings, apart is not None)
+
+
+def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Part:
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    found = []
+    for zero in zeros:
+        x = zero.point
+        s = np.linalg.svd(evaluator.balanced_jacobian(x), compute_uv=False)
+        # A multiple zero is a simple one of the polynomial that defines it.
+        condition = float(s[0] / s[-1]) if zero.multiplicity == 1 and s[-1] > 0 else 1.0
+        residual = float(evaluator.residuals(x[None]).max(initial=0.0))
+        accuracy = float(np.finfo(float).eps / 2)
+        found.append(
+            _Found(
+                Solution(x, zero.multiplicity, zero.real, residual, accuracy, condition, 16), zero
+            )
+        )
+    none = np.zeros((0, system.n), dtype=complex)
+    return _Part(system, tuple(found), None, none, none)
+
+
+def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
+    zeros = algebraic_zeros(system, two_variables=exactly)
+    if zeros is not None:
+        return _algebraic(system, zeros)
+    elimination = eliminate_linear(system)
+    reduced = elimination.system
+    if not reduced.polynomials:
+        # A linear space, or a graph over one: every point of it will do.
+        point = elimination.lift(np.ones((1, reduced.n), dtype=complex))
+        return _Part(system, (), None, point, np.zeros((0, system.n), dtype=complex))
+    result = tracked(reduced)
+    found = tuple(
+        _Found(replace(s, point=elimination.lift(s.point)), None, elimination)
+        for s in result.solutions
+    )
+    lifted = elimination.lift
+    return _Part(system, found, result, lifted(result.on_components), lifted(result.undecided))
+
+
+def _joined(
+    system: PolynomialSystem, parts: Sequence[_Part], seed: int, settings: str, apart: bool
+) -> SolveResult:
+    none = np.zeros((0, system.n), dtype=complex)
+    curves = [none, *(part.curves for part in parts)]
+    undecided = [none, *(part.undecided for part in parts)]
+    kept: list[_Found] = []
+    systems = [part.system.polynomials for part in parts]
+    points = _points([f for part in parts for f in part.found], system.n)
+    near = iter(may_vanish(systems, points, NONZERO))
+    for i, part in enumerate(parts):
+        close = list(islice(near, len(part.found)))
+        isolated, on_others, left_open = _own(i, parts, close)
+        kept += isolated
+        curves.append(_points(on_others, system.n))
+        undecided.append(_points(left_open, system.n))
+    solutions, left_open, excluded = _in_scheme(system, kept, apart)
+    undecided.append(_points(left_open, system.n))
+    open_points, on_components = np.vstack(undecided), np.vstack(curves)
+    results = [part.result for part in parts if part.result is not None]
+    notes = [note for r in results if not r.complete for note in r.notes]
+    more = len(open_points) - sum(len(part.undecided) for part in parts)
+    if more:
+        notes.append(
+            f"{more} solutions of one branch may or may not lie in another, or their multiplicity "
+            "was not found"
+        )
+    complete = all(r.complete for r in results) and not notes
+    if len(on_components):
+        notes.append(
+            f"the solution set has positive dimension; {len(on_components)} end points lie on it "
+            "and are no isolated solutions"
+        )
+    return SolveResult(
+        system=system,
+        solutions=solutions,
+        on_components=on_components,
+        undecided=open_points,
+        excluded=excluded,
+        paths=sum((r.paths for r in results), PathStatistics()),
+        start=next((r.start for r in results if r.start != "none"), "none"),
+        reason=_reason(parts, results, apart),
+        seed=seed,
+        settings=settings,
+        complete=complete,
+        notes=tuple(dict.fromkeys(notes)),
+    )
+
+
+def _reason(parts: Sequence[_Part], results: Sequence[SolveResult], apart: bool) -> str:
+    if not parts:
+        return "the equations contradict each other"
+    texts = []
+    if apart:
+        number = "one branch" if len(parts) == 1 else f"{len(parts)} branches"
+        texts.append(f"{number} by the factors of the equations")
+    if len(results) < len(parts):
+        texts.append(f"{len(parts) - len(results)} solved exactly" if results else "solved exactly")
+    texts += dict.fromkeys(r.reason for r in results if r.reason)
+    return "; ".join(texts)
+
+
+def _in_scheme(
+    system: PolynomialSystem, kept: Sequence[_Found], apart: bool
+) -> tuple[tuple[Solution, ...], list[_Found], int]:
+    """The solutions with their multiplicities in the scheme of all equations.
+
+    Also those where that was not found, and the number of those where a polynomial vanishes that
+    must not.
+    """
+    equations = [factored(f) for f in system.polynomials if f]
+    factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
+    points = _points(kept, system.n)
+    far = Evaluator.of(factors, system.n).residuals(points) > NONZERO
+    residuals = Evaluator.of(system.polynomials, system.n).residuals(points)
+    solutions, left_open, excluded = [], [], 0
+    for each, nonzero, residual in zip(kept, far, residuals, strict=True):
+        forbidden = [each.vanishes(f) for f in system.nonzero]
+        if any(forbidden):
+            excluded += 1
+            continue
+        multiplicity = each.solution.multiplicity
+        if apart:
+            each.vanishes.exclude(p for p, there in zip(factors, nonzero, strict=True) if there)
+            multiplicity = _multiplicity(equations, each)
+        if not multiplicity or None in forbidden:
+            left_open.append(each)
+            continue
+        size = float(residual.max(initial=0.0))
+        solutions.append(replace(each.solution, multiplicity=multiplicity, residual=size))
+    return tuple(solutions), left_open, excluded
+
+
+def _points(found: Sequence[_Found], n: int) -> np.ndarray:
+    return np.array([f.solution.point for f in found], dtype=complex).reshape(-1, n)
+
+
+def _own(
+    i: int, parts: Sequence[_Part], near: Sequence[np.ndarray]
+) -> tuple[list[_Found], list[_Found], list[_Found]]:
+    """The solutions of a branch that are isolated, and no ones of an earlier branch.
+
+    Also those that lie on sets of positive dimension of others, and those that are left open.
+
+    Args:
+        near: for each solution in which branches it may lie, shape ``(branches,)``.
+    """
+    isolated, on_others, left_open = [], [], []
+    for each, close in zip(parts[i].found, near, strict=True):
+        place = isolated
+        for j in np.flatnonzero(close).tolist():
+            if j == i:
+                continue
+            there = [each.vanishes(f) for f in parts[j].system.polynomials]
+            if False in there:
+                continue
+            if None in there:
+                place = left_open
+                break
+            alone = parts[j].finite or _near(each, parts[j].found)
+            if not alone:
+                place = on_others
+                break
+            if j < i:
+                place = None
+        if place is not None:
+            place.append(each)
+    return isolated, on_others, left_open
+
+
+def _near(each: _Found, others: Sequence[_Found]) -> bool:
+    """Whether an isolated solution of another branch is where this one is."""
+    x = each.solution.point
+    return any(
+        np.linalg.norm(other.solution.point - x) < NEAR * (1 + np.linalg.norm(x))
+        for other in others
+    )
+
+
+def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
+    """The multiplicity of a solution in the scheme of all equations; 0 if it was not found."""
+    x, accuracy = each.solution.point, each.solution.accuracy
+
+    def independent(polynomials: Sequence[Polynomial]) -> bool:
+        if each.zero is not None and all(f.exact for f in polynomials):
+            return each.zero.independent(polynomials)
+        error = max(1e3 * accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
+        return independent_gradients(polynomials, x, error)
+
+    def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
+        at, error = (x, accuracy) if each.zero is None else (each.zero.known_to(BITS), 2.0**-BITS)
+        return multiplicity_of_all(possible_zeros(generators, at, error, np.random.default_rng(0)))
+
+    return generic_multiplicity(equations, len(x), each.vanishes, independent, by_local_ring)

@@ -1,0 +1,162 @@
+"""Parameter homotopies: a family solved once for random parameters, then for many given ones.
+
+Reference: Morgan & Sommese, Coefficient-parameter polynomial continuation, 1989.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.family import Family
+from nag.algebra.number import Number
+from nag.algebra.symmetric_family import SymmetricFamily
+from nag.solving.parameter_line import parameter_line
+from nag.solving.solutions import SolveResult
+from nag.solving.solve import ends_of
+from nag.solving.solve_classes import (
+    SolvedClasses,
+    line_of_classes,
+    solve_classes,
+    solved_by_monodromy,
+)
+from nag.solving.start.choice import choose
+from nag.solving.start.family_monodromy import Progress
+from nag.solving.start.target import Start, StartError, Target, unit
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.paths import PathStatus
+from nag.tracking.settings import Settings
+from nag.tracking.track import track
+
+__all__ = ["Family", "Solved", "solve_family", "solve_generic"]
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A family solved for random parameters: what `solve_family` starts from.
+
+    Attributes:
+        values: the parameters, complex, shape ``(k,)``.
+        points: the isolated solutions there, shape ``(P, n)``.
+        complete: whether these are all: all paths to them arrived, at regular solutions, or loops
+            find no more of them than the number that is known.
+        detail: how they were found.
+        classes: one solution of each class, where only these are followed.
+    """
+
+    family: Family
+    values: np.ndarray
+    points: np.ndarray
+    complete: bool
+    detail: str = ""
+    classes: SolvedClasses | None = None
+
+
+def solve_generic(
+    family: Family | SymmetricFamily,
+    *,
+    start: str = "auto",
+    count: int | None = None,
+    seed: int = 0,
+    threads: int = 1,
+    settings: Settings | str = "default",
+    progress: Progress | None = None,
+) -> Solved:
+    """Solve a family for random complex parameters.
+
+    Args:
+        family: what to solve; of a symmetric one, one solution of each class is followed, now and
+            in `solve_family`.
+        start: a start system as for `nag.solving.solve.solve`, or ``"parameter"``: from one
+            solution, which Newton's method finds together with its parameters, by loops of the
+            family's own parameters. That takes a few paths for each solution there is, and is what
+            ``"auto"`` means for a symmetric family.
+        count: with ``"parameter"``, the known number of solutions; without it an answer is not
+            called complete, as loops prove nothing.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: number of threads.
+        settings: tracking settings, of paths from a start system.
+        progress: called with a stage, the work done and the whole work or 0.
+
+    Raises:
+        StartError: if there would be too many paths, or loops have nothing to begin with.
+        nag.algebra.rational_map.MapError: if the symmetries do not fit the family.
+    """
+    rng = np.random.default_rng(seed)
+    given = family if isinstance(family, SymmetricFamily) else SymmetricFamily(family)
+    family = given.original
+    if start == "parameter" or (start == "auto" and len(given) > 1):
+        classes = solved_by_monodromy(given, count, rng, threads, progress)
+        return Solved(
+            family,
+            given.outer_values(classes.values),
+            given.outer(classes.members.reshape(-1, family.n)),
+            classes.complete,
+            classes.detail,
+            classes,
+        )
+    values = unit(rng, len(family.parameters)) * (0.5 + rng.random(len(family.parameters)))
+    target = Target(family.n, family.terms([complex(v) for v in values]))
+    begin, _ = choose(target, start, (), rng, threads)
+    paths = track(begin.homotopy, begin.points, settings, threads)
+    points = begin.affine(paths.points[paths.where(PathStatus.REGULAR)])
+    doubtful = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)
+    return Solved(family, values, points, begin.complete and len(doubtful) == 0)
+
+
+def solve_family(
+    solved: Solved,
+    targets: Sequence[Sequence[Number]],
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: Settings | str = "default",
+) -> list[SolveResult]:
+    """Solve a family for each of the given exact parameters, by as many paths as it has solutions.
+
+    Raises:
+        StartError: if a target has a wrong number of parameters.
+    """
+    family = solved.family
+    name = settings if isinstance(settings, str) else "custom"
+    results = []
+    for number, values in enumerate(targets):
+        if len(values) != len(family.parameters):
+            raise StartError(
+                f"target {number + 1}: {len(values)} values for {len(family.parameters)} parameters"
+            )
+        if solved.classes is not None:
+            rng = np.random.default_rng([seed, number])
+            given = (solved.classes, values, rng, threads, settings, seed, name)
+            results.append(solve_classes(*given))
+            continue
+        begin = _start(solved, values)
+        paths = track(begin.homotopy, begin.points, settings, threads)
+        reason = f"parameter homotopy: {len(begin.points)} solutions for random parameters"
+        rng = np.random.default_rng([seed, number])
+        results.append(ends_of(family.at(values), begin, paths, reason, rng, seed, name))
+    return results
+
+
+def begin_of_family(
+    solved: Solved, values: Sequence[Number], settings: Settings | str = "default"
+) -> tuple[Homotopy, float, int]:
+    """The homotopy to given parameters, and the seconds and steps that tracking it takes."""
+    if solved.classes is None:
+        begin = _start(solved, values)
+        homotopy, starts = begin.homotopy, begin.points
+    else:
+        line, starts = line_of_classes(solved.classes, values)
+        homotopy = line.homotopy
+    started = time.perf_counter()
+    paths = track(homotopy, starts, settings, endgame=solved.classes is None)
+    return homotopy, time.perf_counter() - started, int(paths.steps.sum())
+
+
+def _start(solved: Solved, values: Sequence[Number]) -> Start:
+    line = parameter_line(solved.family, solved.values, values)
+    groups = (tuple(range(solved.family.n)),)
+    return Start("parameter", line.homotopy, line.starts(solved.points), groups, solved.complete)

@@ -1,0 +1,112 @@
+"""The start system with the least work."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nag.solving.start.multihomogeneous import (
+    MOST_TERMS,
+    Groups,
+    best_groups,
+    multihomogeneous,
+    terms_of_start,
+)
+from nag.solving.start.target import Start, StartError, Target, group_degrees
+from nag.solving.start.total_degree import bezout, total_degree
+
+KINDS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy")
+# So few paths are tracked in less time than another start system takes to be found.
+FEW = 64
+# A start system of the target's monomials is itself found by a path a solution; paths to infinity,
+# which it saves, are some five times as long as others.
+WORK = 1.6
+
+
+def check_kind(kind: str) -> None:
+    """Make sure that there is such a start system.
+
+    Raises:
+        ValueError: if there is none.
+    """
+    if kind not in KINDS:
+        raise ValueError(f"no start system {kind!r}; there are {', '.join(KINDS)}")
+
+
+def choose(
+    target: Target,
+    kind: str,
+    given: Groups,
+    rng: np.random.Generator,
+    threads: int,
+    generic: bool = False,
+) -> tuple[Start, str]:
+    """A start system of the ``kind`` asked for, and why that one, in one sentence.
+
+    With ``generic`` a total degree start has powers of generic linear forms.
+
+    Raises:
+        StartError: if there is none, or it would have too many paths.
+        ValueError: if there is no such kind.
+    """
+    check_kind(kind)
+    total = bezout(target)
+    if kind == "total":
+        return total_degree(target, rng, generic), f"total degree, as asked: {_paths(total)}"
+    if kind == "polyhedral":
+        from nag.solving.start.mixed_cells import mixed_cells
+        from nag.solving.start.polyhedral import polyhedral
+
+        start = polyhedral(target, mixed_cells(target.supports, rng), rng, threads)
+        return start, f"polyhedral, as asked: {_paths(len(start.points))}; {start.detail}"
+    if kind == "monodromy":
+        from nag.solving.start.monodromy import monodromy
+
+        start = monodromy(target, rng, threads)
+        return start, f"monodromy, as asked: {_paths(len(start.points))}; {start.detail}"
+    groups, number = _usable_groups(target, given)
+    if kind == "multihomogeneous":
+        start = multihomogeneous(target, groups, rng)
+        return start, f"multihomogeneous, as asked: {_paths(number)} in {_groups(groups)}"
+    counts = [f"total degree {total}"]
+    if len(groups) > 1:
+        counts.append(f"multihomogeneous {number} in {_groups(groups)}")
+    least = min(total, number)
+    if least > FEW:
+        from nag.solving.start.mixed_cells import mixed_cells
+        from nag.solving.start.polyhedral import polyhedral
+
+        try:
+            cells = mixed_cells(target.supports, rng)
+            volume = cells.mixed_volume
+            counts.append(f"mixed volume {volume}")
+            if 0 < WORK * volume <= least:
+                start = polyhedral(target, cells, rng, threads)
+                return start, f"polyhedral, the least work: {', '.join(counts)}"
+            if 0 < volume < least:
+                counts.append("whose start system would take more work than it saves")
+        except StartError as error:
+            counts.append(str(error))
+    elif least > 1:
+        counts.append("so few that the mixed volume was not computed")
+    if number < total:
+        start = multihomogeneous(target, groups, rng)
+        return start, f"multihomogeneous, the least work: {', '.join(counts)}"
+    start = total_degree(target, rng, generic)
+    return start, f"total degree, the least work: {', '.join(counts)}"
+
+
+def _usable_groups(target: Target, given: Groups) -> tuple[Groups, int]:
+    groups, number = best_groups(target, given)
+    degrees = group_degrees(target.rows, groups)
+    if terms_of_start(degrees, [len(g) for g in groups]) > MOST_TERMS:
+        groups = (tuple(range(target.n)),)
+        number = bezout(target)
+    return groups, number
+
+
+def _paths(number: int) -> str:
+    return f"{number} path{'' if number == 1 else 's'}"
+
+
+def _groups(groups: Groups) -> str:
+    return "groups of " + ", ".join(str(len(g)) for g in groups)

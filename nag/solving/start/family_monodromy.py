@@ -1,0 +1,202 @@
+"""All solutions of a family for random parameters, up to symmetry, by monodromy from one of them.
+
+One solution comes with its parameters: Newton's method leads from a random point to a zero of the
+equations in unknowns and parameters together. If these zeros form one irreducible set, loops of
+parameters lead from any solution to any other (Duff, Hill, Jensen, Lee, Leykin & Sommars, 2019).
+Solutions that symmetries carry to each other move together, so that one of each class is followed.
+
+Between the same two systems there are as many ways as the family has scalings: the scaled second
+system has the scaled solutions. Where it has none, and once nothing new is found, a way leads
+through a further system with random parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.family import Family
+from nag.algebra.symmetric_family import SymmetricFamily
+from nag.solving.parameter_line import parameter_line
+from nag.solving.solution_classes import Fibre
+from nag.solving.start.scalings import random_scaling, scaling_weights
+from nag.solving.start.target import StartError, unit
+from nag.solving.start.total_degree import MOST_PATHS
+from nag.tracking.paths import PathStatus
+from nag.tracking.settings import named
+from nag.tracking.track import track
+
+Progress = Callable[[str, int, int], None]
+
+# Loops in vain after which the search ends, if the number of solutions is the known one and if none
+# is known; and loops in all.
+CONFIRMING, IDLE = 3, 8
+MOST_LOOPS = 120
+# Random points and Newton steps that are tried for a first solution; and how much larger the
+# largest singular value of its Jacobian may be than the smallest.
+SEEDS, NEWTON_STEPS, WORST = 200, 60, 1e5
+# A loop that loses a path finds it again later, so that nothing is tracked twice. Points that are
+# sharper than for other paths save more steps than they cost, and more paths arrive.
+SHARP = 1e-9
+SETTINGS = replace(named("fast"), retries=0, newton=SHARP)
+
+
+@dataclass(frozen=True, eq=False)
+class FoundByMonodromy:
+    """Solutions of a family for random parameters, in inner coordinates.
+
+    Attributes:
+        values: the parameters, shape ``(k,)``.
+        points: one solution of each class, shape ``(P, n)``.
+        loops: how many loops there were; idle: how many of the last ones found nothing new.
+        paths, steps: numbers of paths and steps of all loops.
+        lost: paths that did not arrive.
+    """
+
+    values: np.ndarray
+    points: np.ndarray
+    loops: int
+    idle: int
+    paths: int
+    steps: int
+    lost: int
+
+
+def random_values(family: Family, rng: np.random.Generator) -> np.ndarray:
+    """Random complex parameters of absolute values between 1/2 and 3/2."""
+    count = len(family.parameters)
+    return unit(rng, count) * (0.5 + rng.random(count))
+
+
+def first_solution(family: Family, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Parameters and a regular solution for them, from random points by Newton's method.
+
+    Raises:
+        StartError: if none is found.
+    """
+    n, size = family.n, family.n + len(family.parameters)
+    evaluator = Evaluator.of(family.polynomials, size)
+    for _ in range(SEEDS):
+        z = unit(rng, size) * (0.5 + rng.random(size))
+        for _ in range(NEWTON_STEPS):
+            step = np.linalg.lstsq(evaluator.jacobian(z), evaluator.values(z[None])[0])[0]
+            z = z - step
+            if not np.linalg.norm(step) > 1e-14 * np.linalg.norm(z):
+                break
+        if not np.isfinite(z).all() or evaluator.residuals(z[None]).max() > 1e-13:
+            continue
+        singular = np.linalg.svd(evaluator.jacobian(z)[:, :n], compute_uv=False)
+        if singular[0] <= WORST * singular[-1]:
+            return z[n:], z[:n]
+    raise StartError("parameter: no regular solution was found by Newton's method")
+
+
+def family_monodromy(
+    symmetric: SymmetricFamily,
+    rng: np.random.Generator,
+    threads: int = 1,
+    count: int | None = None,
+    progress: Progress | None = None,
+) -> FoundByMonodromy:
+    """Solutions for random parameters, one of each class, until loops find no more.
+
+    Args:
+        symmetric: the family and the symmetries of its solutions.
+        rng: where parameters and loops come from.
+        threads: number of threads.
+        count: number of classes, if it is known; then fewer loops in vain end the search.
+        progress: called with a stage, the number of classes and ``count`` or 0.
+
+    Raises:
+        StartError: if no first solution is found, or there are too many.
+    """
+    family = symmetric.family
+    values, point = first_solution(family, rng)
+    here = Fibre.of(values, symmetric, point[None])
+    there = Fibre.of(random_values(family, rng), symmetric, point[None][:0])
+    weights = scaling_weights(family)
+    tally = _Tally()
+    idle = 0
+    while tally.loops < MOST_LOOPS:
+        if progress:
+            progress("monodromy", len(here.points), count or 0)
+        forward, backward = _ways(family, here, there, weights, idle > 0, rng)
+        ends = forward(here.points, partial(tally.moved, family, threads))
+        gained = there.add(ends)
+        # The way is one to one: what it did not reach leads back to solutions that are new.
+        left = there.missing_from(ends)
+        gained += here.add(backward(left, partial(tally.moved, family, threads)))
+        tally.loops += 1
+        if len(here.points) * len(symmetric) > MOST_PATHS:
+            raise StartError(f"parameter: more than {MOST_PATHS} solutions")
+        idle = 0 if gained else idle + 1
+        known = count is not None and len(here.points) == len(there.points) == count
+        if idle >= (CONFIRMING if known else IDLE):
+            break
+    return FoundByMonodromy(
+        values, here.points, tally.loops, idle, tally.paths, tally.steps, tally.lost
+    )
+
+
+Move = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+Way = Callable[[np.ndarray, Move], np.ndarray]
+
+
+def _ways(
+    family: Family,
+    here: Fibre,
+    there: Fibre,
+    weights: np.ndarray,
+    further: bool,
+    rng: np.random.Generator,
+) -> tuple[Way, Way]:
+    """A way between two systems and back, each a function of points and of how to move them."""
+    n = family.n
+    if len(weights) and not further:
+        scale = random_scaling(weights, rng)
+        x, scaled = scale[:n], there.values * scale[n:]
+        return (
+            lambda points, move: move(here.values, scaled, points) / x,
+            lambda points, move: move(scaled, here.values, points * x),
+        )
+    by = random_values(family, rng)
+    return (
+        lambda points, move: move(by, there.values, move(here.values, by, points)),
+        lambda points, move: move(by, here.values, move(there.values, by, points)),
+    )
+
+
+@dataclass
+class _Tally:
+    """What the loops have cost so far."""
+
+    loops: int = 0
+    paths: int = 0
+    steps: int = 0
+    lost: int = 0
+
+    def moved(
+        self,
+        family: Family,
+        threads: int,
+        first: np.ndarray,
+        second: np.ndarray,
+        points: np.ndarray,
+    ) -> np.ndarray:
+        """Solutions moved from the first parameters to the second; lost ones are left out."""
+        if not len(points):
+            return points
+        line = parameter_line(family, first, second)
+        paths = track(
+            line.homotopy, line.starts(points), SETTINGS, threads, endgame=False, distinct=False
+        )
+        arrived = paths.where(PathStatus.REGULAR)
+        ends = line.affine(paths.points[arrived])
+        self.paths += len(points)
+        self.steps += int(paths.steps.sum())
+        self.lost += len(points) - len(arrived)
+        return ends[np.isfinite(ends).all(axis=1)]

@@ -1,0 +1,164 @@
+"""All solutions of a system with generic coefficients, by monodromy from some of them.
+
+For supports that hold the origin the solutions of all systems form one irreducible set, so that
+loops of coefficients lead from any solution of one system to any other (Duff, Hill, Jensen, Lee,
+Leykin & Sommars, Solving polynomial systems via homotopy continuation and monodromy, 2019).
+Whatever is found is a solution, even where a path was lost; only how many there are must be known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenized, unit
+from nag.tracking.homotopy import Homotopy, straight_line
+from nag.tracking.settings import named
+from nag.tracking.track import track_regular
+
+# Loops without a new solution after which the search ends, and loops in all.
+MOST_IDLE = 12
+MOST_LOOPS = 200
+# Projective distance of points that are one.
+SAME = 1e-7
+
+
+@dataclass(frozen=True, eq=False)
+class GenericSystem:
+    """A system with generic coefficients, and solutions of it.
+
+    Attributes:
+        supports: one for each equation, each with the origin, shape ``(terms, n)``.
+        coefficients: those of each support's points.
+        points: distinct solutions in projective coordinates of unit norm, shape ``(P, 1 + n)``.
+    """
+
+    supports: tuple[np.ndarray, ...]
+    coefficients: tuple[np.ndarray, ...]
+    points: np.ndarray
+
+    @cached_property
+    def rows(self) -> tuple[Terms, ...]:
+        """The system's terms."""
+        return tuple(
+            {tuple(e): complex(v) for e, v in zip(s.tolist(), c, strict=True)}
+            for s, c in zip(self.supports, self.coefficients, strict=True)
+        )
+
+
+def seeded(supports: Sequence[np.ndarray], rng: np.random.Generator) -> GenericSystem:
+    """Random coefficients of a system with a random zero, no coordinate of which is zero."""
+    x = unit(rng, len(supports))
+    coefficients = []
+    for support in supports:
+        monomials = np.prod(x[None, :] ** support, axis=1)
+        c = unit(rng, len(support))
+        c = c - (c @ monomials) / np.vdot(monomials, monomials) * monomials.conj()
+        coefficients.append(c)
+    point = np.append(1.0, x)[None] / np.sqrt(1 + len(x))
+    return GenericSystem(tuple(supports), tuple(coefficients), point)
+
+
+def equal_pairs(points: np.ndarray) -> np.ndarray:
+    """Pairs ``i < j`` of projective points of unit norm that are one, shape ``(pairs, 2)``."""
+    # Equal points are neighbours in a fixed projection, which sorts them.
+    key = np.abs(points @ np.exp(1j * np.arange(points.shape[1]) ** 2)) ** 2
+    order = np.argsort(key, kind="stable")
+    pairs = []
+    for a in np.flatnonzero(np.diff(key[order]) <= 10 * SAME):
+        i = order[a]
+        for j in order[a + 1 :]:
+            if key[j] - key[i] > 10 * SAME:
+                break
+            if 1 - abs(np.vdot(points[i], points[j])) ** 2 < SAME**2 + 1e-14:
+                pairs.append((min(i, j), max(i, j)))
+    return np.array(pairs, dtype=np.int64).reshape(-1, 2)
+
+
+class Fibre:
+    """Distinct projective points of unit norm."""
+
+    def __init__(self, points: np.ndarray, most: int) -> None:
+        self.points = points[:0]
+        self.most = most
+        self.add(points)
+
+    def add(self, points: np.ndarray) -> int:
+        """Add those that are new; returns how many."""
+        old = len(self.points)
+        everything = np.concatenate([self.points, points])
+        repeated = equal_pairs(everything)[:, 1]
+        new = np.setdiff1d(np.arange(old, len(everything)), repeated)[: self.most - old]
+        self.points = np.concatenate([self.points, everything[new]])
+        return len(new)
+
+    def missing_from(self, points: np.ndarray) -> np.ndarray:
+        """Those of the fibre that are not among ``points``."""
+        everything = np.concatenate([points, self.points])
+        repeated = equal_pairs(everything)[:, 1]
+        return everything[np.setdiff1d(np.arange(len(points), len(everything)), repeated)]
+
+
+def by_monodromy(
+    system: GenericSystem,
+    most: int,
+    rng: np.random.Generator,
+    threads: int,
+    complete: Callable[[np.ndarray], bool] | None = None,
+) -> tuple[GenericSystem, int, bool]:
+    """The system with further solutions, the number of paths, and whether ``complete`` said so.
+
+    The search ends with ``most`` solutions, or when many loops find no more.
+
+    Args:
+        system: at least one of its solutions is known.
+        most: how many solutions there are, or how many of them are wanted at most.
+        rng: where the other coefficients of the loops come from.
+        threads: number of threads.
+        complete: tells whether given solutions are all; asked where a loop found no more.
+    """
+    n = len(system.supports)
+    groups = (tuple(range(n)),)
+    other = replace(system, coefficients=tuple(unit(rng, len(s)) for s in system.supports))
+    degrees = group_degrees(system.rows, groups)
+    first, second = (homogenized(each.rows, n, groups, degrees) for each in (system, other))
+    here, there = Fibre(system.points, most), Fibre(system.points[:0], most)
+    spent, idle = 0, 0
+    for _ in range(MOST_LOOPS):
+        if len(here.points) >= most or idle >= MOST_IDLE:
+            break
+        gamma = complex(unit(rng, 1)[0])
+        forward = straight_line(first, second, gamma)
+        backward = straight_line(second, first, 1 / gamma)
+        ends = _moved(forward, here.points, threads)
+        spent += len(here.points)
+        gained = there.add(ends)
+        # The way is one to one: what it did not reach leads back to solutions that are new.
+        left = there.missing_from(ends)
+        gained += here.add(_moved(backward, left, threads))
+        spent += len(left)
+        idle = 0 if gained else idle + 1
+        # The question costs as much as a loop: after 1, 3, 7 loops in vain.
+        if idle and not idle & (idle + 1) and complete is not None and complete(here.points):
+            return replace(system, points=here.points), spent, True
+    return replace(system, points=here.points), spent, False
+
+
+def _moved(homotopy: Homotopy, points: np.ndarray, threads: int) -> np.ndarray:
+    if not len(points):
+        return points
+    return track_regular(homotopy, points, named("fast"), threads)[0]
+
+
+def start_at(
+    name: str, target: Target, system: GenericSystem, detail: str, gamma: complex
+) -> Start:
+    """The homotopy from ``system``, all of whose solutions are known, to ``target``."""
+    groups = (tuple(range(target.n)),)
+    degrees = group_degrees(system.rows, groups)
+    begin = homogenized(system.rows, target.n, groups, degrees)
+    goal = homogenized(target.rows, target.n, groups, degrees)
+    return Start(name, straight_line(begin, goal, gamma), system.points, groups, detail=detail)

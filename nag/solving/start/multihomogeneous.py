@@ -1,0 +1,247 @@
+"""Multihomogeneous start systems: products of linear forms in groups of variables.
+
+References:
+    Morgan & Sommese, A homotopy for solving general polynomial systems that respects
+    m-homogeneous structures, 1987; Wampler, Bezout number calculations for multi-homogeneous
+    polynomial systems, 1992.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import product
+from math import comb, prod
+
+import numpy as np
+
+from nag.solving.start.target import (
+    Start,
+    StartError,
+    Target,
+    group_degrees,
+    homogenized,
+    unit,
+)
+from nag.solving.start.total_degree import MOST_PATHS
+from nag.tracking.homotopy import straight_line
+
+Groups = tuple[tuple[int, ...], ...]
+# A start row is written out as a sum of terms; longer ones would slow every step down.
+MOST_TERMS = 5000
+# States of the count below; the search for groups skips what is dearer.
+MOST_STATES = 20_000
+# Integers below this are doubles.
+EXACT = 2.0**53
+# A local search from a partition with so many times the paths of the best is not begun.
+HOPELESS = 4
+# Partitions that the search tries: some always, and one more for so many paths to be saved.
+LEAST_TRIED, PATHS_FOR_A_TRY = 20, 20
+MOST_TRIED = 2000
+
+
+def bezout_number(degrees: np.ndarray, sizes: Sequence[int]) -> int:
+    """Coefficient of ``prod(z_g ^ sizes[g])`` in ``prod_i(sum_g degrees[i, g] z_g)``."""
+    rows, most = degrees.tolist(), list(sizes)
+    if all(sum(row) > 0 for row in rows) and prod(map(sum, rows)) < EXACT:
+        return _bezout_number_of_floats(rows, most)
+    counts = {tuple(most): 1}
+    for row in rows:
+        following: dict[tuple[int, ...], int] = {}
+        for left, ways in counts.items():
+            for g, d in enumerate(row):
+                if d and left[g]:
+                    key = (*left[:g], left[g] - 1, *left[g + 1 :])
+                    following[key] = following.get(key, 0) + ways * d
+        counts = following
+    return sum(counts.values())
+
+
+def _bezout_number_of_floats(rows: list[list[int]], sizes: list[int]) -> int:
+    """The same where all numbers on the way are integers that doubles hold exactly."""
+    strides = np.cumprod([1, *(size + 1 for size in sizes)])
+    exponents = np.arange(strides[-1])[:, None] // strides[:-1] % (np.array(sizes) + 1)
+    counts = np.zeros(strides[-1])
+    counts[0] = 1.0
+    room = [exponents[: -int(s), g] < sizes[g] for g, s in enumerate(strides[:-1])]
+    for row in rows:
+        following = np.zeros(strides[-1])
+        for g, d in enumerate(row):
+            if d:
+                shift = int(strides[g])
+                following[shift:] += d * (counts[:-shift] * room[g])
+        counts = following
+    return int(counts[-1])
+
+
+def count(target: Target, groups: Groups) -> int:
+    """Bezout's number of ``target`` for a partition of its variables."""
+    return bezout_number(group_degrees(target.stack, groups), [len(g) for g in groups])
+
+
+def _moves(groups: Groups) -> Iterator[Groups]:
+    """Partitions that differ in the place of one variable, or by two groups put together."""
+    for a, group in enumerate(groups):
+        for i in group:
+            rest = tuple(j for j in group if j != i)
+            others = [g for b, g in enumerate(groups) if b != a]
+            if rest:
+                yield tuple(sorted([*others, rest, (i,)]))
+            for b, g in enumerate(others):
+                moved = [*others[:b], tuple(sorted((*g, i))), *others[b + 1 :]]
+                yield tuple(sorted([*moved, rest] if rest else moved))
+        for b in range(a):
+            rest_of = [g for c, g in enumerate(groups) if c not in (a, b)]
+            yield tuple(sorted([*rest_of, tuple(sorted((*groups[b], *group)))]))
+
+
+def _states(groups: Groups) -> int:
+    return int(np.prod([len(g) + 1 for g in groups], dtype=float))
+
+
+def best_groups(target: Target, given: Groups = ()) -> tuple[Groups, int]:
+    """A partition of the variables with a small Bezout number, and that number.
+
+    Local search from one group, from groups of one, from the connected parts of the monomials'
+    structure, and from the ``given`` ones. The search looks at more partitions where more paths
+    could be saved.
+    """
+    n = target.n
+    seen: dict[Groups, int] = {}
+    most = min(LEAST_TRIED + prod(target.degrees) // PATHS_FOR_A_TRY, MOST_TRIED)
+
+    def value(groups: Groups) -> int | None:
+        if groups not in seen:
+            if len(seen) >= most or _states(groups) > MOST_STATES:
+                return None
+            seen[groups] = count(target, groups)
+        return seen[groups]
+
+    first = [(tuple(range(n)),), _never_together(target), tuple((i,) for i in range(n))]
+    if given:
+        first.insert(0, tuple(sorted(given)))
+    best: tuple[int, int, Groups] | None = None
+    for groups in dict.fromkeys(first):
+        here = value(groups)
+        if here is None:
+            continue
+        if best is not None and here > HOPELESS * best[0]:
+            continue
+        current = (here, len(groups), groups)
+        while len(seen) < most:
+            steps = [(value(g), len(g), g) for g in dict.fromkeys(_moves(current[2]))]
+            better = min((s for s in steps if s[0] is not None), default=current)
+            if better >= current:
+                break
+            current = better
+        best = current if best is None else min(best, current)
+    assert best is not None
+    return best[2], best[0]
+
+
+def _never_together(target: Target) -> Groups:
+    """Groups of variables whose products, two of the same group, occur in no monomial.
+
+    Found greedily; such groups make bilinear systems bilinear.
+    """
+    clash = np.zeros((target.n, target.n), dtype=bool)
+    for row in target.rows:
+        for e in row:
+            there = [i for i, k in enumerate(e) if k]
+            for i in there:
+                for j in there:
+                    clash[i, j] |= i != j
+    groups: list[list[int]] = []
+    for i in range(target.n):
+        for g in groups:
+            if not clash[i, g].any():
+                g.append(i)
+                break
+        else:
+            groups.append([i])
+    return tuple(sorted(tuple(g) for g in groups))
+
+
+def terms_of_start(degrees: np.ndarray, sizes: Sequence[int]) -> int:
+    """Terms of the longest row of the start system."""
+    counts = [[comb(m + d, d) for m, d in zip(sizes, row, strict=True)] for row in degrees.tolist()]
+    return max((int(np.prod(c, dtype=float)) for c in counts), default=1)
+
+
+def _expand(forms: Sequence[tuple[tuple[int, ...], np.ndarray]], n: int) -> dict:
+    """The product of affine-linear forms ``c[0] + sum_k c[1 + k] x[group[k]]``."""
+    terms: dict[tuple[int, ...], complex] = {(0,) * n: 1.0 + 0j}
+    for group, c in forms:
+        following: dict[tuple[int, ...], complex] = {}
+        for e, value in terms.items():
+            following[e] = following.get(e, 0) + value * c[0]
+            for k, i in enumerate(group):
+                key = (*e[:i], e[i] + 1, *e[i + 1 :])
+                following[key] = following.get(key, 0) + value * c[1 + k]
+        terms = following
+    return terms
+
+
+def _choices(degrees: np.ndarray, sizes: Sequence[int]) -> np.ndarray:
+    """All ways to take one factor of each row, ``sizes[g]`` of group g; shape ``(P, rows, 2)``.
+
+    Entry ``(p, i)`` is the group of the factor of row ``i`` and the factor's number in it.
+    """
+    table = degrees.tolist()
+    found: list[list[tuple[int, int]]] = []
+
+    def descend(i: int, left: list[int], chosen: list[tuple[int, int]]) -> None:
+        if i == len(table):
+            found.append(list(chosen))
+            return
+        for g, d in enumerate(table[i]):
+            if d and left[g]:
+                left[g] -= 1
+                for k in range(d):
+                    chosen.append((g, k))
+                    descend(i + 1, left, chosen)
+                    chosen.pop()
+                left[g] += 1
+
+    descend(0, list(sizes), [])
+    return np.array(found, dtype=np.int64).reshape(len(found), len(table), 2)
+
+
+def multihomogeneous(target: Target, groups: Groups, rng: np.random.Generator) -> Start:
+    """The straight-line homotopy from products of random linear forms in the groups.
+
+    Raises:
+        StartError: if there are more paths, or longer start rows, than time and memory are for.
+    """
+    n = target.n
+    sizes = [len(g) for g in groups]
+    degrees = group_degrees(target.rows, groups)
+    paths = bezout_number(degrees, sizes)
+    if paths > MOST_PATHS:
+        raise StartError(f"multihomogeneous: {paths} paths; at most {MOST_PATHS} are tracked")
+    if terms_of_start(degrees, sizes) > MOST_TERMS:
+        raise StartError("multihomogeneous: the start system has too many terms")
+    forms: dict[tuple[int, int, int], np.ndarray] = {}
+    start_rows = []
+    for i, row in enumerate(degrees.tolist()):
+        factors = []
+        for g, k in ((g, k) for g, d in enumerate(row) for k in range(d)):
+            forms[i, g, k] = unit(rng, 1 + sizes[g])
+            factors.append((groups[g], forms[i, g, k]))
+        start_rows.append(_expand(factors, n))
+    gamma = complex(unit(rng, 1)[0])
+    choices = _choices(degrees, sizes)
+    shift = len(groups)
+    points = np.ones((len(choices), n + shift), dtype=np.complex128)
+    for g, size in enumerate(sizes):
+        rows = np.argsort(choices[:, :, 0] != g, axis=1, kind="stable")[:, :size]
+        numbers = np.take_along_axis(choices[:, :, 1], rows, axis=1)
+        table = np.zeros((n, int(degrees[:, g].max(initial=0)), 1 + size), dtype=np.complex128)
+        for i, k in product(range(n), range(table.shape[1])):
+            if (i, g, k) in forms:
+                table[i, k] = forms[i, g, k]
+        matrix = table[rows, numbers]
+        solution = np.linalg.solve(matrix[:, :, 1:], -matrix[:, :, :1])[:, :, 0]
+        points[:, [shift + i for i in groups[g]]] = solution
+    begin = homogenized(start_rows, n, groups, degrees)
+    goal = homogenized(target.rows, n, groups, degrees)
+    return Start("multihomogeneous", straight_line(begin, goal, gamma), points, groups)

@@ -1,0 +1,178 @@
+"""What a start system is made for: a square system, and what it hands to the tracker."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Exponents, Polynomial
+from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
+from nag.solving.start.centring import centres, shifted
+from nag.tracking.compiled import CompiledRows
+from nag.tracking.homotopy import Homotopy
+
+Terms = Mapping[Exponents, Number | complex]
+
+
+class StartError(ValueError):
+    """A start system that cannot be had for a target; the message is one line."""
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """``n`` polynomials in ``n`` variables, as maps from exponents to exact or complex numbers.
+
+    Attributes:
+        n: number of variables and of polynomials.
+        rows: the terms, in variables ``y``.
+        scales, centres: the original variables are ``x_i = 2^scales[i] y_i + centres[i]``, with
+            integers and rational numbers.
+    """
+
+    n: int
+    rows: tuple[Terms, ...]
+    scales: tuple[int, ...] = ()
+    centres: tuple[Fraction, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.rows) != self.n:
+            raise ValueError(f"{len(self.rows)} polynomials in {self.n} variables are not square")
+
+    @classmethod
+    def of(cls, polynomials: Sequence[Polynomial], n: int) -> Target:
+        """The polynomials with variables centred, and those and rows scaled by powers of two."""
+        origins = centres(polynomials, n)
+        polynomials = [shifted(f, origins) for f in polynomials]
+        scales = variable_scales(polynomials, n)
+        rows = independent_rows([scaled_terms(f, scales) for f in polynomials])
+        return cls(n, rows, tuple(scales.tolist()), origins)
+
+    def scaled(self, f: Polynomial) -> Polynomial:
+        """``f``, a polynomial in the original variables, in the variables ``y``, scaled."""
+        if self.centres:
+            f = shifted(f, self.centres)
+        return Polynomial(self.n, scaled_terms(f, np.array(self.scales, dtype=np.int64)))
+
+    def original(self, points: np.ndarray) -> np.ndarray:
+        """Values of the original variables, from those of ``y``, shape ``(P, n)``."""
+        if not self.scales:
+            return points
+        origins = np.array([float(b) for b in self.centres])
+        return points * np.exp2(self.scales) + origins
+
+    @cached_property
+    def degrees(self) -> tuple[int, ...]:
+        """Total degrees."""
+        return tuple(max(map(sum, row), default=0) for row in self.rows)
+
+    @cached_property
+    def stack(self) -> StackedExponents:
+        """The exponents of all rows."""
+        return StackedExponents.of(self.rows)
+
+    @cached_property
+    def supports(self) -> tuple[np.ndarray, ...]:
+        """Exponents of each row together with the origin, each shape ``(terms, n)``.
+
+        With the origin, coefficients chosen at random have constant terms, and solutions with
+        coordinates that vanish are limits of solutions without such (Li & Wang 1996).
+        """
+        origin = (0,) * self.n
+        return tuple(
+            np.array(sorted({*row, origin}), dtype=np.int64).reshape(-1, self.n)
+            for row in self.rows
+        )
+
+
+class StackedExponents(NamedTuple):
+    """The exponents of all rows, one row's after another's.
+
+    ``exponents`` has shape ``(terms, n)``; those of row ``r`` begin at ``first[r]``. A row without
+    terms counts as a constant.
+    """
+
+    exponents: np.ndarray
+    first: np.ndarray
+
+    @classmethod
+    def of(cls, rows: Sequence[Terms]) -> StackedExponents:
+        """The exponents of ``rows``."""
+        n = next((len(e) for row in rows for e in row), 0)
+        all_of = [list(row) or [(0,) * n] for row in rows]
+        first = np.cumsum([0] + [len(exponents) for exponents in all_of], dtype=np.int64)[:-1]
+        stacked = np.array([e for exponents in all_of for e in exponents], dtype=np.int64)
+        return cls(stacked.reshape(int(first[-1]) + len(all_of[-1]) if all_of else 0, n), first)
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A homotopy from a solved system to the target, and the solutions at t = 1.
+
+    Attributes:
+        name: ``"total"``, ``"multihomogeneous"``, ``"polyhedral"`` or ``"monodromy"``.
+        homotopy: from the start system (t = 1) to the target (t = 0).
+        points: start points, one for each path, shape ``(P, N)``.
+        groups: the groups of variables that were homogenised together.
+        complete: whether each isolated solution of the target is the end of as many paths as its
+            multiplicity is.
+        detail: how the start system came about, for the reader.
+    """
+
+    name: str
+    homotopy: Homotopy
+    points: np.ndarray
+    groups: tuple[tuple[int, ...], ...]
+    complete: bool = True
+    detail: str = ""
+
+    def affine(self, points: np.ndarray) -> np.ndarray:
+        """Values of the variables at projective points, shape ``(P, n)``."""
+        shift = len(self.groups)
+        n = sum(len(group) for group in self.groups)
+        result = np.empty((len(points), n), dtype=np.complex128)
+        for k, group in enumerate(self.groups):
+            indices = list(group)
+            result[:, indices] = points[:, [shift + i for i in indices]] / points[:, k : k + 1]
+        return result
+
+
+def homogenized(
+    rows: Iterable[Terms], n: int, groups: Sequence[Sequence[int]], degrees: np.ndarray
+) -> CompiledRows:
+    """Rows of the given degrees in the groups; the layout is that of `compile_rows`."""
+    shift = len(groups)
+    parts = []
+    for row, wanted in zip(rows, degrees, strict=True):
+        terms = {}
+        for e, c in row.items():
+            missing = tuple(
+                int(d) - sum(e[i] for i in g) for g, d in zip(groups, wanted, strict=True)
+            )
+            terms[missing + tuple(e)] = c
+        parts.append(((0, terms),))
+    coordinates = tuple((k, *(i + shift for i in g)) for k, g in enumerate(groups))
+    return CompiledRows(n + shift, tuple(parts), coordinates, tuple(range(shift)), degrees)
+
+
+def group_degrees(
+    rows: Sequence[Terms] | StackedExponents, groups: Sequence[Sequence[int]]
+) -> np.ndarray:
+    """Degree of each row in each group, shape ``(rows, groups)``."""
+    stack = rows if isinstance(rows, StackedExponents) else StackedExponents.of(rows)
+    if not len(stack.first):
+        return np.zeros((0, len(groups)), dtype=np.int64)
+    member = np.zeros((stack.exponents.shape[1], len(groups)), dtype=np.int64)
+    for g, group in enumerate(groups):
+        member[list(group), g] = 1
+    return np.maximum.reduceat(stack.exponents @ member, stack.first, axis=0)
+
+
+def unit(rng: np.random.Generator, *shape: int) -> np.ndarray:
+    """Random complex numbers of absolute value 1."""
+    return np.exp(2j * np.pi * rng.random(shape))

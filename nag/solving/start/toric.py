@@ -1,0 +1,171 @@
+"""Start solutions by toric degenerations: one path for each solution of a generic system.
+
+For a mixed cell with edges ``a_i b_i`` and inner normal ``alpha``, the system whose coefficient at
+``a`` is ``c_a exp(-w_a t)``, ``w_a = lift(a) - lift(a_i) + (a - a_i) alpha >= 0``, tends to the
+binomials on the edges as t grows; these have as many solutions as the cell's volume.
+Reference:
+    Huber & Sturmfels, A polyhedral method for solving sparse polynomial systems, 1995.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import count
+
+import numpy as np
+
+from nag.solving.start.fibre_monodromy import Fibre, GenericSystem, equal_pairs
+from nag.solving.start.mixed_cells import MixedCells
+from nag.solving.start.target import StartError, group_degrees, homogenized
+from nag.tracking.compiled import CompiledRows
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.settings import named, tighter
+from nag.tracking.track import track_regular
+
+# The homotopies begin where the least power of the degeneration's parameter is exp(-LENGTH);
+# Newton's method leads from the binomials' solutions to the start points.
+LENGTH = 10.0
+# With ever tighter control, and longer homotopies.
+ATTEMPTS = 3
+# Largest determinant and entry of an adjugate that doubles give exactly.
+LARGEST = 1 << 40
+
+
+def cell_vectors(cells: MixedCells) -> np.ndarray:
+    """The edges' vectors as rows, shape ``(cells, n, n)``."""
+    n = cells.edges.shape[1]
+    vectors = [
+        s[cells.edges[:, i, 1]] - s[cells.edges[:, i, 0]] for i, s in enumerate(cells.supports)
+    ]
+    return np.stack(vectors, axis=1).reshape(-1, n, n)
+
+
+def cell_weights(cells: MixedCells) -> np.ndarray:
+    """Exponents ``w`` of the terms of all rows, for each cell, shape ``(cells, terms)``.
+
+    Scaled so that the least one that is not zero is 1; those of the edges are zero.
+    """
+    vectors = cell_vectors(cells).astype(float)
+    index = np.arange(len(cells.edges))[:, None]
+    rises = np.stack(
+        [
+            lift[cells.edges[:, i, 0]] - lift[cells.edges[:, i, 1]]
+            for i, lift in enumerate(cells.lifts)
+        ],
+        axis=1,
+    )
+    normals = np.linalg.solve(vectors, rises[:, :, None])[:, :, 0]
+    weights = []
+    for i, (support, lift) in enumerate(zip(cells.supports, cells.lifts, strict=True)):
+        values = lift + normals @ support.T
+        values -= values[index, cells.edges[:, i, :1]]
+        values[index, cells.edges[:, i]] = 0.0
+        weights.append(values)
+    result = np.maximum(np.concatenate(weights, axis=1), 0.0)
+    least = np.where(result > 0, result, np.inf).min(axis=1, initial=np.inf, keepdims=True)
+    return result / np.where(np.isfinite(least), least, 1.0)
+
+
+def binomial_solutions(
+    cells: MixedCells, coefficients: Sequence[np.ndarray]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Angles of the coordinates of the solutions of all cells' binomials, and their cells.
+
+    All coordinates have absolute value 1, like the coefficients. Shapes ``(P, n)`` and ``(P,)``.
+
+    Raises:
+        StartError: if the exponents are too large.
+    """
+    vectors = cell_vectors(cells)
+    n = vectors.shape[2]
+    right = np.stack(
+        [
+            np.angle(-c[cells.edges[:, i, 0]] / c[cells.edges[:, i, 1]])
+            for i, c in enumerate(coefficients)
+        ],
+        axis=1,
+    )
+    floats = vectors.astype(float)
+    inverse = np.linalg.inv(floats)
+    volumes = cells.volumes
+    adjugate = np.rint(inverse * volumes[:, None, None])
+    if max(np.abs(adjugate).max(initial=0), volumes.max(initial=0)) > LARGEST:
+        raise StartError("polyhedral: the exponents are too large")
+    adjugate = adjugate.astype(np.int64)
+    exact = volumes[:, None, None] * np.eye(n, dtype=np.int64)
+    if not np.array_equal(vectors @ adjugate, exact):
+        raise StartError("polyhedral: the exponents are too large")
+    first = (inverse @ right[:, :, None])[:, :, 0]
+    angles, owners = [], []
+    for k, volume in enumerate(volumes.tolist()):
+        turns = _span(adjugate[k].T % volume, volume)
+        angles.append(first[k] + 2 * np.pi / volume * turns)
+        owners.append(np.full(volume, k))
+    return np.concatenate(angles), np.concatenate(owners)
+
+
+def _span(generators: np.ndarray, modulus: int) -> np.ndarray:
+    """All sums of the ``generators`` modulo ``modulus``, each once, shape ``(count, n)``."""
+    group = np.zeros((1, generators.shape[1]), dtype=np.int64)
+    for g in generators:
+        if len(group) == modulus:
+            break
+        known = {tuple(x) for x in group.tolist()}
+        multiples = [np.zeros_like(g)]
+        while tuple(((multiples[-1] + g) % modulus).tolist()) not in known:
+            multiples.append((multiples[-1] + g) % modulus)
+        group = ((group[None] + np.array(multiples)[:, None]) % modulus).reshape(-1, len(g))
+    return group
+
+
+def by_degeneration(
+    cells: MixedCells, coefficients: tuple[np.ndarray, ...], threads: int
+) -> tuple[GenericSystem, int]:
+    """A system with the cells' supports, its solutions at the ends of toric paths, their number.
+
+    The coefficients are generic, of absolute value 1. If there are as many solutions as the mixed
+    volume, they are all, whatever happened on the way; there may be fewer.
+
+    Raises:
+        StartError: if the exponents are too large.
+    """
+    n = len(cells.supports)
+    groups = (tuple(range(n)),)
+    system = GenericSystem(cells.supports, coefficients, np.zeros((0, 1 + n), dtype=np.complex128))
+    if not len(cells.edges):
+        return system, 0
+    angles, owners = binomial_solutions(cells, coefficients)
+    starts = np.exp(1j * np.concatenate([np.zeros((len(angles), 1)), angles], axis=1))
+    weights = cell_weights(cells)[owners]
+    degrees = group_degrees(system.rows, groups)
+    homotopy = Homotopy(_single_terms(homogenized(system.rows, n, groups, degrees)))
+    settings, length = named("fast"), LENGTH
+    left = np.arange(len(starts))
+    ends = np.zeros((len(starts), 1 + n), dtype=np.complex128)
+    spent = 0
+    for _ in range(ATTEMPTS):
+        zeros, arrived = track_regular(
+            homotopy, starts[left], settings, threads, length * weights[left]
+        )
+        spent += len(left)
+        ends[left] = 0.0
+        ends[left[arrived]] = zeros
+        ended = np.flatnonzero(ends.any(axis=1))
+        alone = np.setdiff1d(ended, ended[equal_pairs(ends[ended])])
+        left = np.setdiff1d(np.arange(len(starts)), alone)
+        if not len(left):
+            break
+        settings, length = tighter(settings), 2 * length
+    found = Fibre(ends[ends.any(axis=1)], len(starts))
+    return replace(system, points=found.points), spent
+
+
+def _single_terms(rows: CompiledRows) -> CompiledRows:
+    """The same rows, each term a part of its own."""
+    counter = count()
+    parts = tuple(
+        tuple((next(counter), {e: c}) for _, terms in row for e, c in terms.items())
+        for row in rows.parts
+    )
+    return CompiledRows(rows.N, parts, rows.groups, rows.infinity, rows.degrees)

@@ -1,1 +1,0 @@
-"""Start systems: solved systems from which paths lead to all isolated solutions of a target."""

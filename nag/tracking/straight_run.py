@@ -1,0 +1,339 @@
+"""The path tracker's kernel in doubles: eight paths at a time, refilled from a queue.
+
+Each path runs to t = ``radius``, where its point is kept, and from there straight on to t = 0, for
+as long as it gets on: what happens to it there is for `nag.tracking.ends` to find out.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.lanes import fma, load, select_less, splat, store
+from nag.machine_code.records import Complexes, Reals, Wholes
+from nag.tracking.linear_algebra import factorize, substitute
+from nag.tracking.predictor import CORRECT, PREDICT, next_step, next_t, predict
+from nag.tracking.taylor import (
+    System,
+    Work,
+    complete_slots,
+    factors_at,
+    incomplete_slots,
+    jacobian,
+    normalize,
+    products,
+    right_side,
+    values,
+)
+
+# What a lane does: nothing; predict and correct; correct at its first point; correct once more.
+EMPTY, STEPPING, STARTING, CORRECTING = -1, 0, 1, 2
+# What became of a step.
+REJECTED, UNFINISHED, ACCEPTED = 0, 1, 2
+# Why a path ended before t = 0, see `nag.tracking.paths.Reason`.
+ARRIVED, STEP_SIZE, STEPS, START, NOT_FINITE = 0, 1, 2, 3, 5
+# Rows of the lanes' counters.
+PATH, ROUNDS, TAKEN, FAILURES, STATE, STRAIGHT = range(6)
+# Rows of the lanes' scalars.
+T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH = range(8)
+# A path that gets on so badly for so many steps behind the radius is left to others.
+PATIENCE = 12
+# Corrections that do not contract any more are rounding errors if they are less than this.
+ROUNDING = 1e-9
+
+
+def _correct(s, w, norms, k):
+    """Add the solution to the point; squared norm of it, the largest of the groups."""
+    zero = splat(0.0)
+    largest = zero
+    for g in range(s.groups):
+        total = zero
+        for j in range(s.N):
+            if s.group_of[j] == g:
+                x = load(w.br, j)
+                y = load(w.bi, j)
+                total = fma(x, x, fma(y, y, total))
+        largest = select_less(total, largest, largest, total)
+    for j in range(s.N):
+        store(w.vr, j, load(w.vr, j) + load(w.br, j))
+        store(w.vi, j, load(w.vi, j) + load(w.bi, j))
+    store(norms, k, largest)
+
+
+def _measure(s, w, order):
+    """Squared norm of the Taylor coefficient in the right-hand side."""
+    total = splat(0.0)
+    for j in range(s.N):
+        x = load(w.br, j)
+        y = load(w.bi, j)
+        total = fma(x, x, fma(y, y, total))
+    store(w.norms, 1 + order, total)
+
+
+def _newton_and_jets(s, w, order):
+    """One Newton step, one simplified one, and the Taylor coefficients of the path."""
+    n = s.N
+    normalize(s, w)
+    factors_at(s, w)
+    products(s, w, 0, s.products)
+    values(s, w)
+    jacobian(s, w)
+    factorize(n, w.jr, w.ji, w.pivots)
+    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+    _correct(s, w, w.norms, 0)
+    products(s, w, 0, s.value_products)
+    values(s, w)
+    substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+    # The slots stay those of the point before this correction, which is far smaller than the
+    # error of the Taylor coefficients.
+    _correct(s, w, w.norms, 1)
+    for k in range(1, order + 1):
+        if k > 1:
+            incomplete_slots(s, w, k)
+        right_side(s, w, k)
+        substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+        _measure(s, w, k)
+        complete_slots(s, w, k)
+
+
+def _accept(s, w, order):
+    """Make the current points and Taylor coefficients the base, in the lanes accepted."""
+    n = s.N
+    half = splat(0.5)
+    a = load(w.accepted, 0)
+    size = n + 1 + s.value_products
+    for j in range(n):
+        store(w.base, j, select_less(half, a, load(w.vr, j), load(w.base, j)))
+        store(w.base, n + j, select_less(half, a, load(w.vi, j), load(w.base, n + j)))
+    for k in range(1, order + 1):
+        top = 2 * n * k
+        for j in range(n):
+            q = (k - 1) * size + j
+            store(w.base, top + j, select_less(half, a, load(w.cr, q), load(w.base, top + j)))
+            q_im = top + n + j
+            store(w.base, q_im, select_less(half, a, load(w.ci, q), load(w.base, q_im)))
+
+
+def _put(s, w, lane, points, k):
+    for j in range(s.N):
+        x = points[s.N * k + j]
+        w.vr[8 * j + lane] = x.real
+        w.vi[8 * j + lane] = x.imag
+
+
+class Batch(NamedTuple):
+    """Paths to be tracked in one batch, where their results go, and the settings.
+
+    ``starts``: points at t = 1, shape (count, N), of which ``first, first + stride, ..`` are
+    tracked. ``points``: where they ended, at t = 0 if their ``reason`` is 0; ``safe``: their
+    points at ``safe_t``, which is ``radius``, or 1 for those that did not get there.
+    ``error, steps, reason``: one for each path. The rest: see
+    `nag.tracking.settings.Settings`; a ``radius`` of 0 stands for none.
+    """
+
+    starts: Complexes
+    count: int
+    first: int
+    stride: int
+    points: Complexes
+    safe: Complexes
+    safe_t: Reals
+    error: Reals
+    steps: Wholes
+    reason: Wholes
+    order: int
+    max_steps: int
+    radius: float
+    tolerance: float
+    newton: float
+    newton_end: float
+    floor: float
+    radius_factor: float
+    safety: float
+    contraction: float
+
+
+def _fill(s, w, lane, path, b):
+    """Put a path into a lane."""
+    f, c = w.scalars, w.counters
+    _put(s, w, lane, b.starts, path)
+    for k in range(8):
+        f[8 * k + lane] = 0.0
+    for k in range(6):
+        c[8 * k + lane] = 0
+    f[8 * T + lane] = 1.0
+    f[8 * GOAL + lane] = b.radius
+    c[8 * PATH + lane] = path
+    c[8 * STATE + lane] = STARTING
+
+
+def _aim(w):
+    """Where each lane's points are to be corrected, and which lanes predict."""
+    for lane in range(8):
+        state = w.counters[8 * STATE + lane]
+        w.mode[lane] = PREDICT if state == STEPPING else CORRECT
+        if state == STEPPING:
+            next_t(w, lane)
+        elif state == STARTING:
+            w.tr[lane] = w.scalars[8 * T + lane]
+
+
+def _judged(w, lane, b):
+    """Whether the corrections of a lane let it be accepted; sizes for the next step."""
+    f, c = w.scalars, w.counters
+    stepping = c[8 * STATE + lane] == STEPPING
+    first = w.norms[lane] ** 0.5
+    second = w.norms[8 + lane] ** 0.5
+    if not first < 1e100 or not second < 1e100:
+        return REJECTED
+    theta = second / first if first > 0.0 else 0.0
+    if stepping:
+        f[8 * FIRST + lane] = first
+        rounding = second <= ROUNDING
+        f[8 * THETA + lane] = 0.0 if rounding else theta
+        rounding = rounding or (second <= b.floor and c[8 * FAILURES + lane] >= 2)
+        c[8 * ROUNDS + lane] = 0
+        if first > b.tolerance or not (theta <= b.contraction or rounding):
+            return REJECTED
+    else:
+        c[8 * ROUNDS + lane] += 1
+        if first > 0.1 or not (theta <= 0.5 or second <= b.floor):
+            return REJECTED
+    # The Taylor coefficients' Jacobian is that before the correction.
+    exact = w.tr[lane] == f[8 * GOAL + lane] or c[8 * STATE + lane] == STARTING
+    newton = b.newton_end if exact else b.newton
+    rounds = c[8 * ROUNDS + lane]
+    left = min(theta, 1.0) * second
+    idle = rounds >= 1 and theta > 0.3
+    if left <= newton or ((rounds >= 3 or idle) and second <= b.floor):
+        f[8 * ACCURACY + lane] = left if left > 1e-15 else 1e-15
+        if rounds >= 1 and left > newton:
+            f[8 * ACCURACY + lane] = second
+        return ACCEPTED
+    return UNFINISHED if rounds < 5 else REJECTED
+
+
+def _accepted(w, lane, b):
+    """Go on from the point that was accepted."""
+    f, c = w.scalars, w.counters
+    power = 1.0 / (b.order + 1)
+    f[8 * GROWTH + lane] = 0.0
+    if c[8 * STATE + lane] != STARTING:
+        first = max(f[8 * FIRST + lane], 1e-300)
+        aim = min(
+            b.safety * b.tolerance, 0.3 * b.contraction / max(f[8 * THETA + lane], 1e-300) * first
+        )
+        f[8 * GROWTH + lane] = min((aim / first) ** power, 4.0)
+    f[8 * T + lane] = w.tr[lane]
+    c[8 * STATE + lane] = STEPPING
+    c[8 * FAILURES + lane] = 0
+
+
+def _failed(w, lane, b):
+    """Try a shorter step; the reason why there is none, or 0."""
+    f, c = w.scalars, w.counters
+    first = w.norms[lane] ** 0.5
+    finite = first < 1e100
+    if c[8 * STATE + lane] == STARTING:
+        return START
+    shrink = 0.5
+    if finite and c[8 * STATE + lane] == STEPPING and first > b.tolerance:
+        shrink = (b.safety * b.tolerance / first) ** (1.0 / (b.order + 1))
+        shrink = min(max(shrink, 0.1), 0.6)
+    c[8 * FAILURES + lane] += 1
+    f[8 * H + lane] = f[8 * H_USED + lane] * shrink
+    c[8 * STATE + lane] = STEPPING
+    if f[8 * H + lane] > 1e-10 * f[8 * T + lane]:
+        return ARRIVED
+    return STEP_SIZE if finite else NOT_FINITE
+
+
+def _close(s, w, lane, b, reason):
+    """Write down where a path ended; its lane becomes free."""
+    c = w.counters
+    n = s.N
+    path = c[8 * PATH + lane]
+    b.reason[path] = reason
+    b.steps[path] = c[8 * TAKEN + lane]
+    if c[8 * TAKEN + lane] > 1:
+        for j in range(n):
+            b.points[n * path + j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
+    b.error[path] = w.scalars[8 * ACCURACY + lane] if reason == ARRIVED else np.inf
+    c[8 * STATE + lane] = EMPTY
+
+
+def _arrive(s, w, lane, b):
+    """A lane reached its goal: the path has ended, or goes on from its safe point."""
+    f, c = w.scalars, w.counters
+    n = s.N
+    if f[8 * T + lane] == 0.0:
+        _close(s, w, lane, b, ARRIVED)
+        return
+    path = c[8 * PATH + lane]
+    b.safe_t[path] = f[8 * T + lane]
+    for j in range(n):
+        b.safe[n * path + j] = complex(w.base[8 * j + lane], w.base[8 * (n + j) + lane])
+    f[8 * GOAL + lane] = 0.0
+
+
+def _advance(s, w, b):
+    """What becomes of each lane's step."""
+    f, c = w.scalars, w.counters
+    for lane in range(8):
+        w.accepted[lane] = 0.0
+        if c[8 * STATE + lane] == EMPTY:
+            continue
+        c[8 * TAKEN + lane] += 1
+        reason = ARRIVED
+        verdict = _judged(w, lane, b)
+        if verdict == ACCEPTED:
+            w.accepted[lane] = 1.0
+            _accepted(w, lane, b)
+        elif verdict == REJECTED:
+            reason = _failed(w, lane, b)
+        elif c[8 * STATE + lane] == STEPPING:
+            c[8 * STATE + lane] = CORRECTING
+        if f[8 * GOAL + lane] == 0.0 and b.radius > 0.0:
+            c[8 * STRAIGHT + lane] += 1
+            if c[8 * STRAIGHT + lane] > PATIENCE and verdict == REJECTED:
+                reason = STEPS
+        if c[8 * TAKEN + lane] >= b.max_steps and f[8 * T + lane] > 0.0:
+            reason = STEPS
+        if reason != ARRIVED:
+            w.accepted[lane] = 0.0
+            _close(s, w, lane, b, reason)
+
+
+def track_batch(s: System, w: Work, b: Batch) -> None:
+    """Track the paths of a batch."""
+    following = b.first
+    busy = 0
+    for lane in range(8):
+        _put(s, w, lane, b.starts, b.first)
+        w.counters[8 * STATE + lane] = EMPTY
+        if following < b.count:
+            _fill(s, w, lane, following, b)
+            following += b.stride
+            busy += 1
+    while busy > 0:
+        _aim(w)
+        predict(s, w, b.order)
+        _newton_and_jets(s, w, b.order)
+        _advance(s, w, b)
+        _accept(s, w, b.order)
+        busy = 0
+        for lane in range(8):
+            if w.accepted[lane] > 0.5:
+                if w.scalars[8 * T + lane] == w.scalars[8 * GOAL + lane]:
+                    _arrive(s, w, lane, b)
+                next_step(w, b.order, lane, b.safety * b.tolerance, b.radius_factor)
+            if w.counters[8 * STATE + lane] == EMPTY and following < b.count:
+                _fill(s, w, lane, following, b)
+                following += b.stride
+            if w.counters[8 * STATE + lane] != EMPTY:
+                busy += 1
+
+
+track_lanes = Kernel(track_batch, "tracking")

@@ -1,0 +1,61 @@
+"""Confirmation of a witness point in high precision, where doubles could be deceived."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.high_precision import vanish, vanish_at
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.singular_point import Place, analyse
+from nag.witness.cutting import ON, Cut
+from nag.witness.multiplicity import ACCURACY
+from nag.witness.slices import padded
+
+# Above this singular value a zero of as many equations as unknowns needs no confirmation.
+REGULAR = 1e-5
+# Values in doubles below this, beside their terms, are rounding.
+CERTAIN = 1e-14
+
+
+def confirmed(cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np.ndarray) -> bool:
+    """Whether the zero of ``cut`` on the slice near ``z`` is one of all ``equations``.
+
+    The square system's zero is computed to 100 digits; there the other equations must vanish too.
+    """
+    matrix = np.vstack([cut.evaluator.jacobian(z), padded(rows, 1 + len(z))[:, 1:]])
+    smallest = np.linalg.svd(matrix, compute_uv=False).min(initial=np.inf)
+    if not cut.levels and len(cut.polynomials) == len(equations) and smallest > REGULAR:
+        return True
+    return _at_zero(cut, equations, rows, z) is True
+
+
+def vanishing(cut: Cut, f: Polynomial, rows: np.ndarray, points: np.ndarray) -> list[bool | None]:
+    """At which zeros of ``cut`` on the slice, shape ``(P, n + aux)``, ``f`` vanishes.
+
+    Values that are no rounding errors of their terms are computed to 100 digits: at large points a
+    value of one may be small beside its terms, and a small coordinate need not be zero. None where
+    that does not succeed.
+    """
+    evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
+    small = evaluator.residuals(x)[:, 0] < ON
+    rounding = np.abs(evaluator.values(x)) <= CERTAIN * evaluator.absolute(x)
+    return [
+        bool(near) and (bool(certain) or _at_zero(cut, [f], rows, z))
+        for near, certain, z in zip(small, rounding[:, 0], points, strict=True)
+    ]
+
+
+def _at_zero(
+    cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np.ndarray
+) -> bool | None:
+    """Whether equations vanish at the zero of ``cut`` near ``z``; None if none was found there."""
+    jacobian, slices = cut.evaluator.jacobian(z), padded(rows, 1 + len(z))
+    answer = vanish(equations, cut.polynomials, slices, jacobian, z)
+    if answer is not None or cut.aux:
+        return answer
+    # Coordinates may differ too much in size for Newton's method with an inverse in doubles.
+    zero = analyse(cut.polynomials, z, ACCURACY, np.random.default_rng(0), slices)
+    return vanish_at(equations, zero.digits) if zero.place is Place.ISOLATED else None

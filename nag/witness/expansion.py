@@ -1,0 +1,42 @@
+"""All components of a decomposition that reports one of each orbit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from nag.algebra.symmetry import SignedPermutation
+from nag.witness.witness import Decomposition, Slice, WitnessSet
+
+
+def image(component: WitnessSet, symmetry: SignedPermutation) -> WitnessSet:
+    """The witness set that a symmetry carries a component to, on the image of its slice.
+
+    Exact: coordinates are exchanged and change sign, nothing is computed.
+    """
+    cut = Slice(symmetry.of_point(component.slice.A), component.slice.b)
+    points = symmetry.of_point(component.points)
+    return replace(component, slice=cut, points=points, orbit=1, images=())
+
+
+def expanded(decomposition: Decomposition) -> Decomposition:
+    """The same decomposition with all components of each orbit, every one on a slice of its own.
+
+    Orbits whose symmetries are not known are left as they are.
+    """
+    components: list[WitnessSet] = []
+    for component in decomposition.components:
+        if len(component.images) != component.orbit - 1:
+            components.append(component)
+            continue
+        components.append(replace(component, orbit=1, images=()))
+        components += [image(component, symmetry) for symmetry in component.images]
+    return replace(decomposition, components=tuple(components))
+
+
+def positions(decomposition: Decomposition) -> list[int]:
+    """For each component of `expanded`, the index of the one that stands for it."""
+    places: list[int] = []
+    for i, component in enumerate(decomposition.components):
+        known = len(component.images) == component.orbit - 1
+        places += [i] * (component.orbit if known else 1)
+    return places

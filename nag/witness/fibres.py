@@ -1,0 +1,177 @@
+"""Fibres: points of a pure-dimensional set on a slice, with the square system that cuts them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.settings import Settings
+from nag.tracking.track import track
+from nag.witness.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on, sharpen
+from nag.witness.slices import padded
+from nag.witness.witness import PathCounts
+
+# Two ends are one point when they differ by less than this, or than their errors explain.
+SAME = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Fibre:
+    """Points of dimension ``dimension`` sets that ``cut`` cuts regularly on a common slice.
+
+    Attributes:
+        points: complex, shape ``(P, n + aux)``, affine.
+    """
+
+    cut: Cut
+    dimension: int
+    points: np.ndarray
+
+    @property
+    def x(self) -> np.ndarray:
+        """The points without the unknowns that deflation added, shape ``(P, n)``."""
+        return self.points[:, : self.cut.n]
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def only(self, mask: np.ndarray) -> Fibre:
+        """The fibre's points where ``mask`` holds."""
+        return replace(self, points=self.points[mask])
+
+
+@dataclass(frozen=True)
+class Tracker:
+    """How paths are to be tracked: settings, or the name of some, and number of threads."""
+
+    settings: Settings | str = "default"
+    threads: int = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Moved:
+    """The ends of a fibre's points after its slice moved.
+
+    Attributes:
+        points: affine ends, shape ``(P, n + aux)``; not meaningful where ``finite`` is False.
+        finite: whether the path ended at a finite point.
+        regular: whether it ended at a regular one.
+        accuracy: estimated relative errors of the ends.
+    """
+
+    points: np.ndarray
+    finite: np.ndarray
+    regular: np.ndarray
+    failed: np.ndarray
+    accuracy: np.ndarray
+    counts: PathCounts = field(default=PathCounts())
+
+
+def homogeneous(points: np.ndarray) -> np.ndarray:
+    """Affine points as homogeneous ones of norm one."""
+    points = np.hstack([np.ones((len(points), 1)), points])
+    return points / np.linalg.norm(points, axis=1, keepdims=True)
+
+
+def affine(points: np.ndarray) -> np.ndarray:
+    """Homogeneous points as affine ones; points at infinity become large."""
+    first = points[:, :1]
+    return points[:, 1:] / np.where(first == 0, 1e-300, first)
+
+
+def moved(paths: Paths, keep: int | None = None) -> Moved:
+    """The ends of ``paths`` as affine points, the first ``keep`` coordinates of them."""
+    finite = (paths.status == PathStatus.REGULAR) | (paths.status == PathStatus.SINGULAR)
+    accuracy = np.asarray(paths.accuracy)
+    infinite = paths.status == PathStatus.AT_INFINITY
+    failed = ~finite & ~infinite
+    points = affine(paths.points)
+    return Moved(
+        points if keep is None else points[:, :keep],
+        finite,
+        paths.status == PathStatus.REGULAR,
+        failed,
+        accuracy,
+        PathCounts(len(finite), int(failed.sum()), int(infinite.sum())),
+    )
+
+
+def move(
+    fibre: Fibre,
+    source: np.ndarray,
+    target: np.ndarray,
+    gamma: complex,
+    tracker: Tracker,
+    endgame: bool = False,
+) -> Moved:
+    """Move the slice of ``fibre`` from the rows ``source`` to the rows ``target``.
+
+    All rows turn with the same ``gamma``: only then do all points of a fibre, and all fibres of a
+    set, move as one.
+    """
+    columns = 1 + fibre.cut.n + fibre.cut.aux
+    a0, a1 = padded(target, columns), padded(gamma * source - target, columns)
+    paths = track(
+        Homotopy(fibre.cut.rows, a0, a1),
+        homogeneous(fibre.points),
+        settings=tracker.settings,
+        threads=tracker.threads,
+        endgame=endgame,
+    )
+    return moved(paths)
+
+
+def admit(
+    x: np.ndarray,
+    accuracy: float,
+    fibres: list[Fibre],
+    equations: Equations,
+    rows: np.ndarray,
+    rng: np.random.Generator,
+    deflate: bool,
+) -> bool:
+    """Put a singular end into the fibre whose cut makes it regular; find a cut if there is none."""
+    n = len(x)
+    for i, fibre in enumerate(fibres):
+        if bool(fibre.cut.levels) != deflate:
+            continue
+        sharpened = sharpen(fibre.cut.evaluator, rows, fibre.cut.lift(x))
+        end, scale = sharpened.z[:n], 1 + np.linalg.norm(x)
+        near = np.linalg.norm(end - x) < max(1e3 * accuracy, NEAR) * scale
+        if (
+            sharpened.converged
+            and near
+            and regular_on(fibre.cut.evaluator, rows, sharpened)
+            and equations.evaluator.residuals(end[None]).max(initial=0.0) < ON
+        ):
+            known = np.vstack([other.x for other in fibres])
+            if (np.linalg.norm(known - end, axis=1) > SAME * scale).all():
+                points = np.vstack([fibre.points, sharpened.z])
+                fibres[i] = Fibre(fibre.cut, fibre.dimension, points)
+            return True
+    found = find_cut(equations, rows, x, accuracy, rng, deflate)
+    if found is None:
+        return False
+    cut, z = found
+    fibres.append(Fibre(cut, len(rows), z[None]))
+    return True
+
+
+def cut_fibres(
+    points: np.ndarray,
+    accuracy: float,
+    equations: Equations,
+    rows: np.ndarray,
+    rng: np.random.Generator,
+    deflate: bool,
+) -> list[Fibre] | None:
+    """Points on the slice ``rows`` with cuts; None if a point is no regular zero of any."""
+    fibres: list[Fibre] = []
+    # Null vectors are read best at a small point, and serve the others as well.
+    for i in np.argsort(np.linalg.norm(points, axis=1), kind="stable"):
+        if not admit(points[i], accuracy, fibres, equations, rows, rng, deflate):
+            return None
+    return fibres

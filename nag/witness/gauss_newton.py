@@ -1,0 +1,95 @@
+"""Zeros of polynomial systems from starting points that may be far away.
+
+Steps are damped as by Levenberg and Marquardt until the residuals are small; the last ones invert
+the Jacobian at a gap of its singular values only, which keeps the convergence quadratic where its
+rank drops on the zero set (Zeng, rank-r Newton iteration, 2023).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.witness.cutting import numerical_corank
+
+MOST_STEPS = 200
+# Residuals from which the undamped steps take over, and that a zero must reach.
+CLOSE = 1e-6
+ZERO = 1e-13
+# Singular values below this, relative to the largest, may belong to the kernel on the zero set.
+SMALL = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Zero:
+    """Where the iteration arrived.
+
+    Attributes:
+        x: the point.
+        corank: corank of the Jacobian there.
+        step: relative size of the last step.
+        converged: whether it is a zero to rounding and the steps shrank quadratically.
+    """
+
+    x: np.ndarray
+    corank: int
+    step: float
+    converged: bool
+
+
+def _balanced(evaluator: Evaluator, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Values and Jacobian, each row divided by the size that its degree lets it have."""
+    size = max(1.0, float(np.abs(x).max(initial=1.0)))
+    weights = size ** -(evaluator.degrees - 1.0)
+    values, jacobian = evaluator.values(x[None])[0] * weights, evaluator.balanced_jacobian(x)
+    return (values.real, jacobian.real) if np.isrealobj(x) else (values, jacobian)
+
+
+def descend(evaluator: Evaluator, x: np.ndarray, close: float = CLOSE) -> np.ndarray | None:
+    """A point with residuals of size ``close``, from ``x``; None if they stop to fall before.
+
+    Real starting points lead to real points.
+    """
+    damping = 1e-2
+    values, jacobian = _balanced(evaluator, x)
+    for _ in range(MOST_STEPS):
+        size = float(np.linalg.norm(values))
+        if size < close * (1 + float(np.linalg.norm(x))):
+            return x
+        u, s, vh = np.linalg.svd(jacobian, full_matrices=False)
+        right = u.conj().T @ values
+        while damping < 1e8:
+            step = vh.conj().T @ (s / (s**2 + damping * size**2) * right)
+            trial = x - step
+            new_values, new_jacobian = _balanced(evaluator, trial)
+            gain = size - float(np.linalg.norm(new_values))
+            if np.isfinite(gain) and gain > 1e-3 * size * min(1.0, 1 / (1 + damping)):
+                x, values, jacobian = trial, new_values, new_jacobian
+                damping = max(damping / 5, 1e-8)
+                break
+            damping *= 4
+        else:
+            return None
+    return None
+
+
+def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> Zero:
+    """Newton's method with the Jacobian's rank kept at a gap, from a point near the zero set."""
+    step, n = np.inf, len(x)
+    known = corank
+    for _ in range(30):
+        values, jacobian = _balanced(evaluator, x)
+        u, s, vh = np.linalg.svd(jacobian, full_matrices=False)
+        corank = numerical_corank(s, n, SMALL) if known is None else known
+        rank = min(n - corank, len(s))
+        delta = vh[:rank].conj().T @ ((u[:, :rank].conj().T @ values) / s[:rank])
+        x = x - delta
+        last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(x)))
+        if not np.isfinite(step) or step > 1:
+            return Zero(x, corank, np.inf, False)
+        if step < 1e-14 or (step < 1e-11 and step >= last):
+            break
+    residual = float(evaluator.residuals(x[None]).max(initial=0.0))
+    return Zero(x, corank, step, step < 1e-10 and residual < ZERO)

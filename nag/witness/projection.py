@@ -1,0 +1,147 @@
+"""Closures of coordinate projections, by pseudo-witness sets (Hauenstein & Sommese 2010).
+
+The dimension of the closure of the image is the rank of the projection on the tangent space at a
+generic point. A slice of as many equations in the image's coordinates, and of further ones in all
+coordinates, then meets the component in ``degree`` times ``fibre_degree`` points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.numerics.coincidence import clusters
+from nag.witness.cutting import numerical_corank
+from nag.witness.fibres import SAME, Fibre, Tracker, move
+from nag.witness.membership import component_fibres
+from nag.witness.moving import sharpened_ends
+from nag.witness.slices import padded, random_rows, to_slice, unit_complex
+from nag.witness.witness import Slice, WitnessSet
+
+ATTEMPTS = 3
+# Slices on which the numbers of points must agree.
+SLICES = 2
+
+
+class ProjectionError(ValueError):
+    """A projection that could not be determined, with the reason."""
+
+
+@dataclass(frozen=True, eq=False)
+class Projection:
+    """The closure of the image of a component under a projection to coordinates.
+
+    Attributes:
+        coordinates: indices of the variables that are projected to.
+        dimension: dimension of the closure.
+        degree: its degree, in these coordinates.
+        fibre_dimension: dimension of the generic fibre.
+        fibre_degree: degree of the generic fibre.
+        slice: the pseudo-witness slice; its first ``dimension`` equations contain no other
+            variables than those projected to.
+        points: the component's points on it, shape ``(degree * fibre_degree, n)``.
+    """
+
+    coordinates: tuple[int, ...]
+    dimension: int
+    degree: int
+    fibre_dimension: int
+    fibre_degree: int
+    slice: Slice
+    points: np.ndarray
+
+
+def _image_dimension(fibre: Fibre, coordinates: Sequence[int]) -> int:
+    """Rank of the projection on the tangent space at a fibre's first point."""
+    z = fibre.points[0]
+    _, _, vh = np.linalg.svd(fibre.cut.evaluator.balanced_jacobian(z))
+    tangent, _ = np.linalg.qr(vh[len(z) - fibre.dimension :].conj().T[: fibre.cut.n])
+    s = np.linalg.svd(tangent[list(coordinates)], compute_uv=False)
+    return fibre.dimension - numerical_corank(s, fibre.dimension, 1e-9)
+
+
+def _special_rows(
+    rng: np.random.Generator, n: int, coordinates: Sequence[int], dimension: int, rest: int
+) -> np.ndarray:
+    """A random slice, the first ``dimension`` equations in the given coordinates only."""
+    inner = random_rows(rng, dimension, len(coordinates))
+    first = np.zeros((dimension, 1 + n), dtype=complex)
+    first[:, 0] = inner[:, 0]
+    first[:, [1 + i for i in coordinates]] = inner[:, 1:]
+    return np.vstack([first, random_rows(rng, rest, n)])
+
+
+def project(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    coordinates: Sequence[int],
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> Projection:
+    """Dimension and degree of the closure of a coordinate projection, and of its generic fibre.
+
+    Args:
+        coordinates: indices of the variables to project to, at least one.
+
+    Raises:
+        ProjectionError: if paths fail, or the numbers of points differ between slices.
+        ValueError: if ``coordinates`` are no indices of variables, each once.
+    """
+    chosen = tuple(int(i) for i in coordinates)
+    if not chosen or len(set(chosen)) < len(chosen) or not set(chosen) <= set(range(system.n)):
+        raise ValueError(f"coordinates {chosen} are not distinct indices below {system.n}")
+    rng = np.random.default_rng([seed, 4])
+    fibres = component_fibres(system, component)
+    d = component.dimension
+    r = _image_dimension(fibres[0], chosen)
+    found = [
+        _pseudo_witness(fibres, component, chosen, r, rng, settings, threads) for _ in range(SLICES)
+    ]
+    degrees = {(degree, fibre_degree) for degree, fibre_degree, *_ in found}
+    if len(degrees) > 1:
+        raise ProjectionError("the numbers of points differ between two slices")
+    degree, fibre_degree, rows, points = found[0]
+    points.setflags(write=False)
+    return Projection(chosen, r, degree, d - r, fibre_degree, to_slice(rows), points)
+
+
+def _pseudo_witness(
+    fibres: Sequence[Fibre],
+    component: WitnessSet,
+    coordinates: Sequence[int],
+    r: int,
+    rng: np.random.Generator,
+    settings: str,
+    threads: int,
+) -> tuple[int, int, np.ndarray, np.ndarray]:
+    """Degree of the image and of the fibre, the slice's rows, and the points on it."""
+    rows, d = component.slice.rows, component.dimension
+    reason = "paths failed"
+    for attempt in range(ATTEMPTS):
+        tracker = Tracker("careful" if attempt else settings, threads)
+        target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
+        gamma, points, unclear = complex(unit_complex(rng)), [], False
+        for fibre in fibres:
+            ends = fibre.points
+            if d:
+                moved = move(fibre, rows, padded(target, rows.shape[1]), gamma, tracker, True)
+                # Finite points of a generic slice are regular (Bertini's theorem).
+                unclear |= bool((moved.failed | (moved.finite & ~moved.regular)).any())
+                ends = moved.points[moved.regular]
+            x, step = sharpened_ends(fibre, target, ends)
+            unclear |= not step < 1e-8
+            points.append(x)
+        if unclear:
+            continue
+        x = np.vstack(points)
+        images = clusters(x[:, list(coordinates)], np.full(len(x), 1e-12), SAME)
+        sizes = {len(image) for image in images}
+        if len(sizes) == 1:
+            return len(images), sizes.pop(), target, x
+        reason = "the fibres over the image's points differ in degree"
+    raise ProjectionError(f"{reason}; the component may not be irreducible")

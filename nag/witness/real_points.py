@@ -1,0 +1,159 @@
+"""Real points of a component near a given point.
+
+From real starting points around the given one, Newton's method with real arithmetic leads to real
+zeros; from each, Lagrange-Newton steps lead to a point whose distance is stationary. A zero counts
+if it lies on the component (a path test). Nothing found is no proof that there is nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.system import PolynomialSystem
+from nag.witness.cutting import ON
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.gauss_newton import descend, polish
+from nag.witness.membership import Membership, component_fibres, is_member
+from nag.witness.witness import WitnessSet
+
+STARTS = 24
+# Nearest points are known to about half the digits; within this, relative to size, they are one.
+SAME = 1e-6
+# Steps along the component towards the given point, and when they have arrived.
+MOST_STEPS = 60
+STATIONARY = 1e-10
+
+
+@dataclass(frozen=True, eq=False)
+class RealPoints:
+    """Real points of a component, the nearest first.
+
+    Attributes:
+        points: real, shape ``(count, n)``.
+        distances: from the given point, shape ``(count,)``.
+        stationary: for each, whether its distance is stationary along the component.
+        residual: largest relative residual of the equations at the points.
+        undecided: number of real zeros whose membership could not be decided; they are left out.
+        reason: why no point was found; empty otherwise.
+    """
+
+    points: np.ndarray
+    distances: np.ndarray
+    stationary: np.ndarray
+    residual: float
+    undecided: int = 0
+    reason: str = ""
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+def real_points_near(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    near: np.ndarray,
+    *,
+    starts: int = STARTS,
+    spread: float = 0.5,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> RealPoints:
+    """Real points of ``component`` near a real point.
+
+    Args:
+        system: the equations that the component was found from.
+        near: real, shape ``(n,)``.
+        starts: number of starting points; the first is ``near`` itself.
+        spread: largest standard deviation of the others, relative to the size of ``near``.
+
+    Raises:
+        ValueError: if ``near`` is not real and of shape ``(n,)``, or witness points are none.
+    """
+    near = np.asarray(near, dtype=float)
+    if near.shape != (system.n,) or not np.isfinite(near).all():
+        raise ValueError(f"the point must be {system.n} finite real numbers")
+    rng = np.random.default_rng([seed, 8])
+    tracker = Tracker(settings, threads)
+    fibres = component_fibres(system, component)
+    everything = Evaluator.of(system.polynomials, system.n)
+    found = np.zeros((0, system.n))
+    flags: list[bool] = []
+    zeros, undecided = 0, 0
+    cuts = {id(fibre.cut): fibre for fibre in fibres}.values()
+    for k in range(starts):
+        scale = spread * k / max(1, starts - 1) * (1 + np.linalg.norm(near))
+        start = near + scale / np.sqrt(max(1, system.n)) * rng.standard_normal(system.n)
+        for fibre in cuts:
+            arrival = _nearest(fibre, everything, start, near)
+            if arrival is None:
+                continue
+            x, stationary = arrival
+            zeros += 1
+            if (np.linalg.norm(found - x, axis=1) < SAME * (1 + np.linalg.norm(x))).any():
+                continue
+            answer, _ = is_member(x + 0j, 1e-12, fibres, component.slice.rows, rng, tracker)
+            undecided += answer is Membership.UNDECIDED
+            if answer is Membership.MEMBER:
+                found = np.vstack([found, x])
+                flags.append(stationary)
+    distances = np.linalg.norm(found - near, axis=1)
+    order = np.argsort(distances, kind="stable")
+    reason = ""
+    if not len(found):
+        reason = f"no real zero of the equations was found from {starts} starting points"
+        if zeros:
+            reason = f"none of {zeros} real zeros that were found lies on the component"
+    return RealPoints(
+        found[order],
+        distances[order],
+        np.array(flags, dtype=bool)[order],
+        float(everything.residuals(found + 0j).max(initial=0.0)),
+        undecided,
+        reason,
+    )
+
+
+def _nearest(
+    fibre: Fibre, everything: Evaluator, start: np.ndarray, near: np.ndarray
+) -> tuple[np.ndarray, bool] | None:
+    """A real zero of the cut from ``start``, moved to where its distance is stationary."""
+    cut, d = fibre.cut, fibre.dimension
+    z = _real_zero(fibre, everything, cut.lift(start).real)
+    if z is None:
+        return None
+    reach = 1.0
+    for _ in range(MOST_STEPS):
+        x = z[: cut.n]
+        _, _, vh = np.linalg.svd(cut.evaluator.balanced_jacobian(z).real)
+        tangent = vh[len(z) - d :].T
+        # Unknowns that deflation added follow; the distance is measured in the variables.
+        along, *_ = np.linalg.lstsq(tangent[: cut.n], near - x, rcond=1e-10)
+        pull = float(np.linalg.norm(tangent[: cut.n] @ along)) / (1 + float(np.linalg.norm(near)))
+        if pull < STATIONARY:
+            return x, True
+        trial = _real_zero(fibre, everything, z + reach * (tangent @ along))
+        gain = np.inf if trial is None else np.linalg.norm(trial[: cut.n] - near)
+        if gain < np.linalg.norm(x - near):
+            z, reach = trial, min(1.0, 2 * reach)
+        elif reach < 1e-6:
+            break
+        else:
+            reach /= 4
+    return z[: cut.n], pull < 1e-5
+
+
+def _real_zero(fibre: Fibre, everything: Evaluator, z: np.ndarray) -> np.ndarray | None:
+    """A regular real zero of the cut that satisfies all equations, or None."""
+    cut = fibre.cut
+    if not cut.polynomials:
+        return z
+    near = descend(cut.evaluator, z)
+    if near is None:
+        return None
+    zero = polish(cut.evaluator, near, corank=fibre.dimension)
+    inside = everything.residuals(zero.x[None, : cut.n] + 0j).max(initial=0.0) < ON
+    return zero.x if zero.converged and inside else None

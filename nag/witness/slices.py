@@ -1,0 +1,51 @@
+"""Random linear slices, as rows that act on homogeneous coordinates ``(x0, x)``."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nag.witness.witness import Slice
+
+
+def unit_complex(rng: np.random.Generator, size: int | tuple[int, ...] = ()) -> np.ndarray:
+    """Random complex numbers of absolute value one."""
+    return np.exp(2j * np.pi * rng.random(size))
+
+
+def complex_normal(rng: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
+    """Complex standard normal numbers."""
+    return rng.standard_normal(shape) + 1j * rng.standard_normal(shape)
+
+
+def random_rows(
+    rng: np.random.Generator, codimension: int, n: int, offset: float = 1.0
+) -> np.ndarray:
+    """A generic slice of the given codimension: rows ``(-b, A)``, the rows of A orthonormal.
+
+    The numbers b are complex standard normal times ``offset``.
+
+    Any number of leading rows is again a generic slice, so ``random_rows(rng, n, n)`` is a flag
+    of slices for all dimensions.
+    """
+    if codimension == 0:
+        return np.zeros((0, 1 + n), dtype=complex)
+    q, _ = np.linalg.qr(complex_normal(rng, (n, n)))
+    b = complex_normal(rng, (codimension, 1))
+    return np.hstack([-offset * b, q[:codimension]])
+
+
+def rows_through(rng: np.random.Generator, codimension: int, point: np.ndarray) -> np.ndarray:
+    """A generic slice of the given codimension through an affine point."""
+    rows = random_rows(rng, codimension, len(point))
+    rows[:, 0] = -rows[:, 1:] @ point
+    return rows
+
+
+def to_slice(rows: np.ndarray) -> Slice:
+    """The slice ``A x = b`` that rows on homogeneous coordinates stand for."""
+    return Slice(rows[:, 1:], -rows[:, 0])
+
+
+def padded(rows: np.ndarray, columns: int) -> np.ndarray:
+    """Rows with zero columns appended until there are ``columns``."""
+    return np.pad(rows, ((0, 0), (0, columns - rows.shape[1])))
