@@ -171,7 +171,7 @@ def _slide(
     relative = []
     for body in (first, second):
         reference = [convert(x) for x in orientation(body)]
-        placed = euler[body] if body in euler else reference
+        placed = euler.get(body, reference)
         relative.append(multiply(placed, conjugate(reference)))
     turned = rotate(multiply(conjugate(relative[0]), relative[1]), total)
     return tuple(-x for x in turned)
@@ -273,9 +273,7 @@ def loop_closure(
     return list(total)
 
 
-def _in_reference_frame(
-    structure: LoopStructure, parameters: Parameters, body: str
-) -> Quaternion:
+def _in_reference_frame(structure: LoopStructure, parameters: Parameters, body: str) -> Quaternion:
     """Euler parameters of the frame that is the global one at the reference configuration."""
     return multiply(parameters[body], conjugate(structure.mechanism.orientation(body)))
 

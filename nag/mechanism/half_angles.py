@@ -173,6 +173,8 @@ def _choose_eliminated(structure: LoopStructure) -> Loop:
     n = len(loop.joints)
     if n < 3:
         raise ValueError(f"half-angles need a loop of at least 3 joints; this one has {n}")
+    if any(j.type != "revolute" for j in loop.joints):
+        raise ValueError("half-angles are for revolute joints")
     readings = [loop.rotated(i) for i in range(n)]
     for suits in (skew, lambda g, k: not parallel(g, k), lambda g, k: not coincident(g, k)):
         for reading in readings:

@@ -55,7 +55,7 @@ JOINT_TYPES = MappingProxyType(
         "revolute": JointType(1, ("point", "axis"), (), 1, 2, 0, 2, 2, 4, 8),
         "prismatic": JointType(1, ("axis",), ("point",), 0, 3, 2, 4, 8, 3, 2),
         "cylindrical": JointType(2, ("point", "axis"), (), 0, 2, 2, 2, 2, 4, 8),
-        "universal": JointType(2, ("point", "axis", "second_axis"), (), 1, 1, 0, 1, 1, 5, 12),
+        "universal": JointType(2, ("point", "axis", "second_axis"), (), 1, 1, 0, 1, 1, 5, 16),
         "spherical": JointType(3, ("point",), (), 1, 0, 0, 1, 1, 6, 4),
         "planar": JointType(3, ("axis",), ("point",), 0, 2, 1, 2, 2, 4, 8),
         "rigid": JointType(0, (), ("point", "axis"), 1, 3, 0, 4, 8, 3, 2),
@@ -65,19 +65,8 @@ JOINT_TYPES = MappingProxyType(
 # Degrees of freedom that a joint leaves between its two bodies.
 JOINT_FREEDOMS = MappingProxyType({name: t.freedoms for name, t in JOINT_TYPES.items()})
 
-# Other names in use.
-SYNONYMS = MappingProxyType(
-    {
-        "translational": "prismatic",
-        "slider": "prismatic",
-        "hinge": "revolute",
-        "ball": "spherical",
-        "cardan": "universal",
-        "hooke": "universal",
-        "fixed": "rigid",
-        "weld": "rigid",
-    }
-)
+# Other names in use (PT13 has "translational").
+SYNONYMS = MappingProxyType({"translational": "prismatic"})
 
 HELICAL = (
     "a helical joint is not algebraic: its turn and its slide are an angle and a multiple of it; "

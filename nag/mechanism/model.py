@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,7 +13,6 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import Space, space_of
 from nag.mechanism.configuration import Configuration
-from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.euler import EulerModel, euler_model
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
@@ -104,6 +104,8 @@ def model(mechanism: Mechanism, formulation: Formulation = "auto") -> Model:
     if formulation not in ("auto", "E", "H"):
         raise ModelError(f'formulation {formulation!r} is unknown; use "auto", "E" or "H"')
     structure = loop_structure(mechanism)
+    if structure.groups.is_one_body:
+        raise ModelError("all bodies are tied together by rigid joints: nothing moves")
     if not structure.loops:
         raise ModelError(
             f"the mechanism has no loop: each of its {len(mechanism.joints)} joints moves freely, "
@@ -154,7 +156,8 @@ def _choose(
     structure: LoopStructure, space: Space, formulation: Formulation
 ) -> tuple[Literal["E", "H"], str]:
     joints, loops = len(structure.joints), len(structure.loops)
-    what = f"{space}, {_count(loops, 'loop')} of {_count(joints, 'revolute joint')}"
+    what = f"{space}, {_count(loops, 'loop')} of {_joints_text(structure.joints)}"
+    only_turns = all(j.type == "revolute" for j in structure.joints)
     if formulation == "H":
         if joints > MOST_HALF_ANGLE_JOINTS:
             raise ModelError(
@@ -169,7 +172,7 @@ def _choose(
         return "E", f"{what}; all axes are parallel, so one pair (c, s) for each body"
     if space == "spherical":
         return "E", f"{what}; all axes meet, so Euler parameters without loop equations"
-    if loops == 1 and 3 <= joints <= MOST_HALF_ANGLE_JOINTS:
+    if loops == 1 and only_turns and 3 <= joints <= MOST_HALF_ANGLE_JOINTS:
         unknowns = 4 * len(structure.moving) - 4
         return "H", (
             f"{what}; half-angles with two joints eliminated leave "
@@ -177,7 +180,7 @@ def _choose(
         )
     return "E", (
         f"{what}; Euler parameters: half-angles are for a single loop of 3 to "
-        f"{MOST_HALF_ANGLE_JOINTS} joints"
+        f"{MOST_HALF_ANGLE_JOINTS} revolute joints"
     )
 
 
@@ -201,6 +204,12 @@ def _cut_text(structure: LoopStructure) -> str:
     return (
         f"; cut off, moving freely with {_count(structure.cut_freedoms, 'freedom')}: joints {names}"
     )
+
+
+def _joints_text(joints: Sequence[Joint]) -> str:
+    kinds = Counter(j.type for j in joints)
+    parts = [_count(number, f"{kind} joint") for kind, number in kinds.items()]
+    return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
 
 
 def _count(number: int, noun: str) -> str:

@@ -133,7 +133,9 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
                 carrier = slide_carrier(structure, joint)
                 sign = 1 if carrier == body else -1
                 moved = carried(carrier, direction(joint.axis))
-                total = tuple(x + slides[joint.name] * y * sign for x, y in zip(total, moved, strict=True))
+                total = tuple(
+                    x + slides[joint.name] * y * sign for x, y in zip(total, moved, strict=True)
+                )
         polynomials += total
     full = PolynomialSystem(names, tuple(f for f in polynomials if f))
     elimination = without_slides(full, parameters)

@@ -62,8 +62,6 @@ def rigid_groups(mechanism: Mechanism) -> RigidGroups:
     if len(kept) == len(mechanism.joints) or not kept:
         return RigidGroups(mechanism, mechanism, leader, tuple(idle))
     used = {b for j in kept for b in j.bodies}
-    frames = tuple(
-        Body(b, mechanism.orientation(b)) for b in mechanism.body_names if b in used
-    )
+    frames = tuple(Body(b, mechanism.orientation(b)) for b in mechanism.body_names if b in used)
     merged = Mechanism(leader[mechanism.ground], tuple(kept), frames)
     return RigidGroups(mechanism, merged, leader, tuple(idle))

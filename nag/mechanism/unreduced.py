@@ -55,9 +55,7 @@ def orthogonality(
     return dot(first.turned(u), second.turned(v)) - dot(u, v)
 
 
-def gap(
-    first: Placement, second: Placement, u: Sequence[Number], point: Sequence[Number]
-) -> Any:
+def gap(first: Placement, second: Placement, u: Sequence[Number], point: Sequence[Number]) -> Any:
     """The O constraint: no gap along a vector of the first body (PT13 eq. 6)."""
     return dot(first.turned(u), difference(second.moved(point), first.moved(point)))
 
@@ -121,9 +119,7 @@ def unreduced_point(mechanism: Mechanism, placed: Configuration) -> tuple[Any, .
     )
 
 
-def placements(
-    mechanism: Mechanism, placed: Configuration
-) -> Mapping[str, Placement]:
+def placements(mechanism: Mechanism, placed: Configuration) -> Mapping[str, Placement]:
     """Every body of a configuration, for the constraints above."""
     return {
         b: Placement(placed.euler[b], placed.position[b], mechanism.orientation(b))
