@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -115,18 +115,47 @@ def loop_structure(mechanism: Mechanism) -> LoopStructure:
     return LoopStructure(mechanism, groups, base, moving, kept, left_out, _cycle_basis(kept))
 
 
+def loop_bases(structure: LoopStructure) -> Iterator[tuple[Loop, ...]]:
+    """Bases of the loops: the minimum one, then those of spanning trees at each body.
+
+    A single loop is read from the base on.
+    """
+    if structure.single is not None:
+        yield (structure.single,)
+        return
+    yield structure.loops
+    import networkx
+
+    graph = _bipartite(structure.joints)
+    for body in (structure.base, *structure.moving):
+        yield _loops_of(networkx.cycle_basis(graph, ("body", body)), structure.joints)
+
+
 def _cycle_basis(joints: tuple[Joint, ...]) -> tuple[Loop, ...]:
-    """Minimum cycle basis of a multigraph: a joint is a node of its own in a simple graph."""
+    """Minimum cycle basis of a multigraph."""
+    import networkx
+
+    return _loops_of(networkx.minimum_cycle_basis(_bipartite(joints)), joints)
+
+
+def _bipartite(joints: tuple[Joint, ...]) -> networkx.Graph:
+    """A simple graph in which a joint is a node of its own."""
     import networkx
 
     graph: networkx.Graph = networkx.Graph()
     for joint in joints:
         for body in joint.bodies:
             graph.add_edge(("body", body), ("joint", joint.name))
+    return graph
+
+
+def _loops_of(
+    cycles: Sequence[Sequence[tuple[str, str]]], joints: tuple[Joint, ...]
+) -> tuple[Loop, ...]:
     position = {j.name: i for i, j in enumerate(joints)}
     by_name = {j.name: j for j in joints}
     loops = []
-    for nodes in networkx.minimum_cycle_basis(graph):
+    for nodes in cycles:
         names = {name for kind, name in nodes if kind == "joint"}
         loops.append(_ordered([by_name[n] for n in sorted(names, key=position.__getitem__)]))
     return tuple(sorted(loops, key=lambda p: [position[j.name] for j in p.joints]))

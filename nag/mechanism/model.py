@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import prod
 from typing import Any, Literal
 
 from nag.algebra.number import Number
@@ -18,6 +17,7 @@ from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
 from nag.mechanism.loops import LoopStructure, loop_structure
 from nag.mechanism.mobility import gruebler_kutzbach
+from nag.mechanism.path_estimates import path_bound
 from nag.mechanism.planar import PlanarModel, planar_model
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
 
@@ -128,28 +128,6 @@ def model(mechanism: Mechanism, formulation: Formulation = "auto") -> Model:
         structure=structure,
         form=form,
     )
-
-
-def path_bound(system: PolynomialSystem) -> int:
-    """Bezout's number of the system's lowest degrees, cut down to points by linear equations.
-
-    Multihomogeneous where the system has groups; slices are linear in all variables together.
-    """
-    polynomials = sorted(system.polynomials, key=lambda f: f.degree)[: system.n]
-    if not system.groups:
-        return prod(f.degree for f in polynomials)
-    degrees = [tuple(f.degree_in(g) for g in system.groups) for f in polynomials]
-    degrees += [(1,) * len(system.groups)] * (system.n - len(polynomials))
-    counts = {tuple(len(g) for g in system.groups): 1}
-    for row in degrees:
-        following: dict[tuple[int, ...], int] = {}
-        for left, ways in counts.items():
-            for i, d in enumerate(row):
-                if d and left[i]:
-                    key = (*left[:i], left[i] - 1, *left[i + 1 :])
-                    following[key] = following.get(key, 0) + ways * d
-        counts = following
-    return sum(counts.values())
 
 
 def _choose(
