@@ -24,6 +24,7 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetr
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import is_name, names_in, nearest, quote
 from nag.files.case_table import CaseError, Table, kind_of, read_toml, shown
+from nag.mechanism.formulation_names import FORMULATIONS
 
 if TYPE_CHECKING:
     from nag.files.case_family import CaseFamily
@@ -322,8 +323,9 @@ def _read_component(table: Table, kind: str) -> Truth:
         if kind == "system":
             table.fail("formulation", "a system has no formulation; leave it out")
         formulation = table.text("formulation")
-        if formulation not in ("E", "H"):
-            table.fail("formulation", f"{quote(formulation)} is unknown; write 'E' or 'H'")
+        if formulation not in FORMULATIONS:
+            names = " or ".join(repr(name) for name in FORMULATIONS)
+            table.fail("formulation", f"{quote(formulation)} is unknown; write {names}")
     multidegree = None
     if "multidegree" in table.values:
         multidegree = _read_multidegree(table, table.items("multidegree", "whole numbers"))
