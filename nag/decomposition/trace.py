@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from itertools import combinations
 
 import numpy as np
 
+from nag.algebra.number import decimal_digits
 from nag.algebra.polynomial import Polynomial
 from nag.witness.exact_points import ExactPoints, exact_points, fixed
 from nag.witness.fibres import Tracker
@@ -35,12 +35,7 @@ MOST_CLASSES = 12
 
 def digits_of_evidence(polynomials: Iterable[Polynomial]) -> int:
     """Digits to which a trace must be linear, for components of the zero set of ``polynomials``."""
-    most = 0
-    for f in polynomials:
-        for c in f.terms.values():
-            if isinstance(c, int | Fraction):
-                c = Fraction(c)
-                most = max(most, len(str(max(abs(c.numerator), c.denominator))))
+    most = max((decimal_digits(c) for f in polynomials for c in f.terms.values()), default=0)
     return EVIDENCE + max(0, most - ROUND_NUMBERS)
 
 
