@@ -7,6 +7,8 @@ is lifted; loops and the trace find the witness points of the component through 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
@@ -28,7 +30,9 @@ def euler_decomposition(
         decomposition: its components, all of them or one of each orbit.
         threads: for path tracking.
     """
-    target = model(source.mechanism, "E", source.modes)
+    target = model(source.mechanism, "E", source.modes, source.space)
+    reason = f"{source.reason}; carried over from formulation {source.formulation}"
+    target = replace(target, reason=f"{reason} to the bodies' Euler parameters")
     starts = []
     notes = list(decomposition.notes)
     for component in decomposition.components:

@@ -129,7 +129,12 @@ class Model:
         return equations, len(self.system.polynomials)
 
 
-def model(mechanism: Mechanism, formulation: str = "auto", modes: Modes = REFERENCE) -> Model:
+def model(
+    mechanism: Mechanism,
+    formulation: str = "auto",
+    modes: Modes = REFERENCE,
+    space: Space | None = None,
+) -> Model:
     """The smallest faithful model of a mechanism, or the one that is asked for.
 
     The smallest is the one with the fewest estimated paths.
@@ -138,7 +143,8 @@ def model(mechanism: Mechanism, formulation: str = "auto", modes: Modes = REFERE
         mechanism: what is modelled.
         formulation: ``"auto"`` or a key of `nag.mechanism.formulation_names.FORMULATIONS`.
         modes: assembly modes, for joints that are not in that of the reference configuration
-            (`nag.mechanism.assembly_modes`). All modes are those of the mechanism in space.
+            (`nag.mechanism.assembly_modes`), which are those of the mechanism in space.
+        space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
 
     Raises:
         ModelError: if the mechanism has no loop, or ``formulation`` does not cover it.
@@ -146,8 +152,9 @@ def model(mechanism: Mechanism, formulation: str = "auto", modes: Modes = REFERE
     if formulation != "auto" and formulation not in FORMULATIONS:
         names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS))
         raise ModelError(f"formulation {formulation!r} is unknown; use one of {names}")
-    structure = _with_loops(mechanism)
-    space: Space = "spatial" if modes else space_of(structure.joints)
+    structure = with_loops(mechanism)
+    if space is None:
+        space = "spatial" if modes else space_of(structure.joints)
     if formulation == "auto":
         chosen = smallest(structure, space, modes)
     else:
@@ -179,12 +186,17 @@ def formulations(mechanism: Mechanism) -> tuple[str, ...]:
     Raises:
         ModelError: if the mechanism has no loop.
     """
-    structure = _with_loops(mechanism)
+    structure = with_loops(mechanism)
     found = alternatives(structure, space_of(structure.joints))
     return tuple(a.formulation for a in found if a.form is not None)
 
 
-def _with_loops(mechanism: Mechanism) -> LoopStructure:
+def with_loops(mechanism: Mechanism) -> LoopStructure:
+    """The part of a mechanism that has loops.
+
+    Raises:
+        ModelError: if there is none.
+    """
     structure = loop_structure(mechanism)
     if structure.groups.is_one_body:
         raise ModelError("all bodies are tied together by rigid joints: nothing moves")
