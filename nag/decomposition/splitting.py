@@ -1,7 +1,8 @@
 """Points on a slice split into irreducible components: loops join, traces confirm.
 
-Monodromy loops join points of one component and find points of it that are missing; a class of
-points is a component when its trace is linear. Permutations of the points by symmetries of the
+A class of points is a component when its trace is linear. Among few points the smallest such
+classes are searched for; among many, monodromy loops join points of one component first, and find
+points of it that are missing. Permutations of the points by symmetries of the
 system are followed: what a loop joins, they join elsewhere as well, and one class of each orbit is
 confirmed for all of them.
 """
@@ -14,13 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.decomposition.monodromy import loop
-from nag.decomposition.trace import Trace
+from nag.decomposition.trace import MOST_CLASSES, Trace
 from nag.witness.fibres import Tracker
 from nag.witness.points import Points
 from nag.witness.witness import PathCounts
 
-# Loops that join nothing before sums of traces are searched, and loops after which to give up:
-# the worst of the measured systems needed 23.
+# Loops that join nothing before symmetries are given up, and loops after which to give up: the
+# worst of the measured systems needed 23.
 IDLE_LOOPS = 4
 MOST_LOOPS = 100
 # Motions of the slice of which one must bring all points to regular ends.
@@ -127,11 +128,11 @@ def split(
         if len(open_points) and not _tested(state, open_points, evidence, rng, tracker):
             break
         open_points = state.open_points()
-        if len(open_points) and idle >= IDLE_LOOPS:
-            if len(state.permutations):
-                state.forget_symmetries()
-                idle = 0
-                continue
+        if idle >= IDLE_LOOPS and len(state.permutations):
+            state.forget_symmetries()
+            idle = 0
+            continue
+        if len(open_points) and not len(state.permutations):
             _united(state, open_points)
             open_points = state.open_points()
         if not len(open_points):
@@ -192,11 +193,9 @@ def _tested(
 def _united(state: _State, open_points: np.ndarray) -> None:
     """Join classes whose traces are linear together, and confirm them."""
     waiting = [np.flatnonzero(state.labels == k) for k in np.unique(state.labels[open_points])]
-    if state.trace is None:
+    if len(waiting) > MOST_CLASSES:
         return
     unions, state.trace = state.trace.smallest_unions(state.points, waiting)
-    if sum(map(len, unions)) < len(waiting):
-        return
     for union in unions:
         joined = np.concatenate([waiting[c] for c in union])
         first = int(state.labels[joined].min())

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
 
 import numpy as np
 
@@ -29,8 +28,9 @@ EVIDENCE, ROUND_NUMBERS = 18, 6
 DIGITS = (28, 60, 120, 240)
 # Bits behind the point of an offset of a slice, beyond those of the points.
 SMALLEST = 60
-# Subsets of more classes than this are not searched.
-MOST_CLASSES = 12
+# Subsets of more classes than this are not searched; those are looked at more closely whose sums
+# are so small beside their terms in doubles.
+MOST_CLASSES, SMALL = 12, 1e-9
 
 
 def digits_of_evidence(polynomials: Iterable[Polynomial]) -> int:
@@ -178,25 +178,35 @@ class Trace:
     ) -> tuple[list[list[int]], Trace]:
         """Unions of classes whose trace is linear and that contain no smaller such union.
 
-        ``classes`` are arrays of point indices. Returns lists of positions in ``classes``,
-        disjoint, smallest first; classes in none of them are left out. Nothing is searched among
-        more than `MOST_CLASSES` classes.
+        ``classes`` are arrays of point indices, at most `MOST_CLASSES`. Returns lists of positions
+        in ``classes``, disjoint, smallest first; classes in none of them are left out.
         """
-        left, found, trace = list(range(len(classes))), [], self
-        if len(left) > MOST_CLASSES:
-            return found, trace
-        size = 1
-        while size <= len(left):
-            for chosen in combinations(left, size):
-                union = np.concatenate([classes[c] for c in chosen])
-                answer, trace = trace.linear(points, union)
-                if answer:
-                    found.append(list(chosen))
-                    left = [c for c in left if c not in chosen]
-                    break
-            else:
-                size += 1
+        taken, found, trace = 0, [], self
+        for chosen in self._nearly_linear(classes):
+            members = [c for c in range(len(classes)) if chosen >> c & 1]
+            if chosen & taken:
+                continue
+            union = np.concatenate([classes[c] for c in members])
+            answer, trace = trace.linear(points, union)
+            if answer:
+                found.append(members)
+                taken |= chosen
         return found, trace
+
+    def _nearly_linear(self, classes: Sequence[np.ndarray]) -> list[int]:
+        """Unions, as bits, whose trace is linear as far as doubles show, the smallest first."""
+        totals = []
+        for own in classes:
+            bits = max(self.known[i].bits for i in own)
+            total = sum(self.known[i].total << (bits - self.known[i].bits) for i in own)
+            totals.append([_float(value, bits) for value in total])
+        size = np.array(totals)
+        chosen = np.arange(1, 2 ** len(classes))
+        among = (chosen[:, None] >> np.arange(len(classes)) & 1).astype(float)
+        error = sum(self.known[i].radius for own in classes for i in own)
+        bound = SMALL * (among @ np.abs(size).max(axis=1)) + 4 * error
+        small = chosen[np.abs(among @ size).max(axis=1) <= bound]
+        return sorted(small.tolist(), key=lambda bits: (bits.bit_count(), bits))
 
 
 def _float(value: int, bits: int) -> float:
