@@ -14,6 +14,7 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.given_points import components_through_points
 from nag.mechanism.model import Model, model
+from nag.mechanism.rods import RodModel
 from nag.witness.witness import Decomposition, Status
 
 
@@ -33,6 +34,7 @@ def euler_decomposition(
     target = model(source.mechanism, "E", source.modes, source.space)
     reason = f"{source.reason}; carried over from formulation {source.formulation}"
     target = replace(target, reason=f"{reason} to the bodies' Euler parameters")
+    spins = source.form.spins if isinstance(source.form, RodModel) else 0
     starts = []
     notes = list(decomposition.notes)
     for component in decomposition.components:
@@ -40,7 +42,7 @@ def euler_decomposition(
             notes.append(f"a component of dimension {component.dimension} is undecided")
         lifted = source.lift(component.points[0])
         point = np.array(target.project(lifted), dtype=complex)
-        starts.append((component.dimension, point))
+        starts.append((component.dimension + spins, point))
     answer = components_through_points(
         target.system,
         starts,

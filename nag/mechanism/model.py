@@ -32,6 +32,7 @@ from nag.mechanism.mobility import gruebler_kutzbach
 from nag.mechanism.path_estimates import path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.projection import projected
+from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
 
 __all__ = ["Model", "ModelError", "formulations", "model"]
@@ -115,6 +116,16 @@ class Model:
     def cut(self) -> tuple[Joint, ...]:
         """Joints of dangling trees; each adds its own freedom to every component's dimension."""
         return self.structure.cut
+
+    @property
+    def freedoms_left_out(self) -> tuple[tuple[int, str], ...]:
+        """Freedoms that every configuration has besides those of `system`, and whose they are."""
+        found = []
+        if self.structure.cut_freedoms:
+            found.append((self.structure.cut_freedoms, "the joints that were cut off"))
+        if isinstance(self.form, RodModel):
+            found.append((self.form.spins, "rods that turn about themselves"))
+        return tuple(found)
 
     @property
     def rank(self) -> tuple[int, int] | None:
