@@ -91,18 +91,34 @@ def alternatives(
 def smallest(structure: LoopStructure, space: Space, modes: Modes = REFERENCE) -> Alternative:
     """The formulation with the fewest estimated paths.
 
-    What cannot be it is not worked out: Euler parameters, which cover everything, have at least the
-    norms of the moving bodies, each a quadric; half-angles, four equations for each loop.
+    What cannot be it is not worked out: half-angles have four equations for each loop; Euler
+    parameters, which cover everything, have many quadrics.
     """
     rods = alternative(structure, space, "S", modes)
     if rods.form is not None and rods.paths <= 4 ** (len(structure.loops) + 1):
         return rods
     others = [rods, alternative(structure, space, "H", modes)]
     fitting = sorted((a for a in others if a.form is not None), key=lambda a: a.paths)
-    if fitting and fitting[0].paths <= 2 ** (len(structure.moving) + 1) - 2:
+    if fitting and fitting[0].paths <= _least_euler_paths(structure, space):
         return fitting[0]
     euler = alternative(structure, space, "E", modes)
     return min([*fitting, euler], key=lambda a: a.paths)
+
+
+def _least_euler_paths(structure: LoopStructure, space: Space) -> int:
+    """What the estimate for Euler parameters is at least.
+
+    Norms of the moving bodies, and two equations for each turning joint between them, are
+    independent quadrics; those of joints at the base are linear and leave fewer variables.
+    """
+    moving = len(structure.moving)
+    sliding = sum(j.type == "prismatic" for j in structure.joints)
+    if space == "planar" or sliding:
+        return 2 ** (max(moving - sliding, 0) + 1) - 2
+    turning = [j for j in structure.joints if j.type in ("revolute", "cylindrical", "planar")]
+    at_base = sum(structure.base in j.bodies for j in turning)
+    quadrics = min(moving + 2 * (len(turning) - at_base), 4 * moving - 2 * at_base)
+    return 2 ** (quadrics + 1) - 2
 
 
 def description(alternative: Alternative, space: Space) -> str:

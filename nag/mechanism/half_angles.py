@@ -204,7 +204,7 @@ def _too_short(structure: LoopStructure) -> str:
 def _cost(closure: Closure) -> tuple[int, int]:
     """Bound of the number of paths, that of the quadric included."""
     dimensions = [e.factor.dimension for e in closure.kept if e.factor is not None]
-    degrees = [(1,) * len(dimensions)] * len(closure.annihilator)
+    degrees = [(1,) * len(dimensions)] * (8 - len(closure.basis))
     if closure.quadric:
         degrees = [*degrees[:3], (2,) * len(dimensions)]
     return intersection_number(degrees, dimensions), int(closure.quadric)
