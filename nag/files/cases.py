@@ -24,6 +24,7 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetr
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import is_name, names_in, nearest, quote
 from nag.files.case_table import CaseError, Table, kind_of, read_toml, shown
+from nag.mechanism.formulation_names import FORMULATIONS
 
 if TYPE_CHECKING:
     from nag.files.case_family import CaseFamily
@@ -136,7 +137,9 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     numbers = _Numbers(parameters, budget)
     truth = _read_truth(top, kind)
     if kind == "mechanism":
-        mechanism = _read_mechanism(top, numbers)
+        from nag.files.mechanism_case import read_mechanism
+
+        mechanism = read_mechanism(top, numbers.number)
         return Case(title, "mechanism", path, parameters, mechanism=mechanism, truth=truth)
     system, family = _read_system(top, numbers)
     return Case(
@@ -326,8 +329,9 @@ def _read_component(table: Table, kind: str) -> Truth:
         if kind == "system":
             table.fail("formulation", "a system has no formulation; leave it out")
         formulation = table.text("formulation")
-        if formulation not in ("E", "H"):
-            table.fail("formulation", f"{quote(formulation)} is unknown; write 'E' or 'H'")
+        if formulation not in FORMULATIONS:
+            names = " or ".join(repr(name) for name in FORMULATIONS)
+            table.fail("formulation", f"{quote(formulation)} is unknown; write {names}")
     multidegree = None
     if "multidegree" in table.values:
         multidegree = _read_multidegree(table, table.items("multidegree", "whole numbers"))
@@ -349,46 +353,3 @@ def _read_multidegree(table: Table, values: list[Any]) -> tuple[Any, ...]:
     if not all(is_degree(v) or isinstance(v, list) for v in values):
         table.fail("multidegree", "holds something else; write whole numbers from 0 up")
     return tuple(_read_multidegree(table, v) if isinstance(v, list) else v for v in values)
-
-
-def _read_mechanism(top: Table, numbers: _Numbers) -> Mechanism:
-    from nag.mechanism.graph import Body, Joint, Mechanism, MechanismError
-
-    ground = top.text("ground")
-    if "joint" not in top.values:
-        top.fail("joint", "is missing; write a table [[joint]] for every joint")
-    joint_tables = [(t.text("name"), t) for t in top.tables("joint")]
-    body_tables = [(t.text("name"), t) for t in top.tables("body")]
-    try:
-        joints = [_read_joint(name, t.called(name), numbers, Joint) for name, t in joint_tables]
-        bodies = [_read_body(name, t.called(name), numbers, Body) for name, t in body_tables]
-        return Mechanism(ground, tuple(joints), tuple(bodies))
-    except MechanismError as error:
-        # The last table of a name, as a repeated name is the fault of the later one.
-        for culprit, tables in ((error.joint, joint_tables), (error.body, body_tables)):
-            for name, table in reversed(tables):
-                if name == culprit:
-                    table.called(name).fail(error.key, error.message)
-        top.fail(error.key, error.message)
-
-
-def _read_joint(name: str, table: Table, numbers: _Numbers, joint: Any) -> Any:
-    table.allow(("name", "type", "bodies", "point", "axis"))
-    bodies = table.texts("bodies", "names of bodies", 2)
-    if not all(b.strip() and b.isprintable() for b in bodies):
-        table.fail("bodies", "holds an empty or unprintable name; write names of bodies")
-    return joint(
-        name=name,
-        type=table.text("type"),
-        bodies=tuple(bodies),
-        point=table.vector("point", 3, numbers.number),
-        axis=table.vector("axis", 3, numbers.number),
-    )
-
-
-def _read_body(name: str, table: Table, numbers: _Numbers, body: Any) -> Any:
-    table.allow(("name", "orientation"))
-    orientation = None
-    if "orientation" in table.values:
-        orientation = table.vector("orientation", 4, numbers.number)
-    return body(name=name, orientation=orientation)

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import exact_vector
 from nag.algebra.number import Number, is_zero, number_text
+from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS
 
 if TYPE_CHECKING:
     import networkx
 
-# Degrees of freedom that a joint leaves between its two bodies (PT13, table 1: 6 minus the number
-# of its conditions).
-JOINT_FREEDOMS = {"revolute": 1}
-
-_KNOWN_BUT_UNSUPPORTED = ("prismatic", "translational", "cylindrical", "universal", "spherical")
+Vector = tuple[Number, Number, Number]
+ORIGIN: Vector = (Fraction(0), Fraction(0), Fraction(0))
 
 
 class MechanismError(ValueError):
@@ -56,10 +55,14 @@ class Joint:
 
     Attributes:
         name: unique among the joints.
-        type: a key of `JOINT_FREEDOMS`.
+        type: a key of `nag.mechanism.joint_types.JOINT_TYPES`, or a synonym of one.
         bodies: names of the two bodies that it joins.
-        point: a point of its axis, in global coordinates.
-        axis: direction of its axis, in global coordinates, of any length but zero.
+        point: a point of its axis, in global coordinates; the centre of a spherical or universal
+            joint; any point for the others, where it may be left out.
+        axis: direction of its axis, in global coordinates, of any length but zero: of the turn of
+            a revolute or cylindrical joint, of the slide of a prismatic one, the normal of a planar
+            one, the axis in the first body of a universal one. None for the others.
+        second_axis: of a universal joint, the axis in the second body. None for the others.
 
     Numbers may be int, Fraction, Decimal, text, NumPy's, sympy's, or float; a float is read as its
     shortest decimal (0.1 is 1/10).
@@ -76,13 +79,17 @@ class Joint:
     name: str
     type: str
     bodies: tuple[str, str]
-    point: tuple[Number, Number, Number]
-    axis: tuple[Number, Number, Number]
+    point: Vector = ORIGIN
+    axis: Vector | None = None
+    second_axis: Vector | None = None
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "type", SYNONYMS.get(self.type, self.type))
         object.__setattr__(self, "bodies", tuple(self.bodies))
-        for field in ("point", "axis"):
-            object.__setattr__(self, field, _exact(getattr(self, field), field, joint=self.name))
+        for field in ("point", "axis", "second_axis"):
+            value = getattr(self, field)
+            if value is not None:
+                object.__setattr__(self, field, _exact(value, field, joint=self.name))
 
     def other(self, body: str) -> str:
         """The body at the other end."""
@@ -255,8 +262,6 @@ class Mechanism:
 
     def orientation(self, body: str) -> tuple[Number, ...]:
         """Euler parameters of the local frame of ``body`` at the reference configuration."""
-        from fractions import Fraction
-
         for given in self.bodies:
             if given.name == body and given.orientation is not None:
                 return given.orientation
@@ -271,12 +276,10 @@ def _exact(values: Any, key: str, **owner: str) -> tuple[Number, ...]:
 
 
 def _check_joint(joint: Joint) -> None:
-    if joint.type not in JOINT_FREEDOMS:
-        kind = "not supported yet" if joint.type in _KNOWN_BUT_UNSUPPORTED else "unknown"
+    if joint.type not in JOINT_TYPES:
+        text = f"joint type {joint.type!r} is unknown; use one of {', '.join(sorted(JOINT_TYPES))}"
         raise MechanismError(
-            f"joint type {joint.type!r} is {kind}; use one of {', '.join(sorted(JOINT_FREEDOMS))}",
-            joint=joint.name,
-            key="type",
+            HELICAL if joint.type in ("helical", "screw") else text, joint=joint.name, key="type"
         )
     if len(joint.bodies) != 2:
         raise MechanismError(
@@ -288,17 +291,43 @@ def _check_joint(joint: Joint) -> None:
             joint=joint.name,
             key="bodies",
         )
-    for key in ("point", "axis"):
-        if len(getattr(joint, key)) != 3:
-            raise MechanismError(
-                f"{key} has {len(getattr(joint, key))} coordinates; it needs 3",
-                joint=joint.name,
-                key=key,
-            )
-    if all(is_zero(x) for x in joint.axis):
+    for key in ("point", "axis", "second_axis"):
+        _check_vector(joint, key)
+    if joint.second_axis is not None and _parallel(joint.axis, joint.second_axis):
         raise MechanismError(
-            "the axis has length zero; it needs a direction", joint=joint.name, key="axis"
+            "both axes have the same direction; a universal joint needs two that cross at its "
+            "point, else it is a revolute one",
+            joint=joint.name,
+            key="second_axis",
         )
+
+
+def _check_vector(joint: Joint, key: str) -> None:
+    value, known = getattr(joint, key), JOINT_TYPES[joint.type]
+    if value is None and key in known.fields:
+        raise MechanismError(
+            f"a {joint.type} joint needs its {key.replace('_', ' ')}", joint=joint.name, key=key
+        )
+    if value is None:
+        return
+    if len(value) != 3:
+        raise MechanismError(
+            f"{key} has {len(value)} coordinates; it needs 3", joint=joint.name, key=key
+        )
+    if key != "point" and key not in known.fields + known.optional:
+        raise MechanismError(
+            f"a {joint.type} joint has no {key.replace('_', ' ')}; leave it out",
+            joint=joint.name,
+            key=key,
+        )
+    if key != "point" and all(is_zero(x) for x in value):
+        raise MechanismError(
+            "the axis has length zero; it needs a direction", joint=joint.name, key=key
+        )
+
+
+def _parallel(u: Vector, v: Vector) -> bool:
+    return all(is_zero(u[i] * v[j] - u[j] * v[i]) for i, j in ((0, 1), (1, 2), (2, 0)))
 
 
 def _check_body(body: Body, used: set[str]) -> None:
