@@ -100,7 +100,7 @@ def test_half_angles_and_the_plane_have_no_sign_group():
 
 
 def test_spherical_loops_close_by_themselves():
-    m = model(spherical_four_bar())
+    m = model(spherical_four_bar(), "E")
     assert (m.space, m.formulation) == ("spherical", "E")
     # 12 Euler parameters, 4 of them solved for; 3 norms and 2 joints of two moving bodies.
     assert (m.system.n, len(m.system.polynomials)) == (8, 7)
@@ -116,7 +116,7 @@ def test_two_loops_in_space():
         for i, j in enumerate(second.joints)
         if set(j.bodies) != {"B4", "B0"}
     ]
-    m = model(Mechanism("B0", (*first.joints, *chain)))
+    m = model(Mechanism("B0", (*first.joints, *chain)), "E")
     assert (m.formulation, len(m.structure.loops)) == ("E", 2)
     # 9 moving bodies; two equations for each of 3 joints at the ground are solved for.
     assert len(m.structure.moving) == 9

@@ -7,6 +7,8 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
+from nag.mechanism.formulation_names import FORMULATIONS
+
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.model import Model
@@ -87,8 +89,9 @@ def add_formulation(parser: argparse.ArgumentParser) -> None:
     """The formulation of a mechanism's model."""
     parser.add_argument(
         "--formulation",
-        choices=("E", "H"),
-        help="model of a mechanism: E Euler parameters, H half angles (default: the smaller one)",
+        choices=tuple(FORMULATIONS),
+        help="model of a mechanism (default: the one with the fewest paths): "
+        + "; ".join(f"{name} {text}" for name, text in FORMULATIONS.items()),
     )
 
 

@@ -24,6 +24,7 @@ from nag.files.assembly_case import KEYS as ASSEMBLY_KEYS
 from nag.files.assembly_case import read_assembly
 from nag.files.case_table import CaseError, Table, kind_of, read_toml
 from nag.files.parameters import read_parameters, with_values
+from nag.mechanism.formulation_names import FORMULATIONS
 
 if TYPE_CHECKING:
     from nag.files.case_family import CaseFamily
@@ -338,8 +339,9 @@ def _read_component(table: Table, kind: str) -> Truth:
         if kind not in ("mechanism", "dh"):
             table.fail("formulation", "a system has no formulation; leave it out")
         formulation = table.text("formulation")
-        if formulation not in ("E", "H"):
-            table.fail("formulation", f"{quote(formulation)} is unknown; write 'E' or 'H'")
+        if formulation not in FORMULATIONS:
+            names = " or ".join(repr(name) for name in FORMULATIONS)
+            table.fail("formulation", f"{quote(formulation)} is unknown; write {names}")
     multidegree = None
     if "multidegree" in table.values:
         multidegree = _read_multidegree(table, table.items("multidegree", "whole numbers"))

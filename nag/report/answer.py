@@ -10,6 +10,7 @@ from nag.decomposition.through import Through
 from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
 from nag.report.assemblies import assembly_rows, parts_rows
+from nag.report.formulations import alternative_lines, joint_lines
 from nag.report.table import (
     component_table,
     labelled,
@@ -32,7 +33,21 @@ def _model_rows(model: Model) -> list[tuple[str, str]]:
     if model.sign_group > 1:
         text = f"{model.sign_group} sign changes of Euler parameters keep the equations; "
         rows.append(("signs", text + "components that they exchange are counted one by one"))
+    if model.rank is not None and model.rank[1] < model.rank[0]:
+        rows.append(("rank", _rank_text(*model.rank, model.system.n, bool(model.reference))))
     return rows
+
+
+def _rank_text(equations: int, rank: int, variables: int, assembled: bool) -> str:
+    text = f"the {equations} closure equations have rank {rank}"
+    if rank >= variables:
+        return f"{text}, by exact linear algebra"
+    free = variables - rank
+    unknowns = f"{variables} unknown" + ("s" if variables > 1 else "")
+    return (
+        f"{text} in {unknowns}, by exact linear algebra: every component has dimension {free} or "
+        f"more{', so it moves' if assembled else ''}"
+    )
 
 
 def _mobility_rows(
@@ -125,4 +140,4 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     for name, point in points_of(case, model):
         values = zip(system.variables, point, strict=True)
         lines += [printable(name), "  " + ", ".join(f"{v} = {number_text(x)}" for v, x in values)]
-    return lines
+    return lines if model is None else lines + joint_lines(model) + alternative_lines(model)
