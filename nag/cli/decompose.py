@@ -15,6 +15,8 @@ from nag.cli.arguments import (
     read_problem,
     whole,
 )
+from nag.cli.sweep import run as run_sweep
+from nag.cli.sweep import sweep_of
 
 if TYPE_CHECKING:
     from nag.decomposition.superset import Progress
@@ -65,6 +67,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="with --method sampling: number of random points (default: 100)",
     )
+    parser.add_argument(
+        "--sweep",
+        type=sweep_of,
+        metavar="NAME=FIRST:LAST:COUNT",
+        help="the components for so many values of a parameter: found for a general value, then "
+        "followed by parameter homotopy",
+    )
 
 
 def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
@@ -73,6 +82,8 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
+    if arguments.sweep is not None:
+        return run_sweep(arguments)
     started = time.perf_counter()
     if arguments.starts is not None and arguments.method != "sampling":
         raise UsageError("--starts: is for --method sampling")

@@ -9,6 +9,7 @@ from nag.algebra.number import number_text
 from nag.decomposition.through import Through
 from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
+from nag.report.assemblies import assembly_rows, parts_rows
 from nag.report.formulations import alternative_lines, joint_lines
 from nag.report.table import (
     component_table,
@@ -95,9 +96,13 @@ def answer_lines(
     head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
     if model is not None:
         head = _model_rows(model) + head
+    if case.assembly is not None:
+        head = [(label, printable(text)) for label, text in parts_rows(case.assembly)] + head
     if not decomposition.complete:
         head.append(("", "INCOMPLETE, see below"))
     tail = _orbit_rows(decomposition) + _mobility_rows(decomposition, model, points)
+    if case.assembly is not None:
+        tail += assembly_rows(case.kind, case.assembly, decomposition)
     tail += [("open", line) for line in remarks(decomposition)]
     tail += [
         ("paths", paths_line(decomposition)),
@@ -124,6 +129,8 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     head = [("system", system_line(system))]
     if model is not None:
         head = _model_rows(model) + head
+    if case.assembly is not None:
+        head = [(label, printable(text)) for label, text in parts_rows(case.assembly)] + head
     lines = [printable(case.title), "", *labelled(head), "", "equations"]
     lines += [f"  {text} = 0" for text in system.text()] or ["  none"]
     if system.nonzero:
