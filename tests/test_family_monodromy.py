@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from evaluated import values
+from systems import family
 
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
@@ -22,13 +22,6 @@ from nag.solving.parameter import solve_family, solve_generic
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solve_classes import ClassEnds, track_classes
 from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
-
-
-def family(variables: str, parameters: str, *equations: str) -> Family:
-    names = variables.split() + parameters.split()
-    polynomials = [parse_polynomial(e, names) for e in equations]
-    return Family(tuple(variables.split()), tuple(parameters.split()), tuple(polynomials))
-
 
 # Symmetric in x and y, and even.
 EVEN = family(
@@ -143,11 +136,11 @@ def test_solutions_that_meet_or_leave_are_not_counted() -> None:
 
 def test_a_line_of_parameters_has_the_systems_between() -> None:
     rng = np.random.default_rng(0)
-    for of in (EVEN, family("x", "a b", "x^2 - a*x + b")):
+    # Where a parameter enters in higher degree, the line's own parameter is one more unknown.
+    for of, extra in ((EVEN, 1), (family("x", "a b", "x^2 - a*x + b"), 0)):
         k = len(of.parameters)
         first, second = rng.normal(size=(2, k)) + 1j * rng.normal(size=(2, k))
         line = parameter_line(of, first, second)
-        extra = 0 if of.linear else 1
         assert 1 + of.n + extra == line.homotopy.N
         x = rng.normal(size=(1, of.n)) + 0j
         for t in (0.0, 0.3, 1.0):

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from systems import system
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import by_sampling, decompose, memberships, real_points_near, sample
@@ -22,11 +22,6 @@ from nag.witness.sampling import SamplingError
 from nag.witness.witness import Decomposition, Status
 
 CASES = Path(__file__).parent.parent / "cases"
-
-
-def system(variables: str, *equations: str) -> PolynomialSystem:
-    names = tuple(variables.split())
-    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
 
 
 def case(name: str) -> PolynomialSystem:
@@ -188,7 +183,7 @@ def test_few_starts_find_some_components_and_each_is_whole() -> None:
 def test_the_cube_in_euler_parameters_is_one_orbit_of_sixteen_curves(seed: int) -> None:
     cube = model(read_case(CASES / "bricard-cube.toml").mechanism, "E")
     assert (cube.system.n, len(cube.system.polynomials)) == (16, 16)
-    signs = [SignedPermutation.of_signs(s) for s in cube.symmetries]
+    signs = cube.symmetries
     answer = by_sampling(cube.system, starts=6, seed=seed, symmetries=signs)
     assert kinds(answer) == {(1, 8, 1): 1}
     assert answer.components[0].orbit == 16

@@ -169,7 +169,7 @@ def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled
 
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import source_of_component
-    from nag.report.answer import body_rows
+    from nag.report.variables import body_rows
     from nag.witness.fibres import Tracker
 
     rng = np.random.default_rng([options.seed, 4])
@@ -247,7 +247,7 @@ def _ambient(model: Model) -> Ambient:
     from nag.interpolation.point_cloud import Ambient
 
     elimination = getattr(model.form, "elimination", None)
-    if elimination is None:
+    if elimination is None or elimination.system.variables != model.system.variables:
         return Ambient.itself(model.system)
     names, kept = elimination.original_variables, elimination.kept
     return Ambient.of(model.system, names, kept, elimination.images)

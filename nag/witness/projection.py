@@ -53,6 +53,13 @@ class Projection:
     slice: Slice
     points: np.ndarray
 
+    def __repr__(self) -> str:
+        return (
+            f"Projection(coordinates={self.coordinates}, dimension={self.dimension}, "
+            f"degree={self.degree}, fibre_dimension={self.fibre_dimension}, "
+            f"fibre_degree={self.fibre_degree})"
+        )
+
 
 def _image_dimension(fibre: Fibre, coordinates: Sequence[int]) -> int:
     """Rank of the projection on the tangent space at a fibre's first point."""
@@ -133,9 +140,9 @@ def _pseudo_witness(
                 # Finite points of a generic slice are regular (Bertini's theorem).
                 unclear |= bool((moved.failed | (moved.finite & ~moved.regular)).any())
                 ends = moved.points[moved.regular]
-            x, step = sharpened_ends(fibre, target, ends)
+            z, step = sharpened_ends(fibre, target, ends)
             unclear |= not step < 1e-8
-            points.append(x)
+            points.append(z[:, : fibre.cut.n])
         if unclear:
             continue
         x = np.vstack(points)
