@@ -1,0 +1,358 @@
+"""Bounds of the local dimension at a point, from matrices and from zeros nearby."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import accumulate
+from typing import Any
+
+import flint
+import numpy as np
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.algebraic_point import prime_images
+from nag.numerics.curves import curve_through
+from nag.numerics.deflation import (
+    DIGITS,
+    MOST_WORK,
+    ZERO,
+    Deflated,
+    NotDeflated,
+    Round,
+    deflate,
+    regular_block,
+    sharpen,
+    work,
+)
+from nag.numerics.digits import doubles, middle, number, working
+from nag.numerics.dual_space import DualSpace, dual_space
+from nag.numerics.exact_system import ExactSystem
+from nag.numerics.implicit_function import eliminate
+from nag.numerics.local_dimension import LocalDimension
+from nag.numerics.null_space import Digits, Field, PrimeField, UnclearRank
+from nag.numerics.power_series import Series, SeriesRing, Terms
+from nag.numerics.rational_point import rational_point
+from nag.numerics.scaling import scaled_terms, variable_scales
+
+# Decimal logarithms of the factors by which the error may exceed what is claimed, in this order.
+REACHES = (1.0, 0.0, 2.0, 3.5)
+FURTHEST = -1.3
+# An exact point is known to all digits but these.
+ROUNDING = 5.0
+# What is zero and what is not in 150 digits, where errors have grown through some eliminations.
+NUMBERS = Digits(DIGITS, -90.0, -45.0)
+# Degrees of the dual space from which on sets of zeros through the point are looked for, if it has
+# not become smaller for two degrees, and the highest degree.
+SEARCHES = (3, 8, 18, 36)
+HIGHEST = 400
+# Images modulo primes that must agree.
+IMAGES = 2
+# Digits of a point on hyperplanes: zeros beside it are told from it in less.
+PASSING = 1200
+WRITTEN = 100
+
+
+@dataclass(frozen=True, eq=False)
+class _Zero:
+    """An exact zero of exact equations.
+
+    Attributes:
+        found: the zero, and what its deflation says.
+        block: rows and columns of the largest regular block of the Jacobian.
+        exact: the coordinates as exact numbers, or None.
+    """
+
+    system: ExactSystem
+    found: Deflated
+    block: Round
+    exact: tuple[Number, ...] | None
+
+    @property
+    def tangent(self) -> int:
+        return self.system.n - len(self.block.columns)
+
+
+@dataclass(frozen=True, eq=False)
+class _Image:
+    """The equations about the zero in some arithmetic."""
+
+    field: Field
+    rows: Sequence[Terms]
+    centre: Sequence[Any]
+
+
+class _TooLarge(Exception):
+    """Series would be too long."""
+
+
+def bounds(
+    polynomials: Sequence[Polynomial],
+    point: Sequence[Any],
+    error: float | None,
+    rng: np.random.Generator,
+) -> LocalDimension:
+    """Bounds of the local dimension of the zeros of ``polynomials`` at a point.
+
+    Args:
+        error: decimal logarithm of the point's error in each coordinate; None if it is exact.
+    """
+    n = len(point)
+    powers = variable_scales(polynomials, n)
+    scaled = [Polynomial(n, scaled_terms(f, powers)) for f in polynomials if f]
+    with working(DIGITS):
+        x = [_over(c, int(k)) for c, k in zip(point, powers, strict=True)]
+        precise = [middle(number(c)) for c in x]
+        system = ExactSystem.of(scaled, doubles(precise))
+        known = [_over(c, k) for c, k in zip(x, system.scales, strict=True)]
+        y = [middle(number(c)) for c in known]
+        zero, reason = _exact_zero(system, y, error, known, rng)
+        factors = [flint.arb(2) ** (int(a) + b) for a, b in zip(powers, system.scales, strict=True)]
+        if zero is None:
+            here = doubles([c * f for c, f in zip(y, factors, strict=True)])
+            return LocalDimension(here, None, 0, n, 0, 0, (), "", reason)
+        answer = _at_zero(zero, rng)
+        sharpened = [c * f for c, f in zip(zero.found.point, factors, strict=True)]
+        digits = tuple((_decimal(c.real), _decimal(c.imag)) for c in sharpened)
+        return replace(answer, point=doubles(sharpened), digits=digits)
+
+
+def _over(c: Any, k: int) -> Any:
+    """``c`` over a power of two, exactly."""
+    if isinstance(c, complex | float | np.number):
+        z = complex(c)
+        return complex(np.ldexp(z.real, -k), np.ldexp(z.imag, -k))
+    return c * Fraction(2) ** -k
+
+
+def _decimal(a: flint.arb) -> str:
+    return a.mid().str(WRITTEN, radius=False)
+
+
+def _exact_zero(
+    system: ExactSystem,
+    y: list[flint.acb],
+    error: float | None,
+    known: Sequence[Any],
+    rng: np.random.Generator,
+) -> tuple[_Zero | None, str]:
+    """The exact zero that a point stands for, or why there is none."""
+    if not system.rows:
+        nothing = Deflated(y, (Round((), ()),), system.n, -np.inf, 0.0)
+        return _Zero(system, nothing, nothing.rounds[0], None), ""
+    if error is None:
+        block = regular_block(system.at(DIGITS), y, ROUNDING - DIGITS, rng)
+        try:
+            found = deflate(system, y, ROUNDING - DIGITS, rng)
+            found = replace(found, point=y)
+        except NotDeflated:
+            found = Deflated(y, (replace(block, order=2),), 0, ZERO, 0.0)
+        return _Zero(system, found, block, tuple(known)), ""
+    reasons = []
+    for more in REACHES:
+        reach = min(error + more, max(FURTHEST, error))
+        try:
+            found = deflate(system, y, max(reach, ROUNDING - DIGITS), rng)
+        except NotDeflated as reason:
+            reasons.append(str(reason))
+            continue
+        if found.exact:
+            block = regular_block(system.at(DIGITS), found.point, ROUNDING - DIGITS, rng)
+            exact = rational_point(found.point, DIGITS) if system.rational else None
+            if exact is not None and not system.vanishes_exactly(exact):
+                exact = None
+            return _Zero(system, found, block, None if exact is None else tuple(exact)), ""
+        reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
+    return None, reasons[0]
+
+
+def _at_zero(zero: _Zero, rng: np.random.Generator) -> LocalDimension:
+    """Bounds at an exact zero, raised from below and lowered from above until they meet."""
+    tangent, system = zero.tangent, zero.system
+    missing = max(0, system.n - len(system.rows))
+    # The deflated set is smooth of this dimension, and was followed.
+    free = zero.found.free if zero.found.exact else 0
+    lower = max(missing, free)
+    why = "fewer equations than variables" if missing >= free else "a smooth set was followed"
+    answer = LocalDimension(
+        np.zeros(0), tangent, lower, tangent, 0, 0, (), "", f"the tangent dimension; {why}"
+    )
+    if lower == tangent:
+        if tangent == 0:
+            return replace(answer, multiplicity=1, reason="the Jacobian is regular")
+        return answer
+    images = _images(zero)
+    arithmetic = f"modulo {len(images)} primes" if images[0].field.modulus else f"{DIGITS} digits"
+    while True:
+        search = _Search(zero, lower, rng)
+        try:
+            space = _dual_space(zero, images, lower, search.succeeds, rng)
+        except (UnclearRank, _TooLarge) as reason:
+            return _undecided(answer, zero, images, lower, rng, str(reason))
+        coranks = tuple(accumulate(space.hilbert))
+        answer = replace(answer, hyperplanes=lower, coranks=coranks, arithmetic=arithmetic)
+        if space.finite:
+            reason = f"isolated {_on(lower)}{'; ' + why if lower else ''}"
+            multiplicity = space.dimension if lower == 0 else 0
+            return replace(
+                answer, lower=lower, upper=lower, multiplicity=multiplicity, reason=reason
+            )
+        if not search.dimension:
+            reason = "its dual space grows on, but no set of zeros through it was found"
+            return _undecided(answer, zero, images, lower, rng, reason)
+        lower += search.dimension
+        why = f"a set of dimension {lower} was followed to the point"
+        answer = replace(answer, lower=lower, reason=f"the tangent dimension; {why}")
+        if lower == tangent:
+            return answer
+
+
+def _on(k: int) -> str:
+    if k == 0:
+        return "by a finite dual space"
+    return f"on {k} random hyperplane{'' if k == 1 else 's'} by a finite dual space"
+
+
+def _undecided(
+    answer: LocalDimension,
+    zero: _Zero,
+    images: list[_Image],
+    lower: int,
+    rng: np.random.Generator,
+    reason: str,
+) -> LocalDimension:
+    """The least upper bound that the matrices give above a lower bound."""
+    upper = zero.tangent
+    for k in range(lower + 1, zero.tangent):
+        try:
+            if _dual_space(zero, images, k, lambda _: False, rng).finite:
+                upper = k
+                break
+        except (UnclearRank, _TooLarge):
+            continue
+    return replace(answer, lower=lower, upper=upper, reason=reason)
+
+
+def _images(zero: _Zero) -> list[_Image]:
+    """The equations modulo primes if the zero is algebraic, else in digits."""
+    if zero.exact is not None:
+        found = [
+            _Image(PrimeField(image.modulus), image.rows, image.centre)
+            for image in prime_images(zero.system, zero.exact, IMAGES)
+        ]
+        if found:
+            return found
+    return [_Image(NUMBERS, zero.system.at(DIGITS), zero.found.point)]
+
+
+def _hyperplanes(zero: _Zero, k: int, rng: np.random.Generator) -> np.ndarray:
+    """Normals of random hyperplanes in the variables that the regular part leaves, integers."""
+    return rng.integers(1, 2**30, size=(k, zero.tangent)) * rng.choice((-1, 1), (k, zero.tangent))
+
+
+def _through(normals: np.ndarray, free: list[int], image: _Image, n: int) -> list[Terms]:
+    """Equations of the hyperplanes through the image of the point."""
+    rows: list[Terms] = []
+    p = image.field.modulus
+    for normal in normals.tolist():
+        weights = [a % p if p else flint.acb(a) / 2**30 for a in normal]
+        constant: Any = 0
+        for w, i in zip(weights, free, strict=True):
+            constant = constant - w * image.centre[i]
+        row = [(tuple(int(i == j) for j in range(n)), w) for i, w in zip(free, weights, strict=True)]
+        rows.append([((0,) * n, constant % p if p else constant), *row])
+    return rows
+
+
+def _dual_space(
+    zero: _Zero,
+    images: list[_Image],
+    k: int,
+    stop: Callable[[Sequence[int]], bool],
+    rng: np.random.Generator,
+) -> DualSpace:
+    """The dual space on ``k`` random hyperplanes through the point, the smallest of all images."""
+    block, n, m = zero.block, zero.system.n, zero.tangent - k
+    free = [i for i in range(n) if i not in block.columns]
+    normals = _hyperplanes(zero, k, rng)
+    spaces = []
+    for image in images:
+        field = image.field
+        rows = [*image.rows, *_through(normals, free, image, n)]
+        count = len(image.rows)
+        solved = (*block.rows, *range(count, count + k))
+        columns = (*block.columns, *free[:k])
+
+        def series(order: int, f: Field = field, image: _Image = image) -> tuple[Any, list[Series]]:
+            if work(m, order, [Round(solved, columns)]) > MOST_WORK * (5 if f.modulus else 1):
+                raise _TooLarge(f"its series in {m} variables are too long")
+            found = eliminate(rows, image.centre, solved, columns, order, f.modulus)
+            if found is None:
+                raise _TooLarge("the regular part is singular in this arithmetic")
+            return found.ring, [{e: c for e, c in s.items() if not f.is_zero(c)} for s in found.rest]
+
+        spaces.append(dual_space(field, m, series, HIGHEST, stop))
+        if not spaces[-1].finite:
+            return spaces[-1]
+    return min(spaces, key=lambda space: space.dimension)
+
+
+@dataclass
+class _Search:
+    """Looks for a set of zeros through a point when its dual space has grown for some degrees."""
+
+    zero: _Zero
+    hyperplanes: int
+    rng: np.random.Generator
+    dimension: int = 0
+    times: int = 0
+
+    def succeeds(self, hilbert: Sequence[int]) -> bool:
+        growing = list(hilbert[-3:]) == sorted(hilbert[-3:])
+        if self.times < len(SEARCHES) and growing and len(hilbert) > SEARCHES[self.times]:
+            self.times += 1
+            self.dimension = self._found(4 * self.times)
+        return self.dimension > 0
+
+    def _found(self, attempts: int) -> int:
+        sliced = _sliced(self.zero, self.hyperplanes, self.rng)
+        return 0 if sliced is None else curve_through(*sliced, self.rng, attempts)
+
+
+def _sliced(
+    zero: _Zero, k: int, rng: np.random.Generator
+) -> tuple[ExactSystem, Deflated] | None:
+    """The zero on ``k`` random hyperplanes through it, as exact as the searches beside it need."""
+    system, block = zero.system, zero.block
+    order = max(zero.found.rounds[0].order, 2)
+    free = [i for i in range(system.n) if i not in block.columns]
+    solved = (*block.rows, *range(len(system.rows), len(system.rows) + k))
+    here = Round(solved, (*block.columns, *free[:k]), order)
+    point = _passing(zero) if k else zero.found.point
+    if point is None:
+        return None
+    units = [tuple(int(i == j) for j in range(system.n)) for i in free]
+    with working(PASSING):
+        for row in _hyperplanes(zero, k, rng).tolist():
+            weights: list[Any] = [Fraction(a, 2**30) for a in row]
+            if isinstance(point[0], flint.acb):
+                weights = [number(a) for a in weights]
+            constant = -sum(a * point[i] for a, i in zip(weights, free, strict=True))
+            if isinstance(constant, flint.acb):
+                constant = middle(constant)
+            terms = [((0,) * system.n, constant), *zip(units, weights, strict=True)]
+            system = system.with_row(terms)
+    return system, replace(zero.found, rounds=(here,))
+
+
+def _passing(zero: _Zero) -> Sequence[Any] | None:
+    """The zero, exact or to so many digits that hyperplanes through it may be told from others."""
+    if zero.exact is not None and all(isinstance(c, Fraction) for c in zero.exact):
+        return zero.exact
+    with working(PASSING):
+        if zero.exact is not None:
+            return [middle(number(c)) for c in zero.exact]
+        found = sharpen(zero.system, zero.found.point, zero.found.rounds, PASSING)
+    return None if found is None else found[0]
