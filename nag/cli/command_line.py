@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from types import ModuleType
 
 import nag
-from nag.cli import bench, decompose, intersect, member, model, sample, solve
+from nag.cli import bench, decompose, intersect, local, member, model, sample, solve
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 
 FROM_COMPONENTS = (
@@ -37,6 +37,13 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         member,
         "say which components a point lies on",
         f"Say which components a point lies on. {FROM_COMPONENTS}",
+    ),
+    (
+        "local",
+        local,
+        "say what dimension the solutions have at a point",
+        "Say what dimension the solution set has at a point: isolated, of which multiplicity, or "
+        "on a component of which dimension, singular or not. Nothing is decomposed for it.",
     ),
     (
         "sample",

@@ -32,27 +32,21 @@ from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import LocalDimension
-from nag.numerics.null_space import Digits, Field, PrimeField, UnclearRank
+from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, decimal
+from nag.numerics.null_space import Field, PrimeField, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, Terms
 from nag.numerics.rational_point import rational_point
 from nag.numerics.scaling import scaled_terms, variable_scales
 
-# Decimal logarithms of the factors by which the error may exceed what is claimed, in this order.
-REACHES = (1.0, 0.0, 2.0, 3.5)
-FURTHEST = -1.3
 # An exact point is known to all digits but these.
 ROUNDING = 5.0
-# What is zero and what is not in 150 digits, where errors have grown through some eliminations.
-NUMBERS = Digits(DIGITS, -90.0, -45.0)
 # Degrees of the dual space from which on sets of zeros through the point are looked for, if it has
-# not become smaller for two degrees, and the highest degree.
+# not become smaller for two degrees.
 SEARCHES = (3, 8, 18, 36)
-HIGHEST = 400
 # Images modulo primes that must agree.
 IMAGES = 2
 # Digits of a point on hyperplanes: zeros beside it are told from it in less.
 PASSING = 1200
-WRITTEN = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +109,7 @@ def bounds(
             return LocalDimension(here, None, 0, n, 0, 0, (), "", reason)
         answer = _at_zero(zero, rng)
         sharpened = [c * f for c, f in zip(zero.found.point, factors, strict=True)]
-        digits = tuple((_decimal(c.real), _decimal(c.imag)) for c in sharpened)
+        digits = tuple((decimal(c.real), decimal(c.imag)) for c in sharpened)
         return replace(answer, point=doubles(sharpened), digits=digits)
 
 
@@ -125,10 +119,6 @@ def _over(c: Any, k: int) -> Any:
         z = complex(c)
         return complex(np.ldexp(z.real, -k), np.ldexp(z.imag, -k))
     return c * Fraction(2) ** -k
-
-
-def _decimal(a: flint.arb) -> str:
-    return a.mid().str(WRITTEN, radius=False)
 
 
 def _exact_zero(
@@ -261,7 +251,9 @@ def _through(normals: np.ndarray, free: list[int], image: _Image, n: int) -> lis
         constant: Any = 0
         for w, i in zip(weights, free, strict=True):
             constant = constant - w * image.centre[i]
-        row = [(tuple(int(i == j) for j in range(n)), w) for i, w in zip(free, weights, strict=True)]
+        row = [
+            (tuple(int(i == j) for j in range(n)), w) for i, w in zip(free, weights, strict=True)
+        ]
         rows.append([((0,) * n, constant % p if p else constant), *row])
     return rows
 
@@ -274,29 +266,36 @@ def _dual_space(
     rng: np.random.Generator,
 ) -> DualSpace:
     """The dual space on ``k`` random hyperplanes through the point, the smallest of all images."""
-    block, n, m = zero.block, zero.system.n, zero.tangent - k
-    free = [i for i in range(n) if i not in block.columns]
     normals = _hyperplanes(zero, k, rng)
     spaces = []
     for image in images:
-        field = image.field
-        rows = [*image.rows, *_through(normals, free, image, n)]
-        count = len(image.rows)
-        solved = (*block.rows, *range(count, count + k))
-        columns = (*block.columns, *free[:k])
-
-        def series(order: int, f: Field = field, image: _Image = image) -> tuple[Any, list[Series]]:
-            if work(m, order, [Round(solved, columns)]) > MOST_WORK * (5 if f.modulus else 1):
-                raise _TooLarge(f"its series in {m} variables are too long")
-            found = eliminate(rows, image.centre, solved, columns, order, f.modulus)
-            if found is None:
-                raise _TooLarge("the regular part is singular in this arithmetic")
-            return found.ring, [{e: c for e, c in s.items() if not f.is_zero(c)} for s in found.rest]
-
-        spaces.append(dual_space(field, m, series, HIGHEST, stop))
+        spaces.append(_in_image(zero, image, normals, stop))
         if not spaces[-1].finite:
             return spaces[-1]
     return min(spaces, key=lambda space: space.dimension)
+
+
+def _in_image(
+    zero: _Zero, image: _Image, normals: np.ndarray, stop: Callable[[Sequence[int]], bool]
+) -> DualSpace:
+    """The dual space on hyperplanes in one arithmetic, where the regular part is solved first."""
+    block, n, k, field = zero.block, zero.system.n, len(normals), image.field
+    free = [i for i in range(n) if i not in block.columns]
+    rows = [*image.rows, *_through(normals, free, image, n)]
+    solved = (*block.rows, *range(len(image.rows), len(rows)))
+    columns = (*block.columns, *free[:k])
+    m, most = zero.tangent - k, MOST_WORK * (5 if field.modulus else 1)
+
+    def series(order: int) -> tuple[SeriesRing, list[Series]]:
+        if work(m, order, [Round(solved, columns)]) > most:
+            raise _TooLarge(f"its series in {m} variables are too long")
+        found = eliminate(rows, image.centre, solved, columns, order, field.modulus)
+        if found is None:
+            raise _TooLarge("the regular part is singular in this arithmetic")
+        rest = [{e: c for e, c in s.items() if not field.is_zero(c)} for s in found.rest]
+        return found.ring, rest
+
+    return dual_space(field, m, series, HIGHEST, stop)
 
 
 @dataclass
@@ -321,9 +320,7 @@ class _Search:
         return 0 if sliced is None else curve_through(*sliced, self.rng, attempts)
 
 
-def _sliced(
-    zero: _Zero, k: int, rng: np.random.Generator
-) -> tuple[ExactSystem, Deflated] | None:
+def _sliced(zero: _Zero, k: int, rng: np.random.Generator) -> tuple[ExactSystem, Deflated] | None:
     """The zero on ``k`` random hyperplanes through it, as exact as the searches beside it need."""
     system, block = zero.system, zero.block
     order = max(zero.found.rounds[0].order, 2)

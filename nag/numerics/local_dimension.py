@@ -93,8 +93,9 @@ def local_dimension(
     Args:
         system: exact equations; ``system.nonzero`` does not matter.
         point: exact numbers (`int`, `Fraction`, `Irrational`), or complex doubles.
-        accuracy: how far the zero may be from the point, relative to each coordinate's size (or to
-            one); 0 for exact numbers by default, 1e-8 for doubles.
+        accuracy: how far the zero may be from the point, relative to each coordinate's size or, if
+            that is larger, to the size that the coefficients of the equations suggest for it
+            (often one); by default 0 for exact numbers, 1e-8 for doubles.
         seed: of directions and hyperplanes.
 
     Raises:
