@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from types import ModuleType
 
 import nag
-from nag.cli import bench, decompose, intersect, local, member, model, sample, solve
+from nag.cli import bench, decompose, intersect, local, member, mobility, model, sample, solve
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 
 FROM_COMPONENTS = (
@@ -44,6 +44,13 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         "say what dimension the solutions have at a point",
         "Say what dimension the solution set has at a point: isolated, of which multiplicity, or "
         "on a component of which dimension, singular or not. Nothing is decomposed for it.",
+    ),
+    (
+        "mobility",
+        mobility,
+        "say how a mechanism moves at a configuration",
+        "Say how a mechanism moves at a configuration: what counting predicts, the tangent and the "
+        "local dimension, the components through it, and what that means.",
     ),
     (
         "sample",
