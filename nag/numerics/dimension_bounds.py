@@ -6,12 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import accumulate
+from math import log10
 from typing import Any
 
 import flint
 import numpy as np
 
-from nag.algebra.number import Number
+from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.algebraic_point import prime_images
 from nag.numerics.curves import curve_through
@@ -50,7 +51,7 @@ PASSING = 1200
 
 
 @dataclass(frozen=True, eq=False)
-class _Zero:
+class Zero:
     """An exact zero of exact equations.
 
     Attributes:
@@ -93,24 +94,55 @@ def bounds(
     Args:
         error: decimal logarithm of the point's error in each coordinate; None if it is exact.
     """
-    n = len(point)
-    powers = variable_scales(polynomials, n)
-    scaled = [Polynomial(n, scaled_terms(f, powers)) for f in polynomials if f]
     with working(DIGITS):
-        x = [_over(c, int(k)) for c, k in zip(point, powers, strict=True)]
-        precise = [middle(number(c)) for c in x]
-        system = ExactSystem.of(scaled, doubles(precise))
-        known = [_over(c, k) for c, k in zip(x, system.scales, strict=True)]
-        y = [middle(number(c)) for c in known]
-        zero, reason = _exact_zero(system, y, error, known, rng)
-        factors = [flint.arb(2) ** (int(a) + b) for a, b in zip(powers, system.scales, strict=True)]
+        zero, factors, reason = _located(polynomials, point, error, rng)
         if zero is None:
-            here = doubles([c * f for c, f in zip(y, factors, strict=True)])
-            return LocalDimension(here, None, 0, n, 0, 0, (), "", reason)
+            here = np.array([complex(float(c)) if _is_exact(c) else complex(c) for c in point])
+            return LocalDimension(here, None, 0, len(point), 0, 0, (), "", reason)
         answer = _at_zero(zero, rng)
         sharpened = [c * f for c, f in zip(zero.found.point, factors, strict=True)]
         digits = tuple((decimal(c.real), decimal(c.imag)) for c in sharpened)
         return replace(answer, point=doubles(sharpened), digits=digits)
+
+
+def exact_zero(
+    polynomials: Sequence[Polynomial],
+    point: Sequence[Any] | np.ndarray,
+    accuracy: float,
+    rng: np.random.Generator,
+) -> tuple[Zero | None, list[flint.arb]]:
+    """The exact zero that a point stands for, and the sizes of its variables' units.
+
+    Args:
+        point: exact numbers, or doubles known to ``accuracy``.
+    """
+    exact = all(_is_exact(c) for c in point)
+    error = None if exact else log10(max(accuracy, 1e-300))
+    zero, factors, _ = _located(polynomials, list(point), error, rng)
+    return zero, factors
+
+
+def _is_exact(c: Any) -> bool:
+    return isinstance(c, int | Fraction | Irrational)
+
+
+def _located(
+    polynomials: Sequence[Polynomial],
+    point: Sequence[Any],
+    error: float | None,
+    rng: np.random.Generator,
+) -> tuple[Zero | None, list[flint.arb], str]:
+    n = len(point)
+    powers = variable_scales(polynomials, n)
+    scaled = [Polynomial(n, scaled_terms(f, powers)) for f in polynomials if f]
+    x = [_over(c, int(k)) for c, k in zip(point, powers, strict=True)]
+    precise = [middle(number(c)) for c in x]
+    system = ExactSystem.of(scaled, doubles(precise))
+    known = [_over(c, k) for c, k in zip(x, system.scales, strict=True)]
+    y = [middle(number(c)) for c in known]
+    zero, reason = _exact_zero(system, y, error, known, rng)
+    factors = [flint.arb(2) ** (int(a) + b) for a, b in zip(powers, system.scales, strict=True)]
+    return zero, factors, reason
 
 
 def _over(c: Any, k: int) -> Any:
@@ -127,11 +159,11 @@ def _exact_zero(
     error: float | None,
     known: Sequence[Any],
     rng: np.random.Generator,
-) -> tuple[_Zero | None, str]:
+) -> tuple[Zero | None, str]:
     """The exact zero that a point stands for, or why there is none."""
     if not system.rows:
         nothing = Deflated(y, (Round((), ()),), system.n, -np.inf, 0.0)
-        return _Zero(system, nothing, nothing.rounds[0], None), ""
+        return Zero(system, nothing, nothing.rounds[0], None), ""
     if error is None:
         block = regular_block(system.at(DIGITS), y, ROUNDING - DIGITS, rng)
         try:
@@ -139,7 +171,7 @@ def _exact_zero(
             found = replace(found, point=y)
         except NotDeflated:
             found = Deflated(y, (replace(block, order=2),), 0, ZERO, 0.0)
-        return _Zero(system, found, block, tuple(known)), ""
+        return Zero(system, found, block, tuple(known)), ""
     reasons = []
     for more in REACHES:
         reach = min(error + more, max(FURTHEST, error))
@@ -153,12 +185,12 @@ def _exact_zero(
             exact = rational_point(found.point, DIGITS) if system.rational else None
             if exact is not None and not system.vanishes_exactly(exact):
                 exact = None
-            return _Zero(system, found, block, None if exact is None else tuple(exact)), ""
+            return Zero(system, found, block, None if exact is None else tuple(exact)), ""
         reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
     return None, reasons[0]
 
 
-def _at_zero(zero: _Zero, rng: np.random.Generator) -> LocalDimension:
+def _at_zero(zero: Zero, rng: np.random.Generator) -> LocalDimension:
     """Bounds at an exact zero, raised from below and lowered from above until they meet."""
     tangent, system = zero.tangent, zero.system
     missing = max(0, system.n - len(system.rows))
@@ -207,7 +239,7 @@ def _on(k: int) -> str:
 
 def _undecided(
     answer: LocalDimension,
-    zero: _Zero,
+    zero: Zero,
     images: list[_Image],
     lower: int,
     rng: np.random.Generator,
@@ -225,7 +257,7 @@ def _undecided(
     return replace(answer, lower=lower, upper=upper, reason=reason)
 
 
-def _images(zero: _Zero) -> list[_Image]:
+def _images(zero: Zero) -> list[_Image]:
     """The equations modulo primes if the zero is algebraic, else in digits."""
     if zero.exact is not None:
         found = [
@@ -237,7 +269,7 @@ def _images(zero: _Zero) -> list[_Image]:
     return [_Image(NUMBERS, zero.system.at(DIGITS), zero.found.point)]
 
 
-def _hyperplanes(zero: _Zero, k: int, rng: np.random.Generator) -> np.ndarray:
+def _hyperplanes(zero: Zero, k: int, rng: np.random.Generator) -> np.ndarray:
     """Normals of random hyperplanes in the variables that the regular part leaves, integers."""
     return rng.integers(1, 2**30, size=(k, zero.tangent)) * rng.choice((-1, 1), (k, zero.tangent))
 
@@ -259,7 +291,7 @@ def _through(normals: np.ndarray, free: list[int], image: _Image, n: int) -> lis
 
 
 def _dual_space(
-    zero: _Zero,
+    zero: Zero,
     images: list[_Image],
     k: int,
     stop: Callable[[Sequence[int]], bool],
@@ -276,7 +308,7 @@ def _dual_space(
 
 
 def _in_image(
-    zero: _Zero, image: _Image, normals: np.ndarray, stop: Callable[[Sequence[int]], bool]
+    zero: Zero, image: _Image, normals: np.ndarray, stop: Callable[[Sequence[int]], bool]
 ) -> DualSpace:
     """The dual space on hyperplanes in one arithmetic, where the regular part is solved first."""
     block, n, k, field = zero.block, zero.system.n, len(normals), image.field
@@ -302,7 +334,7 @@ def _in_image(
 class _Search:
     """Looks for a set of zeros through a point when its dual space has grown for some degrees."""
 
-    zero: _Zero
+    zero: Zero
     hyperplanes: int
     rng: np.random.Generator
     dimension: int = 0
@@ -320,7 +352,7 @@ class _Search:
         return 0 if sliced is None else curve_through(*sliced, self.rng, attempts)
 
 
-def _sliced(zero: _Zero, k: int, rng: np.random.Generator) -> tuple[ExactSystem, Deflated] | None:
+def _sliced(zero: Zero, k: int, rng: np.random.Generator) -> tuple[ExactSystem, Deflated] | None:
     """The zero on ``k`` random hyperplanes through it, as exact as the searches beside it need."""
     system, block = zero.system, zero.block
     order = max(zero.found.rounds[0].order, 2)
@@ -344,7 +376,7 @@ def _sliced(zero: _Zero, k: int, rng: np.random.Generator) -> tuple[ExactSystem,
     return system, replace(zero.found, rounds=(here,))
 
 
-def _passing(zero: _Zero) -> Sequence[Any] | None:
+def _passing(zero: Zero) -> Sequence[Any] | None:
     """The zero, exact or to so many digits that hyperplanes through it may be told from others."""
     if zero.exact is not None and all(isinstance(c, Fraction) for c in zero.exact):
         return zero.exact
