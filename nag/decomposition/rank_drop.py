@@ -15,6 +15,7 @@ Reference:
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -27,8 +28,8 @@ from nag.witness.membership import component_system
 from nag.witness.projection import ProjectionError, project
 from nag.witness.witness import PathCounts, Slice, WitnessSet
 
-# Entries of random combinations.
-LARGEST = 9
+# Bits of random numbers: a chart must leave out no vector that turns up, be it as simple as it may.
+BITS = 24
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,13 +98,12 @@ def _null_space_system(
     total = n + r - 1
     jacobian = [[g.with_variables(total, range(n)) for g in row] for row in system.jacobian]
     if m > r:
-        mix = rng.integers(-LARGEST, LARGEST + 1, (r, m))
+        mix = _random(rng, r, m)
         columns = list(zip(*jacobian, strict=True))
         jacobian = [[_combined(column, row) for column in columns] for row in mix]
     free = [Polynomial.variable(total, n + i) for i in range(r - 1)]
     one = Polynomial.constant(total, 1)
-    chart = rng.integers(1, LARGEST + 1, (r, r)) * rng.choice((-1, 1), (r, r))
-    w = [_combined([one, *free], row) for row in chart]
+    w = [_combined([one, *free], row) for row in _random(rng, r, r)]
     conditions = [_product(w, column) for column in zip(*jacobian, strict=True)]
     names = (*system.variables, *_names(system.variables, r - 1))
 
@@ -115,10 +115,16 @@ def _null_space_system(
     return base, _times_space(component, r - 1, rng), PolynomialSystem(names, tuple(conditions))
 
 
-def _combined(parts: tuple[Polynomial, ...] | list[Polynomial], weights: np.ndarray) -> Polynomial:
+def _random(rng: np.random.Generator, rows: int, columns: int) -> list[list[Fraction]]:
+    """A matrix of orthonormal rows or columns, rounded to exact numbers."""
+    matrix = np.linalg.qr(rng.normal(size=(max(rows, columns),) * 2))[0][:rows, :columns]
+    return [[Fraction(round(float(c) * 2**BITS), 2**BITS) for c in row] for row in matrix]
+
+
+def _combined(parts: Sequence[Polynomial], weights: Sequence[Fraction]) -> Polynomial:
     total = Polynomial(parts[0].n, {})
-    for f, weight in zip(parts, weights.tolist(), strict=True):
-        total = total + f * Fraction(weight)
+    for f, weight in zip(parts, weights, strict=True):
+        total = total + f * weight
     return total
 
 
