@@ -15,7 +15,18 @@ from collections.abc import Sequence
 from types import ModuleType
 
 import nag
-from nag.cli import bench, decompose, intersect, local, member, mobility, model, sample, solve
+from nag.cli import (
+    bench,
+    decompose,
+    intersect,
+    local,
+    member,
+    mobility,
+    model,
+    sample,
+    singular,
+    solve,
+)
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 
 FROM_COMPONENTS = (
@@ -57,6 +68,12 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         sample,
         "find random points of a component",
         f"Find random points of a component. {FROM_COMPONENTS}",
+    ),
+    (
+        "singular",
+        singular,
+        "find singular points of components, and where components meet",
+        f"Find singular points of components, and where components meet. {FROM_COMPONENTS}",
     ),
     (
         "intersect",

@@ -98,21 +98,21 @@ def _null_space_system(
     total = n + r - 1
     jacobian = [[g.with_variables(total, range(n)) for g in row] for row in system.jacobian]
     if m > r:
-        mix = _random(rng, r, m)
         columns = list(zip(*jacobian, strict=True))
-        jacobian = [[_combined(column, row) for column in columns] for row in mix]
+        jacobian = [[_combined(column, row) for column in columns] for row in _random(rng, r, m)]
     free = [Polynomial.variable(total, n + i) for i in range(r - 1)]
     one = Polynomial.constant(total, 1)
     w = [_combined([one, *free], row) for row in _random(rng, r, r)]
-    conditions = [_product(w, column) for column in zip(*jacobian, strict=True)]
-    names = (*system.variables, *_names(system.variables, r - 1))
-
-    def lifted(polynomials: tuple[Polynomial, ...]) -> tuple[Polynomial, ...]:
-        return tuple(f.with_variables(total, range(n)) for f in polynomials)
-
-    base = PolynomialSystem(names, lifted(system.polynomials), lifted(system.nonzero))
-    conditions = [f for f in dict.fromkeys(conditions) if f]
-    return base, _times_space(component, r - 1, rng), PolynomialSystem(names, tuple(conditions))
+    conditions = [product(w, column) for column in zip(*jacobian, strict=True)]
+    names = (*system.variables, *new_names(system.variables, r - 1))
+    lifted, nonzero = (
+        tuple(f.with_variables(total, range(n)) for f in polynomials)
+        for polynomials in (system.polynomials, system.nonzero)
+    )
+    base = PolynomialSystem(names, lifted, nonzero)
+    start = _times_space(component, r - 1, rng)
+    kept = tuple(f for f in dict.fromkeys(conditions) if f)
+    return base, start, PolynomialSystem(names, kept)
 
 
 def _random(rng: np.random.Generator, rows: int, columns: int) -> list[list[Fraction]]:
@@ -128,14 +128,16 @@ def _combined(parts: Sequence[Polynomial], weights: Sequence[Fraction]) -> Polyn
     return total
 
 
-def _product(w: list[Polynomial], column: tuple[Polynomial, ...]) -> Polynomial:
+def product(w: Sequence[Polynomial], column: Sequence[Polynomial]) -> Polynomial:
+    """The inner product."""
     total = Polynomial(w[0].n, {})
     for a, b in zip(w, column, strict=True):
         total = total + a * b
     return total
 
 
-def _names(taken: tuple[str, ...], count: int) -> list[str]:
+def new_names(taken: Sequence[str], count: int) -> list[str]:
+    """Names of variables that are not taken."""
     stem = "w"
     while any(name.startswith(stem) for name in taken):
         stem += "_"
@@ -156,4 +158,5 @@ def _times_space(component: WitnessSet, k: int, rng: np.random.Generator) -> Wit
         multidegree=None,
         orbit=1,
         images=(),
+        fibres=(),
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.report.agreement import in_words, kinds
-from nag.witness.witness import Decomposition, Status, WitnessSet
+from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 # Length of a line; longer texts are wrapped.
 LINE = 100
@@ -140,7 +140,11 @@ def remarks(decomposition: Decomposition) -> list[str]:
 
 
 def paths_line(decomposition: Decomposition) -> str:
-    paths = decomposition.paths
+    return paths_text(decomposition.paths)
+
+
+def paths_text(paths: PathCounts) -> str:
+    """What became of paths."""
     return f"{paths.tracked} tracked, {paths.at_infinity} to infinity, {paths.failed} failed"
 
 
