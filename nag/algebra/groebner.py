@@ -31,10 +31,12 @@ class Ideal:
     Attributes:
         field: names of the variables and order of the monomials.
         basis: FLINT's polynomials with coprime whole coefficients; none of the ideal 0.
+        generators: those that it was given by.
     """
 
     field: FunctionField
     basis: tuple[Any, ...]
+    generators: tuple[Any, ...]
 
     @cached_property
     def _divisors(self) -> tuple[Divisor, ...]:
@@ -98,11 +100,11 @@ def ideal(field: FunctionField, generators: Iterable[Any]) -> Ideal:
     given = [f.numerator if isinstance(f, RationalFunction) else f for f in generators]
     given = [f for f in given if f != 0]
     if not given:
-        return Ideal(field, ())
+        return Ideal(field, (), ())
     found, finished = flint.fmpz_mpoly_vec(given, field.context).buchberger_naive(limits=BOUNDS)
     if not finished:
         raise UnfinishedBasis(f"a Groebner basis of {len(given)} polynomials grows too large")
-    return Ideal(field, tuple(found.autoreduction()))
+    return Ideal(field, tuple(found.autoreduction()), tuple(given))
 
 
 def intersection(first: Ideal, second: Ideal) -> Ideal:

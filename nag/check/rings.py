@@ -44,5 +44,5 @@ def intersect_in(big: Ideal, parts: Sequence[Ideal]) -> bool:
             return False
     products = [1]
     for part in parts:
-        products = [f * g for f in products for g in part.basis]
+        products = [f * g for f in products for g in part.generators]
     return big.contains(products)
