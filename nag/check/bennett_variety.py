@@ -185,6 +185,20 @@ def three_parts() -> Verdict:
     return _everywhere(test, "Groebner bases by FLINT")
 
 
+@statement("T25 section 6", "the bases of I_4 and I_5 have 20 and 15 elements; a_0 and c_0 are factors")
+def smaller_bases() -> Verdict:
+    """hat g_0 = a_0 (..), hat g_1 = c_0 (..), hat g_2 = c_0 (..)."""
+
+    def test(m: Parameters) -> bool:
+        v, basis = _names(MEDIUM), i_4(m).basis
+        divided = [
+            sum(f % v[x].numerator == 0 for f in basis) for x in ("a0", "c0")
+        ]
+        return (len(basis), len(i_5(m).basis)) == (20, 15) and divided[0] >= 1 and divided[1] >= 2
+
+    return _everywhere(test, "Groebner bases by FLINT in degree order")
+
+
 def _points(m: Parameters, name: str) -> Ideal:
     return i_4(m) + [_names(MEDIUM)[name].numerator]
 
@@ -355,6 +369,7 @@ STATEMENTS = (
     signs_of_b,
     two_halves,
     three_parts,
+    smaller_bases,
     isolated_points,
     four_points_on_the_curve,
     remaining_entries,
