@@ -11,10 +11,10 @@ import pytest
 
 from nag.bench.measure import Measured, as_json, step_flops
 from nag.bench.peers import Peer, run_peer
+from nag.bench.table import table
 from nag.cli import main
 from nag.cli.bench import NAMES, files
 from nag.files.cases import read_case
-from nag.report.benchmarks import table
 from nag.solving.start.target import Target
 from nag.solving.start.total_degree import total_degree
 

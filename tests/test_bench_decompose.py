@@ -16,9 +16,9 @@ from nag.bench.decomposition import (
     measure_decomposition,
     rhombus_chain,
 )
+from nag.bench.table import decomposition_table as table
 from nag.cli import main
 from nag.files.cases import read_case
-from nag.report.benchmarks import decomposition_table as table
 
 CASES = Path(__file__).parent.parent / "cases"
 

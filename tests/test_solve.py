@@ -14,10 +14,10 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
 from nag.mechanism.model import model
+from nag.numerics.coincidence import clusters, conjugates_present
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError
-from nag.tracking.clusters import clusters, conjugates_present
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 

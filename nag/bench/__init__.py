@@ -1,1 +1,4 @@
-"""Benchmarks: systems, times, and other programs beside ours."""
+"""Benchmarks: systems, times, and other programs beside ours.
+
+Read `measure` (solving), `decomposition`, then `peers` (other programs) and `table`.
+"""

@@ -84,10 +84,10 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
     from nag.bench.measure import as_json, flop_rate, measure
     from nag.bench.peers import installed, run_peer
+    from nag.bench.table import table
     from nag.files.cases import CaseError, read_case
     from nag.files.written_file import TargetError, write_target
     from nag.mechanism.model import ModelError, model
-    from nag.report.benchmarks import table
     from nag.solving.start.target import StartError
 
     cases = []

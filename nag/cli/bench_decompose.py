@@ -75,7 +75,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
                 raise UsageError(f"--{name}: {error}") from None
 
     from nag.bench.decomposition import as_json, growth, growth_chart
-    from nag.report.benchmarks import decomposition_table, growth_table
+    from nag.bench.table import decomposition_table, growth_table
 
     peers: dict[str, PeerDecomposed] = {}
     if options.growth is not None:

@@ -19,6 +19,7 @@ from nag.decomposition.hypersurface import (
     Sections,
     crossing,
 )
+from nag.numerics.coincidence import clusters
 from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
@@ -49,22 +50,6 @@ def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
     """Order of intersection: lowest degree first, then fewest variables, then as given."""
     keys = [(f.degree, len(f.support), i) for i, f in enumerate(equations)]
     return [i for *_, i in sorted(keys)]
-
-
-def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
-    """Indices of the points that coincide within their errors, one array for each cluster."""
-    groups: list[list[int]] = []
-    for i in np.argsort(accuracy, kind="stable"):
-        for group in groups:
-            j = group[0]
-            scale = 1 + np.linalg.norm(points[j])
-            tolerance = max(SAME, 1e2 * (accuracy[i] + accuracy[j]))
-            if np.linalg.norm(points[i] - points[j]) < tolerance * scale:
-                group.append(int(i))
-                break
-        else:
-            groups.append([int(i)])
-    return [np.array(g) for g in groups]
 
 
 def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
@@ -108,7 +93,7 @@ def _collect(
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])
     points, accuracy = np.vstack(singular), np.concatenate(errors)
-    groups = clusters(points, accuracy)
+    groups = clusters(points, accuracy, SAME)
     return _Candidates(fibres, [[(points[i], float(accuracy[i])) for i in g] for g in groups])
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.symmetric_family import SymmetricFamily
-from nag.tracking.clusters import neighbours
+from nag.numerics.coincidence import neighbours
 
 # Invariants of points that are known to half the digits differ by less if they are equal.
 SAME = 1e-7

@@ -13,12 +13,12 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.coincidence import clusters, conjugates_present
 from nag.numerics.singular_point import Place, analyse
 from nag.solving.branch_solutions import solve_apart
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 from nag.solving.start.choice import check_kind, choose
 from nag.solving.start.target import Start, Target
-from nag.tracking.clusters import clusters, conjugates_present
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings, named

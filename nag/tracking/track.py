@@ -13,7 +13,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from nag.tracking.clusters import neighbours
+from nag.numerics.coincidence import neighbours
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
@@ -153,8 +153,7 @@ def _run(
     endgame: bool,
     weights: np.ndarray | None = None,
 ) -> _Raw:
-    from nag.tracking import straight_run
-    from nag.tracking import taylor
+    from nag.tracking import straight_run, taylor
 
     P = len(starts)
     raw = _Raw(

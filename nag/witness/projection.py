@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.superset import clusters
+from nag.numerics.coincidence import clusters
 from nag.witness.cutting import numerical_corank
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import SAME, Fibre, Tracker, move
 from nag.witness.membership import component_fibres
 from nag.witness.moving import sharpened_ends
 from nag.witness.slices import padded, random_rows, to_slice, unit_complex
@@ -139,7 +139,7 @@ def _pseudo_witness(
         if unclear:
             continue
         x = np.vstack(points)
-        images = clusters(x[:, list(coordinates)], np.full(len(x), 1e-12))
+        images = clusters(x[:, list(coordinates)], np.full(len(x), 1e-12), SAME)
         sizes = {len(image) for image in images}
         if len(sizes) == 1:
             return len(images), sizes.pop(), target, x

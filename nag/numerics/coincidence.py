@@ -32,15 +32,16 @@ def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray,
             yield order[near], order[near + apart]
 
 
-def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
+def clusters(points: np.ndarray, accuracy: np.ndarray, floor: float = SAME) -> list[np.ndarray]:
     """Indices of points that coincide within their errors, a cluster each, in the points' order.
 
     Args:
         points: complex, shape ``(P, n)``.
         accuracy: relative errors, shape ``(P,)``.
+        floor: relative distance below which points coincide whatever their accuracy.
     """
     count, n = points.shape
-    tolerance = np.maximum(SAME, 1e2 * accuracy) * (1 + np.linalg.norm(points, axis=1))
+    tolerance = np.maximum(floor, 1e2 * accuracy) * (1 + np.linalg.norm(points, axis=1))
     label = np.arange(count)
 
     def root(i: int) -> int:
