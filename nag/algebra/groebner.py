@@ -79,10 +79,13 @@ class Ideal:
 
     __hash__ = None  # type: ignore[assignment]
 
-    def __add__(self, other: Ideal | Iterable[Any]) -> Ideal:
+    def __add__(self, other: Ideal) -> Ideal:
         """The sum: the ideal of the intersection of the zero sets."""
-        more = other.basis if isinstance(other, Ideal) else tuple(other)
-        return ideal(self.field, (*self.basis, *more))
+        return self.enlarged(other.basis)
+
+    def enlarged(self, generators: Iterable[Any]) -> Ideal:
+        """With more generators."""
+        return ideal(self.field, (*self.basis, *generators))
 
 
 def ideal(field: FunctionField, generators: Iterable[Any]) -> Ideal:

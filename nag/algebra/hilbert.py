@@ -49,7 +49,9 @@ def _divides(f: Exponents, e: Exponents) -> bool:
 
 def _numerator(monomials: Sequence[Exponents]) -> list[int]:
     """Coefficients of the numerator over (1 - t)^n, by the exact sequence of a pivot."""
-    counts = [sum(1 for e in monomials if e[i]) for i in range(len(monomials[0]) if monomials else 0)]
+    counts = [
+        sum(1 for e in monomials if e[i]) for i in range(len(monomials[0]) if monomials else 0)
+    ]
     if any(sum(e) == 0 for e in monomials):
         return [0]
     if all(c <= 1 for c in counts):
@@ -66,9 +68,7 @@ def _numerator(monomials: Sequence[Exponents]) -> list[int]:
     power = min(e[pivot] for e in monomials if e[pivot])
     x = tuple(power if i == pivot else 0 for i in range(len(counts)))
     with_x = _numerator(_minimal([*monomials, x]))
-    quotients = [
-        tuple(max(a - b, 0) for a, b in zip(e, x, strict=True)) for e in monomials
-    ]
+    quotients = [tuple(max(a - b, 0) for a, b in zip(e, x, strict=True)) for e in monomials]
     by_x = _numerator(_minimal(quotients))
     series = [0] * max(len(with_x), len(by_x) + power)
     for i, c in enumerate(with_x):

@@ -121,9 +121,7 @@ class RationalFunction:
     def __pow__(self, exponent: int) -> RationalFunction:
         if exponent < 0:
             return self.inverse() ** -exponent
-        return RationalFunction(
-            self.field, self.numerator**exponent, self.denominator**exponent
-        )
+        return RationalFunction(self.field, self.numerator**exponent, self.denominator**exponent)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, RationalFunction | int | Fraction):

@@ -10,9 +10,9 @@ from nag.algebra.groebner import ideal
 from nag.algebra.rational_function import FunctionField
 from nag.check.identities import Residuals, identity, labelled
 from nag.check.loops import axis_equations, local
-from nag.check.rings import contains, euler_ring, intersect_in, unit
+from nag.check.rings import euler_ring, intersect_in, unit
 from nag.check.statement import Kind, Verdict, decided, fails, statement
-from nag.mechanism.axes import cross, difference, dot
+from nag.mechanism.axes import difference, dot
 from nag.mechanism.quaternion import norm_squared, rotate
 from nag.symbolic import bennett, bennett_geometry
 
@@ -98,7 +98,9 @@ def directions_of_link_3() -> Verdict:
     return _all_directions(bennett.along_link_3, 3)
 
 
-@statement("T25 (13)", "kappa_0 kappa_1 as printed is the sum of squares of b_0, b_1 times kappa_0^2")
+@statement(
+    "T25 (13)", "kappa_0 kappa_1 as printed is the sum of squares of b_0, b_1 times kappa_0^2"
+)
 def product_13() -> Verdict:
     """b_0^2 + b_1^2 = (1 + v^2_1)/2 for every solution; lemma 6.1 gives the two squares."""
 
@@ -136,9 +138,7 @@ def constraints(m: Any, a: Any, b: Any, c: Any, printed: bool = False) -> list[A
     r = bennett_geometry.abbreviations(m)["r"]
     joints = frames(m)
     columns = [E1, *(rotate(q, E1) for q in (a, b, c))]
-    loop = [
-        columns[0][i] + r * columns[1][i] + columns[2][i] + r * columns[3][i] for i in range(3)
-    ]
+    loop = [columns[0][i] + r * columns[1][i] + columns[2][i] + r * columns[3][i] for i in range(3)]
 
     def across(k: int, left: Any, left_init: Any, right: Any, right_init: Any) -> list[Any]:
         eta, xi, chi = joints[k]
@@ -217,9 +217,7 @@ def constraints_of_the_mechanism() -> Verdict:
     for k, pair, bodies, given in joints:
         moving = unit(*(q for q in bodies if q is not None))
         chi = bennett_geometry.axes(OWN)[k]
-        parts = [
-            ideal(ring, [*axis_equations(chi, bodies, given, s), *moving]) for s in (1, -1)
-        ]
+        parts = [ideal(ring, [*axis_equations(chi, bodies, given, s), *moving]) for s in (1, -1)]
         if not intersect_in(ideal(ring, [*pair, *moving]), parts):
             return decided(False, "", f"joint {k} has other components")
     return decided(

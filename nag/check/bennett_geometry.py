@@ -173,7 +173,9 @@ def _cosines(printed: bool) -> Any:
     return residuals
 
 
-@statement("T25 theorem 5.1", "the cosines of the angles, with the axes as lemma 5.3 has them", True)
+@statement(
+    "T25 theorem 5.1", "the cosines of the angles, with the axes as lemma 5.3 has them", True
+)
 def cosines() -> Verdict:
     return misprinted(M, _cosines(True), _cosines(False), OWN)
 

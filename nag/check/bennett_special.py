@@ -52,7 +52,7 @@ def _mechanism(printed: bool) -> Any:
     return formula
 
 
-@statement("T25 section 6, q_5 = 0", "q_5 = 0 is m_1 = 2 m_0/(m_0^2 - 1); then a_2 = 0")
+@statement("T25 section 6, case q_5 = 0", "q_5 = 0 is m_1 = 2 m_0/(m_0^2 - 1); then a_2 = 0")
 def parameter() -> Verdict:
     def formula(m0: Any, m2: Any) -> Residuals:
         m = (m0, bennett_special.first_parameter(m0), m2)
@@ -65,7 +65,11 @@ def parameter() -> Verdict:
     return decided(not kept, "identity in m0, m2", f"{kept} not 0")
 
 
-@statement("T25 section 6, q_5 = 0, second equation", "the three equations in a_0, a_3, c_0, c_2", True)
+@statement(
+    "T25 section 6, case q_5 = 0, second equation",
+    "the three equations in a_0, a_3, c_0, c_2",
+    True,
+)
 def equations() -> Verdict:
     """At (7/4, 1/3) the initial configuration is exact."""
     m0, m2 = Fraction(7, 4), Fraction(1, 3)
@@ -84,7 +88,9 @@ def equations() -> Verdict:
     )
 
 
-@statement("T25 section 6, q_5 = 0", "a_1, a_2, c_1, c_3, b_0 and b_1, and the parametrisation")
+@statement(
+    "T25 section 6, case q_5 = 0", "a_1, a_2, c_1, c_3, b_0 and b_1, and the parametrisation"
+)
 def linear_equations() -> Verdict:
     """All but b_2 and b_3, which are in the next statement."""
     kept = _at_the_point(_mechanism(False))
@@ -95,7 +101,9 @@ def linear_equations() -> Verdict:
     )
 
 
-@statement("T25 section 6, q_5 = 0, b_2 and b_3", "b_2 and b_3 in the essential variables", True)
+@statement(
+    "T25 section 6, case q_5 = 0, b_2 and b_3", "b_2 and b_3 in the essential variables", True
+)
 def last_entries() -> Verdict:
     m0, m2 = Fraction(7, 4), Fraction(1, 3)
     m = (m0, bennett_special.first_parameter(m0), m2)

@@ -56,7 +56,7 @@ def i_5(m: Parameters) -> Ideal:
     """I_5: with (19)."""
     v = _names(MEDIUM)
     b = bennett.essential_to_all(m, v["a0"], v["a2"], v["c0"], v["c2"])[1]
-    return i_4(m) + [(v["b2"] - b[2]).numerator, (v["b3"] - b[3]).numerator]
+    return i_4(m).enlarged([v["b2"] - b[2], v["b3"] - b[3]])
 
 
 def variety(m: Parameters) -> Ideal:
@@ -163,7 +163,7 @@ def _half(m: Parameters, sign: int) -> Ideal:
     v = _names(LARGE)
     t0, t1, *_ = bennett.coefficients(m)
     product = sign * v["a0"] * v["c0"]
-    return i_3(m) + [(v["b0"] - t0 * product).numerator, (v["b1"] - t1 * product).numerator]
+    return i_3(m).enlarged([v["b0"] - t0 * product, v["b1"] - t1 * product])
 
 
 @statement("T25 section 6", "I_3 is not prime: it is the intersection of I_{3,0} and I_{3,1}")
@@ -179,28 +179,28 @@ def two_halves() -> Verdict:
 def three_parts() -> Verdict:
     def test(m: Parameters) -> bool:
         v = _names(MEDIUM)
-        first, second = (i_4(m) + [v[x].numerator] for x in ("a0", "c0"))
+        first, second = (i_4(m).enlarged([v[x]]) for x in ("a0", "c0"))
         return intersection(intersection(i_5(m), first), second) == i_4(m)
 
     return _everywhere(test, "Groebner bases by FLINT")
 
 
-@statement("T25 section 6", "the bases of I_4 and I_5 have 20 and 15 elements; a_0 and c_0 are factors")
+@statement(
+    "T25 section 6", "the bases of I_4 and I_5 have 20 and 15 elements; a_0 and c_0 are factors"
+)
 def smaller_bases() -> Verdict:
     """hat g_0 = a_0 (..), hat g_1 = c_0 (..), hat g_2 = c_0 (..)."""
 
     def test(m: Parameters) -> bool:
         v, basis = _names(MEDIUM), i_4(m).basis
-        divided = [
-            sum(f % v[x].numerator == 0 for f in basis) for x in ("a0", "c0")
-        ]
+        divided = [sum(f % v[x].numerator == 0 for f in basis) for x in ("a0", "c0")]
         return (len(basis), len(i_5(m).basis)) == (20, 15) and divided[0] >= 1 and divided[1] >= 2
 
     return _everywhere(test, "Groebner bases by FLINT in degree order")
 
 
 def _points(m: Parameters, name: str) -> Ideal:
-    return i_4(m) + [_names(MEDIUM)[name].numerator]
+    return i_4(m).enlarged([_names(MEDIUM)[name]])
 
 
 @statement("T25 section 6", "V(I_{5,0}) and V(I_{5,1}) are 8 points each, by signs of a, b and c")
@@ -218,7 +218,7 @@ def isolated_points() -> Verdict:
                     return False
             # No point is its own image: no body has only zeros.
             bodies = [[v["a0"], v["a2"]], [v["b2"], v["b3"]], [v["c0"], v["c2"]]]
-            still = any(not (found + [x.numerator for x in b]).whole for b in bodies)
+            still = any(not found.enlarged(b).whole for b in bodies)
             if still or (found.dimension, found.degree) != (0, 8):
                 return False
         return True
@@ -294,10 +294,14 @@ def regular() -> Verdict:
 @statement("T25 section 6", "the parametrisation lies on V(I_benn)")
 def parametrisation() -> Verdict:
     kept = on_the_curve(lambda m, *x: labelled("g", bennett.variety(m, *x)))
-    return decided(not kept, "identity in m and cos t, with sin t and both roots adjoined", str(kept))
+    return decided(
+        not kept, "identity in m and cos t, with sin t and both roots adjoined", str(kept)
+    )
 
 
-@statement("T25 section 6", "V(I_benn) has two real components; the sign of c takes one to the other")
+@statement(
+    "T25 section 6", "V(I_benn) has two real components; the sign of c takes one to the other"
+)
 def two_real_components() -> Verdict:
     """g_0 is a circle; over it g_1 and g_3 give (c_0, c_2) up to a common sign, nowhere 0."""
 
@@ -337,7 +341,9 @@ def _initial(printed: bool) -> Any:
     return residuals
 
 
-@statement("T25 after (20)", "cos t = m1/n, sin t = -1/n, n^2 = m1^2 + 1 is the initial point", True)
+@statement(
+    "T25 after (20)", "cos t = m1/n, sin t = -1/n, n^2 = m1^2 + 1 is the initial point", True
+)
 def initial_point() -> Verdict:
     """Known at m1 = 3/4, where the root is rational."""
     at = (Fraction(2), Fraction(3, 4), Fraction(1, 3), Fraction(5, 4))

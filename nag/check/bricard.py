@@ -57,7 +57,9 @@ def constraints_of_joint_1() -> Verdict:
     return decided(true, "identity in a", "the polynomials differ")
 
 
-@statement("T25 section 4", "I_a is the intersection of I_{a,0} and I_{a,1}; a_init lies on the second")
+@statement(
+    "T25 section 4", "I_a is the intersection of I_{a,0} and I_{a,1}; a_init lies on the second"
+)
 def joint_1() -> Verdict:
     field, (a,) = euler_ring("a")
     whole = ideal(field, bricard.joint_1(a))
@@ -71,7 +73,9 @@ def joint_1() -> Verdict:
     )
 
 
-@statement("T25 section 4", "the constraints of joint J_2 are -<R(a)e^3, R(b)e^3> and -<R(a)e^1, R(b)e^3>")
+@statement(
+    "T25 section 4", "the constraints of joint J_2 are -<R(a)e^3, R(b)e^3> and -<R(a)e^1, R(b)e^3>"
+)
 def constraints_of_joint_2() -> Verdict:
     chi = local(B_INIT, bricard.AXES[2])
     eta, xi = local(A_INIT, E2), local(A_INIT, E3)
@@ -120,9 +124,7 @@ def component_of_joint_2() -> Verdict:
 def component_of_the_initial_values() -> Verdict:
     values = bricard.joint_2_component(A_INIT, B_INIT)
     other = revolute.component(bricard.joint_2_turned(A_INIT), B_INIT, 2)
-    return decided(
-        not any(values) and any(other), "exact numbers", f"values {values}"
-    )
+    return decided(not any(values) and any(other), "exact numbers", f"values {values}")
 
 
 @statement("T25 section 4", "the component of joint J_2 is that of the mechanism's equations")

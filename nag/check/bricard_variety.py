@@ -59,7 +59,7 @@ def equations_reduce() -> Verdict:
     )
 
 
-@statement("T25 section 4", "they generate <h_0, .., h_18>", True)
+@statement("T25 section 4, basis of I", "they generate <h_0, .., h_18>", True)
 def basis_of_the_mechanism() -> Verdict:
     """The equations do not change with the sign of b, and 2 b_0 - 1 does."""
     signs = (1, -1, 1, 1, 1)
@@ -141,7 +141,7 @@ def irreducible() -> Verdict:
     )
 
 
-@statement("PT13 5.5", "V(I) is V(I_17), and I is prime", True)
+@statement("PT13 5.5, basis of I", "V(I) is V(I_17), and I is prime", True)
 def prime_ideal_of_the_mechanism() -> Verdict:
     found = basis_of_the_mechanism.verdict()
     return Verdict(found.kind, found.how, found.counterexample)
@@ -192,7 +192,7 @@ def map_10() -> Verdict:
     bodies = bricard.essential_to_all(a0, a2, c2)
     whole = variety()
     true = contains(whole, bricard.basis(bodies)) and contains(whole, bricard_equations(bodies))
-    poles = (whole + [a0.numerator]).whole
+    poles = whole.enlarged([a0]).whole
     return decided(
         true and poles,
         "h_0 to h_18 and the mechanism's equations reduce to 0; a0 is never 0",
@@ -246,7 +246,9 @@ def triangle() -> Verdict:
             k, middle = (i + 2) % 6, i + 1
             side = difference(places[k], places[i])
             found[f"side {i}"] = dot(side, side) - 4
-            half = [2 * x - y - z for x, y, z in zip(places[middle], places[i], places[k], strict=True)]
+            half = [
+                2 * x - y - z for x, y, z in zip(places[middle], places[i], places[k], strict=True)
+            ]
             found |= labelled(f"middle {middle}", half)
         return found
 
@@ -259,7 +261,10 @@ def triangle() -> Verdict:
     )
 
 
-@statement("PT13 5.5", "the components of dimension 1 that the cube lies on do not meet those of dimension 2")
+@statement(
+    "PT13 5.5",
+    "the components of dimension 1 that the cube lies on do not meet those of dimension 2",
+)
 def dimensions_do_not_meet() -> Verdict:
     """A half turn of a link about itself reverses two neighbouring axes (condition H)."""
     even = ideal(RING, bricard_equations(BODIES))

@@ -99,14 +99,18 @@ def _graph(a: Any, b: Any, x: Any, z: Any, one: Any) -> tuple[list[Any], list[An
 
     base, first = circle(z), circle(x)
     third = circle(x * Fraction(a + b) / (b - a))
-    second = [(a * e - b * p + b * q) / a for e, p, q in zip((one, 0 * one), first, third, strict=True)]
+    second = [
+        (a * e - b * p + b * q) / a for e, p, q in zip((one, 0 * one), first, third, strict=True)
+    ]
     bars = [(one, 0 * one), first, second, third]
     c = [base[0] * p - base[1] * q for p, q in bars]
     s = [base[0] * q + base[1] * p for p, q in bars]
     return c, s
 
 
-@statement("PT13 5.3", "for a = b, J is the intersection of hat J_0, hat J_1 and hat J_2", True)
+@statement(
+    "PT13 5.3, hat J_1", "for a = b, J is the intersection of hat J_0, hat J_1, hat J_2", True
+)
 def three_components() -> Verdict:
     whole = ideal(RING, four_bar.four_bar(1, 1, C, S))
     printed = ideal(RING, four_bar.folded_1(C, S, printed=True))

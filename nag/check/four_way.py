@@ -103,8 +103,8 @@ def numerical(compared: Compared) -> Verdict:
     answer = compared.decomposition
     if not answer.complete:
         return Verdict(Kind.OPEN, "the decomposition is incomplete")
-    hits = [i for _, found, _ in compared.matches for i in found]
-    if sorted(hits) != list(range(len(compared.ideals))):
+    hits = [found for _, found, _ in compared.matches]
+    if sorted(hits) != [[i] for i in range(len(compared.ideals))]:
         text = f"{len(answer.components)} components found, on {hits} of the papers'"
         return Verdict(Kind.FAILS, "components do not match one to one", text)
     worst = max(r for _, _, r in compared.matches)
@@ -175,6 +175,4 @@ WAYS = (
 def four_ways(known: Known, decompose: Decompose) -> tuple[Statement, ...]:
     """The four statements about one system."""
     compared = Compared(known, decompose)
-    return tuple(
-        Statement(known.name, text, lambda way=way: way(compared)) for text, way in WAYS
-    )
+    return tuple(Statement(known.name, text, lambda way=way: way(compared)) for text, way in WAYS)

@@ -33,7 +33,7 @@ def certainly_irreducible(whole: Ideal, seed: int = 0) -> bool:
     lifted = [_lift(f, field) for f in whole.basis]
     cuts = [_linear(rng, x) for _ in range(whole.dimension - 1)]
     images = [s - _linear(rng, x), t - _linear(rng, x)]
-    curve = whole + [_restricted(f.numerator, whole.field) for f in cuts]
+    curve = whole.enlarged(_restricted(f.numerator, whole.field) for f in cuts)
     if (curve.dimension, curve.degree) != (1, whole.degree):
         return False
     found = ideal(field, [*lifted, *cuts, *images])

@@ -67,11 +67,13 @@ def revolute_12() -> Verdict:
     half = Fraction(1, 2)
     b = (half, -half, half, half)
     values = [*joints.revolute_12(ONE, b), norm_squared(b) - 1]
-    true = contains(found, [across(E1, E3), across(E3, E3), *difference(rotate(B, E3), rotate(A, E2))])
+    true = contains(
+        found, [across(E1, E3), across(E3, E3), *difference(rotate(B, E3), rotate(A, E2))]
+    )
     if any(values) or not true:
         return decided(False, "", "p_2 does not lie in the component")
     return fails(
-        "true is p_2 = <R(a) e^3, R(b) e^3>: (12) is the component R(b) e^3 = R(a) e^2, by division",
+        "true is p_2 = <R(a) e^3, R(b) e^3>: (12) is the part R(b) e^3 = R(a) e^2, by division",
         f"a = (1, 0, 0, 0), b = (1/2, -1/2, 1/2, 1/2) is a zero of (12), and p_2 is "
         f"{across(E2, E3, ONE, b)} there",
     )
@@ -126,7 +128,11 @@ def translation_without_turning() -> Verdict:
     return decided(not any(values), "identity in a", f"values {values}")
 
 
-@statement("PT13 5.4", "(13) and p_5 generate <p_a, b_0 - a_1, b_1 + a_0, b_2 + a_3, b_3 - a_2>", True)
+@statement(
+    "PT13 5.4, translational joint",
+    "(13) and p_5 generate <p_a, b_0 - a_1, b_1 + a_0, b_2 + a_3, b_3 - a_2>",
+    True,
+)
 def translational_joint() -> Verdict:
     found = ideal(RING, [*joints.cylindrical_13(A, B), across(E2, E3), *unit(A, B)])
     printed = ideal(RING, [*joints.translational(A, B), *unit(A)])

@@ -33,9 +33,7 @@ def loop(points: Sequence[Any], axes: Sequence[Any], frames: Sequence[Any]) -> M
 
 def bennett_mechanism(m: Sequence[Fraction]) -> Mechanism:
     """B_H with the points, axes and frames of T25 sections 5 and 6."""
-    return loop(
-        bennett_geometry.points(m), bennett_geometry.axes(m), bennett.orientations(m)
-    )
+    return loop(bennett_geometry.points(m), bennett_geometry.axes(m), bennett.orientations(m))
 
 
 def bricard_mechanism() -> Mechanism:

@@ -229,7 +229,7 @@ def degree_in_half_angles(system: PolynomialSystem, seed: int = 1) -> int:
     x = field.context.gens()[k:]
     cut = sum((c * y for c, y in zip(slopes, x, strict=False)), 0 * x[0]) + slopes[-1]
     curve = ideal(field, [*map(raised, system.polynomials), *inverted])
-    return (curve + [cut]).degree
+    return curve.enlarged([cut]).degree
 
 
 def reduction(compared: ComparedMechanism) -> Verdict:

@@ -150,9 +150,7 @@ def common_eigenvector() -> Verdict:
         eta, xi, _ = frame(p)
         first, second = _involutions(eta, xi)
         one = scalar(0 * eta[0] + 1, 4)
-        halves = [
-            [add(r, s) for r, s in zip(one, L, strict=True)] for L in (first, second)
-        ]
+        halves = [[add(r, s) for r, s in zip(one, L, strict=True)] for L in (first, second)]
         projection = [[x / 4 for x in row] for row in product(*halves)]
         return {
             **matrix("L_1^2 - I", product(first, first), one),
@@ -211,9 +209,7 @@ def turns_are_dependent() -> Verdict:
     def formula(*p: Any) -> Residuals:
         eta, xi, _ = frame(p)
         x, y = revolute.turns_to_frame(eta, xi)
-        return {
-            f"minor {i}, {j}": x[i] * y[j] - x[j] * y[i] for i in range(4) for j in range(i)
-        }
+        return {f"minor {i}, {j}": x[i] * y[j] - x[j] * y[i] for i in range(4) for j in range(i)}
 
     return identity(P, formula, FRAME)
 
@@ -224,15 +220,11 @@ def squared_lengths() -> Verdict:
         eta, xi, _ = frame(p)
         alphas = revolute.turns_to_frame(eta, xi)
         printed = revolute.squared_lengths(eta, xi)
-        found = {
-            f"|alpha^{j + 1}|^2": norm_squared(alphas[j]) - printed[j] for j in range(2)
-        }
+        found = {f"|alpha^{j + 1}|^2": norm_squared(alphas[j]) - printed[j] for j in range(2)}
         return {**found, "sum - 8 (1 - eta_1)": sum(printed) - 8 * (1 - eta[0])}
 
     found = identity(P, formula, FRAME)
-    return Verdict(
-        found.kind, f"{found.how}; they add up to 8 (1 - eta_1)", found.counterexample
-    )
+    return Verdict(found.kind, f"{found.how}; they add up to 8 (1 - eta_1)", found.counterexample)
 
 
 @statement("T25 corollary 3.1", "alpha = K(b)^T conj(a) takes one orthogonal pair to another")
@@ -253,7 +245,9 @@ def pairs_turn() -> Verdict:
     return identity("a0 a1 a2 a3 b0 b1 b2 b3", formula, at)
 
 
-@statement("T25 (9)", "u = K~(alpha)^T a/|alpha| = K(a)^T alpha/|alpha| has R(u) = R(a) R(alpha)/|alpha|^2")
+@statement(
+    "T25 (9)", "u = K~(alpha)^T a/|alpha| = K(a)^T alpha/|alpha| has R(u) = R(a) R(alpha)/|alpha|^2"
+)
 def change_of_frame() -> Verdict:
     def formula(*x: Any) -> Residuals:
         a, alpha = x[:4], x[4:]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from nag.algebra.groebner import Ideal
+from nag.algebra.groebner import Ideal, ideal
 from nag.algebra.rational_function import FunctionField, Order
 from nag.mechanism.quaternion import norm_squared
 
@@ -39,10 +39,9 @@ def intersect_in(big: Ideal, parts: Sequence[Ideal]) -> bool:
 
     Two by two without common zeros, their intersection is their product.
     """
-    for i, part in enumerate(parts):
-        if not part.contains(big.basis) or any(not (part + p).whole for p in parts[:i]):
+    total = parts[0]
+    for i, part in enumerate(parts[1:], 1):
+        if any(not (part + p).whole for p in parts[:i]):
             return False
-    products = [1]
-    for part in parts:
-        products = [f * g for f in products for g in part.generators]
-    return big.contains(products)
+        total = ideal(big.field, [f * g for f in total.basis for g in part.generators])
+    return total == big

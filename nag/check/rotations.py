@@ -12,9 +12,9 @@ from nag.check.matrices import apply, determinant, product, scalar, transpose
 from nag.check.statement import Verdict, decided, statement
 from nag.mechanism.axes import cross, difference, dot
 from nag.mechanism.quaternion import (
+    H,
     H_tilde,
     K,
-    H,
     K_tilde,
     R,
     add,
@@ -90,12 +90,18 @@ def products_of_rotations() -> Verdict:
     found = identity(TWO, formula, SMALL[:8])
     field = FunctionField(ONE, "degrevlex")
     a = field.variables
-    rows = [x - y for r, s in zip(R(a), scalar(field(1), 3), strict=True) for x, y in zip(r, s, strict=True)]
+    rows = [
+        x - y
+        for r, s in zip(R(a), scalar(field(1), 3), strict=True)
+        for x, y in zip(r, s, strict=True)
+    ]
     unit = ideal(field, [*rows, norm_squared(a) - 1])
     only = unit.contains([(a[0] ** 2 - 1).numerator, *((x**2).numerator for x in a[1:])])
     if not only:
         return decided(False, "", "R(a) = I has other solutions than a = +-1")
-    return Verdict(found.kind, f"{found.how}; R(a) = I, |a| = 1 only for a = +-1, by a Groebner basis")
+    return Verdict(
+        found.kind, f"{found.how}; R(a) = I, |a| = 1 only for a = +-1, by a Groebner basis"
+    )
 
 
 @statement("T25 (1)", "K~(a) K(a)^T has the blocks |a|^2 and R(a)")
@@ -138,9 +144,7 @@ def commutator() -> Verdict:
     def formula(*x: Any) -> Residuals:
         v, y, u, z = x[:3], x[3:6], x[6:9], x[9:]
         L, L0 = _L(v, y), product(transpose(K_tilde(_hat(u))), K(_hat(z)))
-        left = [
-            difference(r, s) for r, s in zip(product(L, L0), product(L0, L), strict=True)
-        ]
+        left = [difference(r, s) for r, s in zip(product(L, L0), product(L0, L), strict=True)]
         right = [
             add(scale(r, 2 * dot(u, v)), scale(s, 2 * dot(y, z)))
             for r, s in zip(K(_hat(cross(y, z))), K_tilde(_hat(cross(u, v))), strict=True)

@@ -98,7 +98,7 @@ def nine_components() -> Verdict:
     planes = all((p.dimension, p.degree) == (2, 4) for p in parts)
     return decided(
         distinct and planes and intersected(parts) == whole,
-        "Groebner bases by FLINT: nine pairs of circles, none in another; (9) is their intersection",
+        "Groebner bases by FLINT: nine pairs of circles, none in another, which intersect in (9)",
         "the pairs are not distinct",
     )
 
@@ -130,9 +130,7 @@ def six_components() -> Verdict:
     first = four_bar.rhombus(c[:4], s[:4])
     second = four_bar.rhombus(_second(c), _second(s))
     rest = [ideal(FIXED, [*f, *g]) for f, g in product(first, second)]
-    inside = all(
-        p.dimension == 1 or any(_lies_on(p, q) for q in curves) or p.whole for p in rest
-    )
+    inside = all(p.dimension == 1 or any(_lies_on(p, q) for q in curves) or p.whole for p in rest)
     return decided(
         len(curves) == 6 and conics and covered and inside,
         "nine pairs of components of the rhombi are six conics, by Groebner bases",

@@ -24,9 +24,7 @@ def _ring(order: Any = "degrevlex", more: str = "") -> tuple[FunctionField, Any,
 def _derivatives(field: FunctionField, f: Any) -> list[Any]:
     """By the six variables, as functions again."""
     one = field(1)
-    return [
-        type(one)(field, f.numerator.derivative(name), one.numerator) for name in NAMES.split()
-    ]
+    return [type(one)(field, f.numerator.derivative(name), one.numerator) for name in NAMES.split()]
 
 
 def singular(field: FunctionField, equations: list[Any]) -> Ideal:
@@ -51,7 +49,7 @@ def singular_points() -> Verdict:
     field, c, s, _ = _ring()
     found = singular(field, slider_crank.equations(slider_crank.LENGTHS, c, s))
     nilpotent = all(radical_contains(found, x) for x in c)
-    points = found + [x.numerator for x in c]
+    points = found.enlarged(c)
     wanted = ideal(field, [*c, s[1] + s[0], s[2] + s[0], s[0] ** 2 - 1])
     return decided(
         found.dimension == 0 and nilpotent and points == wanted and points.degree == 2,

@@ -60,9 +60,7 @@ SUBJECTS = {
     "joints": Subject("PT13 sections 3, 5.1, 5.4: joints", joints.STATEMENTS),
     "triangle": Subject("PT13 sections 2, 5.2: a graph, three bars", triangle.STATEMENTS),
     "four-bar": Subject("PT13 section 5.3: the four-bar", four_bar.STATEMENTS),
-    "rows": Subject(
-        "PT13 sections 5.3, 7.2: four-bars in a row", rows_of_four_bars.STATEMENTS
-    ),
+    "rows": Subject("PT13 sections 5.3, 7.2: four-bars in a row", rows_of_four_bars.STATEMENTS),
     "slider crank": Subject("PT13 section 7.2: the slider crank", slider_crank.STATEMENTS),
     "bricard": Subject(
         "T25 section 4, PT13 section 5.5: Bricard's mechanism",

@@ -89,9 +89,7 @@ def constants_are_positive() -> Verdict:
         L1, L2 = (y + z) / 2 / one, (x + z) / 2 / one
         alpha = triangle.constants(L1, L2)
         products = (x * z, y * z, y * (x + y + z))
-        return {
-            f"alpha_{i}": alpha[i] - products[i] / one**2 for i in range(3)
-        }
+        return {f"alpha_{i}": alpha[i] - products[i] / one**2 for i in range(3)}
 
     found = identity("x y z", formula, (Fraction(1), Fraction(2), Fraction(3)))
     how = f"{found.how}: products of what the triangle inequalities make positive"

@@ -49,9 +49,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     return lines, all(settled(*pair) for pair in pairs)
 
 
-def _sections(
-    case: Any, options: argparse.Namespace
-) -> list[tuple[str, tuple[Statement, ...]]]:
+def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:
     from nag.check.subjects import SUBJECTS, everything, recognised
     from nag.decomposition import decompose
 

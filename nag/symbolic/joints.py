@@ -46,7 +46,7 @@ def cylindrical_13(a: Quaternion, b: Quaternion) -> list[Any]:
 
 
 def translational(a: Quaternion, b: Quaternion) -> list[Any]:
-    """The generators printed for I_tra besides |a|^2 - 1: b is a turned by half a turn about e^1."""
+    """The generators printed for I_tra besides |a|^2 - 1: b is a after half a turn about e^1."""
     a0, a1, a2, a3 = a
     b0, b1, b2, b3 = b
     return [b0 - a1, b1 + a0, b2 + a3, b3 - a2]
