@@ -39,9 +39,10 @@ def intersect_in(big: Ideal, parts: Sequence[Ideal]) -> bool:
 
     Two by two without common zeros, their intersection is their product.
     """
-    total = parts[0]
-    for i, part in enumerate(parts[1:], 1):
-        if any(not (part + p).whole for p in parts[:i]):
+    for i, part in enumerate(parts):
+        if not part.contains(big.generators) or any(not (part + p).whole for p in parts[:i]):
             return False
-        total = ideal(big.field, [f * g for f in total.basis for g in part.generators])
-    return total == big
+    products = parts[0].generators
+    for part in parts[1:-1]:
+        products = ideal(big.field, [f * g for f in products for g in part.generators]).basis
+    return big.contains([f * g for f in products for g in parts[-1].generators])
