@@ -16,7 +16,7 @@ from nag.mechanism.quaternion import multiply, norm_squared, rotate
 from nag.symbolic import bennett, bennett_geometry, bennett_special, bricard, revolute
 
 OWN = exact("7/4", "5/6", "1/3")
-laws = settings(max_examples=25, derandomize=True, deadline=None)
+laws = settings(max_examples=25)
 
 
 @st.composite
