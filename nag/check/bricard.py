@@ -167,9 +167,12 @@ def count_of_equations() -> Verdict:
     """PT13 5.5 counts 37 with (12): 7 for each of 4 joints, 3 for each of 2, 3 for the loop."""
     bodies, joints = 5, 6
     first = bodies + 2 * joints + 3
+    components = len(bricard.joint_2_component(A, B)) + 2
+    counts = (first, 4 * bodies, 6 * components + 3, 4 * components + 2 * 3 + 3)
     return decided(
-        (first, 4 * bodies, 4 * 7 + 2 * 3 + 3) == (20, 20, 37),
-        "norms, two constraints a joint, the loop; with (12) instead 37, as PT13 5.5 says",
+        counts == (20, 20, 45, 37),
+        "norms, two constraints a joint, the loop; with (12) for all joints 45, with 3 for each "
+        "of the two on the ground 37, as PT13 5.5 says",
         f"{first} equations",
     )
 

@@ -7,12 +7,11 @@ from itertools import product
 from typing import Any
 
 from nag.algebra.groebner import Ideal, ideal
-from nag.algebra.rational_function import FunctionField, RationalFunction
+from nag.algebra.rational_function import FunctionField
 from nag.check.identities import Residuals, labelled, surviving
 from nag.check.irreducibility import certainly_irreducible
 from nag.check.loops import bricard_equations, bricard_mechanism, bricard_ring
-from nag.check.matrices import minors
-from nag.check.rings import contains
+from nag.check.rings import contains, smooth
 from nag.check.statement import Kind, Verdict, decided, fails, statement
 from nag.mechanism.axes import difference, dot
 from nag.mechanism.mobility import gruebler_kutzbach
@@ -32,18 +31,6 @@ def variety() -> Ideal:
 def component() -> Ideal:
     """The ideal of h_0 to h_18."""
     return ideal(RING, bricard.basis(BODIES))
-
-
-def derivatives(field: FunctionField, f: Any) -> list[RationalFunction]:
-    """Partial derivatives of a polynomial, by all variables."""
-    one = field(1).numerator
-    return [RationalFunction(field, f.numerator.derivative(x), one) for x in field.names]
-
-
-def smooth(field: FunctionField, generators: list[Any], codimension: int) -> bool:
-    """Whether the Jacobian has that rank at all common zeros."""
-    jacobian = [derivatives(field, f) for f in generators]
-    return ideal(field, [*generators, *minors(jacobian, codimension)]).whole
 
 
 def _signed(signs: tuple[int, ...]) -> list[tuple[Any, ...]]:

@@ -37,10 +37,12 @@ class Compared:
     Attributes:
         known: the papers' half.
         decompose: from a polynomial system to its numerical decomposition.
+        coordinates: from points of that to the papers' coordinates.
     """
 
     known: Known
     decompose: Decompose
+    coordinates: Callable[[np.ndarray], np.ndarray] = np.asarray
 
     @cached_property
     def field(self) -> FunctionField:
@@ -73,7 +75,8 @@ class Compared:
         """Each numerical component, the papers' components that vanish on it, largest residual."""
         found = []
         for component in self.decomposition.components:
-            residuals = [residual(part, component.points) for part in self.ideals]
+            points = self.coordinates(component.points)
+            residuals = [residual(part, points) for part in self.ideals]
             hits = [i for i, r in enumerate(residuals) if r < RESIDUAL]
             found.append((component, hits, min(residuals, default=1.0)))
         return found
@@ -172,7 +175,11 @@ WAYS = (
 )
 
 
-def four_ways(known: Known, decompose: Decompose) -> tuple[Statement, ...]:
+def four_ways(
+    known: Known,
+    decompose: Decompose,
+    coordinates: Callable[[np.ndarray], np.ndarray] = np.asarray,
+) -> tuple[Statement, ...]:
     """The four statements about one system."""
-    compared = Compared(known, decompose)
+    compared = Compared(known, decompose, coordinates)
     return tuple(Statement(known.name, text, lambda way=way: way(compared)) for text, way in WAYS)

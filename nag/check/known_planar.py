@@ -53,6 +53,11 @@ def four_bar_generators(which: str, a: Any, b: Any, c: Values, s: Values) -> lis
     return formula(c, s)
 
 
+def positive(p: Parameters) -> bool:
+    """Whether the sides are lengths."""
+    return all(x > 0 for x in p.values())
+
+
 def modes(a: Any, b: Any) -> tuple[str, ...]:
     """Names of a four-bar's components."""
     if a == b:

@@ -3,11 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
 from nag.check.identities import Root
 from nag.check.known import Known, PaperComponent, Parameters, Parametrisation, Values, circle
 from nag.symbolic import bennett, bricard, triangle
+from nag.symbolic.bennett_geometry import abbreviations
+
+
+def is_triangle(p: Parameters) -> bool:
+    """Whether 1, L1, L2 are sides of a triangle."""
+    L1, L2 = p["L1"], p["L2"]
+    return L1 > 0 and L2 > 0 and all(x > 0 for x in triangle.constants(L1, L2))
+
+
+def in_omega(m: Sequence[Any]) -> bool:
+    """Whether m lies in T25's Omega_0, and is rational."""
+    return all(isinstance(x, Fraction) and x for x in m) and m[2] not in (1, -1)
+
+
+def has_variety(p: Parameters) -> bool:
+    """Whether m lies in Omega_0 and q_5 is not 0."""
+    m = (p["m0"], p["m1"], p["m2"])
+    return in_omega(m) and abbreviations(m)["q5"] != 0
 
 
 def three_bars(p: Parameters) -> Known:

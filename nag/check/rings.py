@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from nag.algebra.groebner import Ideal, ideal
-from nag.algebra.rational_function import FunctionField, Order
+from nag.algebra.rational_function import FunctionField, Order, RationalFunction
+from nag.check.matrices import minors
 from nag.mechanism.quaternion import norm_squared
 
 
@@ -46,3 +47,15 @@ def intersect_in(big: Ideal, parts: Sequence[Ideal]) -> bool:
     for part in parts[1:-1]:
         products = ideal(big.field, [f * g for f in products for g in part.generators]).basis
     return big.contains([f * g for f in products for g in parts[-1].generators])
+
+
+def derivatives(field: FunctionField, f: Any, names: Sequence[str] = ()) -> list[Any]:
+    """Partial derivatives of a polynomial, by all variables or those of the given names."""
+    one = field(1).numerator
+    return [RationalFunction(field, f.numerator.derivative(x), one) for x in names or field.names]
+
+
+def smooth(field: FunctionField, generators: Sequence[Any], codimension: int) -> bool:
+    """Whether the Jacobian has that rank at all common zeros (T25 theorem 2.2)."""
+    jacobian = [derivatives(field, f) for f in generators]
+    return ideal(field, [*generators, *minors(jacobian, codimension)]).whole

@@ -8,7 +8,7 @@ from typing import Any
 from nag.algebra.groebner import Ideal, ideal
 from nag.algebra.rational_function import FunctionField
 from nag.check.matrices import minors
-from nag.check.rings import contains, radical_contains
+from nag.check.rings import contains, derivatives, radical_contains
 from nag.check.statement import Verdict, decided, statement
 from nag.symbolic import slider_crank
 
@@ -21,15 +21,9 @@ def _ring(order: Any = "degrevlex", more: str = "") -> tuple[FunctionField, Any,
     return field, (c1, c2, c3), (s1, s2, s3), rest
 
 
-def _derivatives(field: FunctionField, f: Any) -> list[Any]:
-    """By the six variables, as functions again."""
-    one = field(1)
-    return [type(one)(field, f.numerator.derivative(name), one.numerator) for name in NAMES.split()]
-
-
 def singular(field: FunctionField, equations: list[Any]) -> Ideal:
     """The equations and the 4-minors of their Jacobian."""
-    jacobian = [_derivatives(field, f) for f in equations]
+    jacobian = [derivatives(field, f, NAMES.split()) for f in equations]
     return ideal(field, [*equations, *minors(jacobian, 4)])
 
 
@@ -98,7 +92,7 @@ def lengths() -> Verdict:
     """Singular points have c = 0: the c times lengths are nilpotent. There s = +-1."""
     field, c, s, L = _ring("degrevlex", "L1 L2 L3")
     equations = slider_crank.equations(L, c, s)
-    jacobian = [_derivatives(field, f) for f in equations]
+    jacobian = [derivatives(field, f, NAMES.split()) for f in equations]
     rows = list(minors(jacobian, 4))
     # With c_i /= 0 the minors force the length L_i to be 0.
     forced = True

@@ -11,6 +11,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_function import FunctionField
 from nag.check import (
     bennett,
+    bennett_elimination,
     bennett_geometry,
     bennett_special,
     bennett_variety,
@@ -31,6 +32,7 @@ from nag.check import (
 from nag.check.four_way import Decompose, as_polynomial
 from nag.check.known import Known
 from nag.check.mechanisms import KnownMechanism
+from nag.check.planar_mechanism import equal_sides
 from nag.check.statement import Statement
 from nag.mechanism.axes import cross, dot, vanishes
 from nag.mechanism.graph import Mechanism
@@ -70,6 +72,7 @@ SUBJECTS = {
         "T25 sections 5, 6: Bennett's mechanism",
         bennett_geometry.STATEMENTS
         + bennett.STATEMENTS
+        + bennett_elimination.STATEMENTS
         + bennett_variety.STATEMENTS
         + bennett_special.STATEMENTS,
     ),
@@ -85,20 +88,35 @@ class SystemFamily:
         parameters: their names in a case.
         build: the system and its components at given parameters.
         examples: parameters at which ``nag check --all`` compares.
+        admissible: whether the papers allow the parameters.
     """
 
     subject: str
     parameters: tuple[str, ...]
     build: Callable[[Parameters], Known]
     examples: tuple[tuple[str, ...], ...] = ((),)
+    admissible: Callable[[Parameters], bool] = lambda given: True
 
 
+EQUAL, APART = ("1", "1"), ("2", "1")
 SYSTEMS = (
     SystemFamily("triangle", (), known_space.graph),
-    SystemFamily("triangle", ("L1", "L2"), known_space.three_bars, (("3/2", "5/4"),)),
-    SystemFamily("four-bar", ("a", "b"), known_planar.free_four_bar, (("2", "1"), ("1", "1"))),
-    SystemFamily("four-bar", ("a", "b"), known_planar.fixed_four_bar, (("2", "1"), ("1", "1"))),
-    SystemFamily("rows", ("a", "b"), known_planar.two_four_bars, (("3", "5/2"), ("1", "1"))),
+    SystemFamily(
+        "triangle",
+        ("L1", "L2"),
+        known_space.three_bars,
+        (("3/2", "5/4"),),
+        known_space.is_triangle,
+    ),
+    SystemFamily(
+        "four-bar", ("a", "b"), known_planar.free_four_bar, (APART, EQUAL), known_planar.positive
+    ),
+    SystemFamily(
+        "four-bar", ("a", "b"), known_planar.fixed_four_bar, (APART, EQUAL), known_planar.positive
+    ),
+    SystemFamily(
+        "rows", ("a", "b"), known_planar.two_four_bars, (("3", "5/2"), EQUAL), known_planar.positive
+    ),
     SystemFamily("rows", (), known_planar.gonzalez),
     SystemFamily("slider crank", (), known_planar.slider),
     SystemFamily("bricard", (), known_space.bricards_variety),
@@ -107,8 +125,11 @@ SYSTEMS = (
         ("m0", "m1", "m2"),
         known_space.bennetts_variety,
         (("7/4", "5/6", "1/3"),),
+        known_space.has_variety,
     ),
 )
+# Subjects that have cases.
+WITH_CASES = tuple(key for key in SUBJECTS if any(family.subject == key for family in SYSTEMS))
 # Parameters of Bennett's mechanism: T25's own, others outside Omega, and q5 = 0.
 BENNETT = (("7/4", "5/6", "1/3"), ("-3/2", "-2/5", "7/3"), ("7/4", "56/33", "1/3"))
 
@@ -163,26 +184,31 @@ def recognised(case: Case, decompose: Decompose) -> Recognised | None:
         for subject, known in _mechanisms(case):
             if same_mechanism(case.mechanism, known.mechanism):
                 return Recognised(SUBJECTS[subject], mechanisms.four_ways(known, decompose))
-        return None
+        return _planar(case.mechanism, decompose)
     for family in SYSTEMS:
         given = {k: case.parameters[k] for k in family.parameters if k in case.parameters}
         exact = all(isinstance(x, Fraction) for x in given.values())
-        if len(given) < len(family.parameters) or not exact:
+        if len(given) < len(family.parameters) or not exact or not family.admissible(given):
             continue
-        try:
-            known = _named(family, given)
-            if _same_system(case, known):
-                ways = four_way.four_ways(known, decompose)
-                return Recognised(SUBJECTS[family.subject], ways)
-        except ZeroDivisionError:
-            continue
+        known = _named(family, given)
+        if _same_system(case, known):
+            return Recognised(SUBJECTS[family.subject], four_way.four_ways(known, decompose))
     return None
+
+
+def _planar(mechanism: Mechanism, decompose: Decompose) -> Recognised | None:
+    found = equal_sides(mechanism)
+    if found is None:
+        return None
+    known = known_planar.fixed_four_bar(dict(zip("ab", found.sides, strict=True)))
+    ways = four_way.four_ways(known, lambda _: decompose(found.model.system), found.coordinates)
+    return Recognised(SUBJECTS["four-bar"], ways)
 
 
 def _mechanisms(case: Case) -> Sequence[tuple[str, KnownMechanism]]:
     found = [("bricard", mechanisms.known_bricard())]
     m = [case.parameters.get(k) for k in ("m0", "m1", "m2")]
-    if all(isinstance(x, Fraction) and x for x in m) and m[2] not in (1, -1):
+    if known_space.in_omega(m):
         found.append(("bennett", mechanisms.known_bennett(tuple(m))))
     return found
 

@@ -50,7 +50,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
 
 def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:
-    from nag.check.subjects import SUBJECTS, everything, recognised
+    from nag.check.subjects import WITH_CASES, everything, recognised
     from nag.decomposition import decompose
 
     def decomposed(system: Any) -> Any:
@@ -62,10 +62,9 @@ def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[S
         return everything(decomposed)
     found = recognised(case, decomposed)
     if found is None:
-        titles = "; ".join(subject.title for subject in SUBJECTS.values())
         raise UsageError(
-            f"{options.case}: the papers give no components of it; use nag check --all, or a "
-            f"case of: {titles}"
+            f"{options.case}: the papers give no components of it; "
+            f"they do of {', '.join(WITH_CASES)} (nag check --all)"
         )
     return [
         (found.subject.title, found.subject.statements),
