@@ -167,7 +167,8 @@ def _cosines(printed: bool) -> Any:
         chi, (first, second) = b.axes(m, printed), b.cosines(m)
         found = [dot(chi[i], chi[(i + 1) % 4]) for i in range(4)]
         return {
-            f"<chi^{i}, chi^{(i + 1) % 4}>": found[i] - (first, second)[i % 2] for i in range(4)
+            f"<chi^{i}, chi^{(i + 1) % 4}> - cos(phi_{i})": found[i] - (first, second)[i % 2]
+            for i in range(4)
         }
 
     return residuals
