@@ -17,6 +17,7 @@ from types import ModuleType
 import nag
 from nag.cli import (
     bench,
+    check,
     decompose,
     intersect,
     local,
@@ -87,6 +88,14 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         "find the isolated solutions of a case",
         "Find all isolated solutions of a polynomial system, with multiplicities, by tracking "
         "paths from a solved system.",
+    ),
+    (
+        "check",
+        check,
+        "test the statements of the founding papers, on a case or all",
+        "Test what the founding papers state, one by one: exactly where exact algebra decides, "
+        "else numerically, with a counterexample where a statement fails; and compare the "
+        "decomposition of a case with the papers' prime components.",
     ),
     (
         "bench",
