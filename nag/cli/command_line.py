@@ -19,6 +19,7 @@ from nag.cli import (
     bench,
     check,
     decompose,
+    eliminate,
     intersect,
     local,
     member,
@@ -81,6 +82,14 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         intersect,
         "find the intersection of two components",
         f"Find the intersection of two components. {FROM_COMPONENTS}",
+    ),
+    (
+        "eliminate",
+        eliminate,
+        "find exact equations of a component in some variables",
+        "Find the exact equations that a component's points satisfy in some of the variables, and "
+        "the maps from there to the other variables, by interpolation; prove them where possible. "
+        f"{FROM_COMPONENTS}",
     ),
     (
         "solve",
