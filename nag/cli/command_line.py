@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from types import ModuleType
 
 import nag
-from nag.cli import bench, decompose, intersect, member, model, sample, solve
+from nag.cli import bench, certify, decompose, intersect, member, model, sample, solve
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 
 FROM_COMPONENTS = (
@@ -56,6 +56,13 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         "find the isolated solutions of a case",
         "Find all isolated solutions of a polynomial system, with multiplicities, by tracking "
         "paths from a solved system.",
+    ),
+    (
+        "certify",
+        certify,
+        "prove the points of an export",
+        "Prove that there is exactly one zero in a box about each solution of `nag solve --json`, "
+        "or witness point of `nag decompose --json`, that they are distinct, and which are real.",
     ),
     (
         "bench",

@@ -14,6 +14,7 @@ from nag.cli.arguments import (
     read_problem,
     whole,
 )
+from nag.cli.certify import add_certify, certified
 
 MOST_STARTS = 10**6
 
@@ -26,6 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag decompose``."""
     add_case(parser)
     add_running(parser)
+    add_certify(parser)
     parser.add_argument(
         "--expand",
         action="store_true",
@@ -99,6 +101,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.files.problem import origin
     from nag.files.written_file import TargetError
     from nag.report.answer import answer_lines
+    from nag.report.table import labelled
 
     decomposition = accounted(decomposition, points)
     failure = None
@@ -111,4 +114,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     lines = answer_lines(decomposition, case, model, points, seconds)
     if failure is not None:
         raise UsageError(failure, lines)
-    return lines, decomposition.complete
+    if not arguments.certify:
+        return lines, decomposition.complete
+    certificate, rows = certified(decomposition)
+    return [*lines, "", *labelled(rows)], decomposition.complete and certificate.all_proved
