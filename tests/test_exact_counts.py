@@ -10,14 +10,15 @@ import pytest
 
 flint = pytest.importorskip("flint")
 
-from exact_counts import ZeroSet, zero_set  # noqa: E402
-from families_of_curves import FAMILIES as CURVES  # noqa: E402
-from families_of_points import FAMILIES as POINTS  # noqa: E402
+from exact_counts import zero_set  # noqa: E402
 from random_small import DEGENERATIONS, small_system  # noqa: E402
 from singular_counts import standard_zero_set  # noqa: E402
 
 from nag.algebra.expression import parse_polynomial  # noqa: E402
 from nag.algebra.system import PolynomialSystem  # noqa: E402
+from nag.bench.atlas.curves import FAMILIES as CURVES  # noqa: E402
+from nag.bench.atlas.points import FAMILIES as POINTS  # noqa: E402
+from nag.bench.zero_set import ZeroSet  # noqa: E402
 
 needs_singular = pytest.mark.skipif(
     shutil.which("Singular") is None, reason="Singular is not installed"

@@ -7,15 +7,16 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import reduce
 from itertools import product
+from math import comb
 from operator import mul
 from typing import Any
 
 import numpy as np
-from exact_counts import RATIONAL, Components
-from families_of_points import Problem, plain
-from general_position import hidden
 
 from nag.algebra.polynomial import Polynomial
+from nag.bench.atlas.general_position import hidden
+from nag.bench.atlas.points import Problem, plain
+from nag.bench.zero_set import Components
 
 ONLY = ("decompose",)
 
@@ -36,9 +37,12 @@ def _small(k: int) -> Fraction:
 
 def circle_power(k: int, rng: np.random.Generator) -> Problem:
     """(x^2 + y^2 - 1)^k."""
-    x, y = RATIONAL.gens()
-    expanded = ((x**2 + y**2 - 1) ** k).to_dict()
-    terms = {(int(i), int(j)): Fraction(int(c.p)) for (i, j), c in expanded.items()}
+    # Powers by repeated multiplication, as `Polynomial` makes them, would take long.
+    terms = {
+        (2 * i, 2 * j): Fraction((-1) ** (k - i - j) * comb(k, i) * comb(k - i, j))
+        for i in range(k + 1)
+        for j in range(k + 1 - i)
+    }
     circle = Polynomial(2, terms)
     return Problem(plain(circle), Counter({(1, 2, k): 1}), ONLY)
 

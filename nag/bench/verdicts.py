@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from exact_counts import Components, ZeroSet
-from timed_runs import Run
-
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.bench.timed_runs import Run
+from nag.bench.zero_set import Components, ZeroSet
 from nag.decomposition import decompose
 from nag.solving.solve import solve
 

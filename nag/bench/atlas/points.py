@@ -11,13 +11,13 @@ from operator import mul
 from typing import Any
 
 import numpy as np
-from exact_counts import Components
-from general_position import NAMES, hidden, mixed
-from verdicts import METHODS
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas.general_position import NAMES, hidden, mixed
+from nag.bench.verdicts import METHODS
+from nag.bench.zero_set import Components
 
 
 @dataclass(frozen=True)
