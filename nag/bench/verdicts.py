@@ -50,7 +50,7 @@ def answered(
 
 def agrees(answer: Answer, truth: ZeroSet) -> bool:
     """Whether the answer is the truth, as far as its method looks for it."""
-    if answer.method == "solve":
+    if answer.method == "solve" and truth.dimension is None:
         return ZeroSet.of(answer.components).points == truth.points
     return truth.agrees(answer.components)
 
@@ -82,6 +82,8 @@ def known(truth: ZeroSet | None, method: str) -> str:
     """What should have been found, in words."""
     if truth is None:
         return "not known"
+    if truth.dimension is not None:
+        return f"of dimension {truth.dimension}"
     if method == "decompose" and truth.components is not None:
         return in_words(truth.components)
     text = in_words(Counter({(0, 1, k): count for k, count in truth.points.items()}))

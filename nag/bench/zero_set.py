@@ -18,11 +18,13 @@ class ZeroSet:
         degrees: by dimension, above 0, and multiplicity, the sum of the components' degrees.
         components: all components, isolated zeros included, or None where only the sums of their
             degrees are known.
+        dimension: where it is not None, nothing but the dimension is known; -1 for the empty set.
     """
 
     points: Counter[int] = field(default_factory=Counter)
     degrees: Counter[tuple[int, int]] = field(default_factory=Counter)
     components: Components | None = None
+    dimension: int | None = None
 
     @classmethod
     def of(cls, components: Components) -> ZeroSet:
@@ -38,6 +40,8 @@ class ZeroSet:
 
     def agrees(self, components: Components) -> bool:
         """Whether these are the components, as far as is known here."""
+        if self.dimension is not None:
+            return self.dimension == max((key[0] for key in components), default=-1)
         if self.components is not None:
             return self.components == components
         found = ZeroSet.of(components)

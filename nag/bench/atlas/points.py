@@ -17,17 +17,29 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.general_position import NAMES, hidden, mixed
 from nag.bench.verdicts import METHODS
-from nag.bench.zero_set import Components
+from nag.bench.zero_set import Components, ZeroSet
 
 
 @dataclass(frozen=True)
 class Problem:
-    """A system and all components of its zero set."""
+    """A system and all components of its zero set.
+
+    Attributes:
+        dimension: of the zero set, where nothing else is known of it.
+    """
 
     system: PolynomialSystem
     truth: Components
     methods: tuple[str, ...] = METHODS
     symmetries: tuple[SignedPermutation, ...] = ()
+    dimension: int | None = None
+
+    @property
+    def zero_set(self) -> ZeroSet:
+        """The zero set, as far as it is known."""
+        if self.dimension is not None:
+            return ZeroSet(dimension=self.dimension)
+        return ZeroSet.of(self.truth)
 
 
 def points(*numbers: tuple[int, int]) -> Components:
