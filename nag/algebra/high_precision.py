@@ -61,27 +61,26 @@ def vanish_at(equations: Sequence[Polynomial], point: Sequence[tuple[str, str]])
         return all(_relative(f, z[: f.n]) < vanishing for f in equations)
 
 
-def vanish(
-    equations: Sequence[Polynomial],
+def zero_near(
     square: Sequence[Polynomial],
     slices: np.ndarray,
     jacobian: np.ndarray,
     z: np.ndarray,
-) -> bool | None:
-    """Whether equations vanish at the zero of a square system near a point.
-
-    The zero is computed to `DIGITS` digits by Newton's method with the Jacobian at ``z``.
+    digits: int,
+) -> tuple[list[Any], float] | None:
+    """The zero of a square system near a point, by Newton's method with the Jacobian there.
 
     Args:
-        equations: in the first of the ``N`` variables.
         square: polynomials in ``N`` variables.
         slices: rows on ``(1, z)``, shape ``(N - len(square), 1 + N)``.
         jacobian: of ``square``, each divided by its largest coefficient, at ``z``, shape
             ``(len(square), N)``.
         z: shape ``(N,)``.
+        digits: of the numbers computed with.
 
     Returns:
-        None if there is no such zero near ``z``.
+        The coordinates in FLINT's ``acb`` without radii, and their estimated error; None if there
+        is no such zero near ``z``.
     """
     scales = [max(abs(float(c)) for c in f.terms.values()) for f in square]
     try:
@@ -91,10 +90,13 @@ def vanish(
     import flint
     from flint import acb, arb
 
-    with flint.ctx.workdps(DIGITS):
+    with flint.ctx.workdps(digits):
         point = [acb(complex(x)) for x in z]
         rows = [[acb(complex(c)) for c in row] for row in slices]
-        small = arb(10) ** (12 - DIGITS)
+        # Values are rounded beside the largest of their terms.
+        sizes = [float(abs(x)) for x in z]
+        terms = [f(sizes, lambda c: abs(float(c))) / k for f, k in zip(square, scales, strict=True)]
+        small = arb(10) ** (12 - digits) * arb(max([1.0, *terms]))
         last = None
         for _ in range(NEWTON_STEPS):
             values = [
@@ -116,5 +118,31 @@ def vanish(
         moved = max((float(abs(x - complex(y))) for x, y in zip(point, z, strict=True)), default=0)
         if moved > NEAR * (1 + float(np.linalg.norm(z))):
             return None
-        vanishing = arb(VANISHES)
-        return all(_relative(f, point[: f.n]) < vanishing for f in equations)
+        return point, float(size) * float(np.abs(inverse).sum(axis=1).max(initial=0.0))
+
+
+def vanish(
+    equations: Sequence[Polynomial],
+    square: Sequence[Polynomial],
+    slices: np.ndarray,
+    jacobian: np.ndarray,
+    z: np.ndarray,
+) -> bool | None:
+    """Whether equations vanish at the zero of a square system near a point.
+
+    The zero is computed to `DIGITS` digits; see `zero_near` for the other arguments.
+
+    Args:
+        equations: in the first of the ``N`` variables.
+
+    Returns:
+        None if there is no such zero near ``z``.
+    """
+    import flint
+
+    with flint.ctx.workdps(DIGITS):
+        found = zero_near(square, slices, jacobian, z, DIGITS)
+        if found is None:
+            return None
+        vanishing = flint.arb(VANISHES)
+        return all(_relative(f, found[0][: f.n]) < vanishing for f in equations)

@@ -356,3 +356,14 @@ def number_text(value: Number) -> str:
         left, right = (f"({t})" if "/" in t or t.startswith("-") else t for t in texts)
         return f"({left}{value.operation}{right})"
     return f"{value.operation}({texts[0]})"
+
+
+def decimal_digits(c: Number) -> int:
+    """Decimal digits of a rational number's numerator or denominator, whichever has more.
+
+    0 for numbers that are not rational.
+    """
+    if isinstance(c, int | Fraction):
+        c = Fraction(c)
+        return len(str(max(abs(c.numerator), c.denominator)))
+    return 0

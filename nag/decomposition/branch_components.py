@@ -63,7 +63,10 @@ class _Component:
         if (Evaluator.of([f], f.n).residuals(self.witness.points) > NONZERO).any():
             return False
         elimination = eliminate_linear(self.system, graphs=False)
-        if follows(f.compose(elimination.images), elimination):
+        image = f.compose(elimination.images)
+        if not elimination.system.polynomials and f.exact:
+            return not image
+        if follows(image, elimination):
             return True
         try:
             fibre = component_fibres(self.system, self.witness)[0]

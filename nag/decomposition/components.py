@@ -8,48 +8,23 @@ from dataclasses import replace
 import numpy as np
 
 from nag.algebra.absolute_factors import is_absolutely_irreducible
-from nag.algebra.elimination import eliminate_linear
-from nag.algebra.evaluation import Evaluator
-from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition.assembly import assembled
 from nag.decomposition.branch_components import decompose_apart
-from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.hypersurface import NEARER
-from nag.decomposition.irreducible import Class
 from nag.decomposition.isolated import contains, isolated_superset
-from nag.decomposition.orbits import Action, Orbit, irreducible_orbits
+from nag.decomposition.orbits import Action
+from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
-from nag.numerics.scaling import scaled_terms, variable_scales
-from nag.witness.cutting import Equations
 from nag.witness.fibres import Tracker
-from nag.witness.frame import Frame
+from nag.witness.points import Points
 from nag.witness.slices import random_rows
-from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
+from nag.witness.witness import Decomposition, Status
 
 # An answer that is left open is tried again with other random numbers, if that is not too long.
 ATTEMPTS = 3
 MOST_PATHS = 20_000
-# Coefficients of comparable size are left as they are: scales below this factor bring nothing.
-LEAST_SCALE = 8
-
-
-def scaled_system(system: PolynomialSystem) -> tuple[PolynomialSystem, np.ndarray]:
-    """The system in coordinates that make its coefficients comparable, and their scales.
-
-    Scales are powers of two, so that nothing is rounded; they are one where little is gained.
-    """
-    powers = variable_scales(system.polynomials, system.n)
-    if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
-        return system, np.ones(system.n)
-    nonzero = [scaled_terms(f, powers) for f in system.nonzero]
-    polynomials = [scaled_terms(f, powers) for f in system.polynomials]
-    scaled = replace(
-        system,
-        polynomials=tuple(Polynomial(system.n, terms) for terms in polynomials),
-        nonzero=tuple(Polynomial(system.n, terms) for terms in nonzero),
-    )
-    return scaled, 2.0**powers
 
 
 def decompose(
@@ -141,14 +116,8 @@ def _decompose_once(
     isolated: bool = False,
 ) -> Decomposition:
     """One attempt; ``isolated``: at a finite set of simple points, all found at once."""
-    elimination = eliminate_linear(system, graphs=False)
-    reduced, frame = elimination.system, Frame.of(elimination)
-    if not symmetries:
-        reduced, scales = scaled_system(reduced)
-        frame = frame.scaled(scales)
-    actions = [
-        Action.of(g, frame.T, frame.t, frame.positions) for g in symmetries if not g.is_identity
-    ]
+    reduction = Reduction.of(system, scaled=True)
+    reduced = reduction.reduced
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
     flag = random_rows(rng, reduced.n, reduced.n, NEARER)
@@ -158,54 +127,26 @@ def _decompose_once(
         superset = witness_superset(
             equations, reduced.n, reduced.nonzero, flag, rng, tracker, progress
         )
-    counts, notes = superset.counts, list(superset.notes)
+    notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-    all_reduced = Equations(reduced.polynomials, reduced.n)
-    all_original = Evaluator.of(system.polynomials, system.n)
-    irreducible = len(equations) == 1 and is_absolutely_irreducible(equations[0], rng)
-    components: list[WitnessSet] = []
-    for d in sorted(superset.fibres, reverse=True):
-        fibres, rows = superset.fibres[d], superset.flag[:d]
-        if not fibres:
-            continue
-        if progress is not None:
-            progress("splitting", len(components), 0)
-        if irreducible:
-            # What is proved exactly needs no loops and no trace.
-            orbits = [Orbit(Class(np.arange(sum(map(len, fibres)))))]
-            spent, doubts = PathCounts(), ()
-        else:
-            orbits, spent, doubts = irreducible_orbits(fibres, rows, actions, rng, tracker)
-        counts += spent
-        notes += [f"dimension {d}: {doubt}" for doubt in doubts]
-        sets = []
-        for orbit in orbits:
-            component, spent = checked_witness_set(
-                orbit.representative,
-                fibres,
-                rows,
-                all_reduced,
-                all_original,
-                frame,
-                system.groups,
-                rng,
-                tracker,
-                scheme,
-            )
-            counts += spent
-            size = 1 + len(orbit.carriers)
-            sets.append(replace(component, orbit=size, images=orbit.carriers))
-        sets.sort(key=lambda c: c.degree)
-        components.extend(sets)
-    undecided = any(c.status is Status.UNDECIDED for c in components)
+    found = assembled(
+        {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()},
+        reduction,
+        rng,
+        tracker,
+        actions=[Action.of(g, reduction.frame) for g in symmetries if not g.is_identity],
+        one=len(equations) == 1 and is_absolutely_irreducible(equations[0], rng),
+        scheme=scheme,
+        progress=progress,
+    )
     return Decomposition(
         system=system,
-        components=tuple(components),
-        paths=counts,
+        components=found.components,
+        paths=superset.counts + found.counts,
         seed=0,
         settings=tracker.settings,
         order=tuple(order),
-        complete=not (undecided or notes),
-        notes=tuple(notes),
+        complete=found.complete and not notes,
+        notes=(*notes, *found.notes),
     )

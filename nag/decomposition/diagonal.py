@@ -15,34 +15,18 @@ from fractions import Fraction
 
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.hypersurface import intersect
+from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Progress, forbidden
 from nag.numerics.coincidence import clusters
-from nag.witness.cutting import NEAR, Cut, Equations, regular_on, sharpen
+from nag.witness.cutting import NEAR, Cut, regular_on, sharpen
 from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
-from nag.witness.frame import Frame
 from nag.witness.membership import HIT, MISS, Membership, is_member
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
-
-
-@dataclass(frozen=True, eq=False)
-class Common:
-    """Coordinates of the space that two components share, and equations of their intersection.
-
-    Attributes:
-        kept: the original variable that each coordinate is.
-        nonzero: polynomials that must not vanish.
-    """
-
-    equations: Equations
-    frame: Frame
-    kept: list[int]
-    nonzero: Evaluator
 
 
 @dataclass(eq=False)
@@ -76,7 +60,7 @@ class _Product:
     def differences(self, rng: np.random.Generator) -> list[Polynomial]:
         """Random combinations of the equations that say that the factors' points are equal."""
         n, split = self.n, self.first.n
-        pairs = zip(self.first.images, self.second.images, strict=True)
+        pairs = zip(self.first.reduction.images, self.second.reduction.images, strict=True)
         plain = [
             f.with_variables(n, range(split)) - g.with_variables(n, range(split, n))
             for f, g in pairs
@@ -104,16 +88,16 @@ class _Product:
     def gaps(self, z: np.ndarray) -> np.ndarray:
         """Distances of points from the diagonal, relative to their size."""
         split = self.first.n
-        x = self.first.frame.points(z[:, :split])
-        y = self.second.frame.points(z[:, split : self.n])
+        x = self.first.reduction.frame.points(z[:, :split])
+        y = self.second.reduction.frame.points(z[:, split : self.n])
         return np.linalg.norm(x - y, axis=1) / (1 + np.linalg.norm(x, axis=1))
 
-    def common_rows(self, rows: np.ndarray, common: Common) -> np.ndarray:
+    def common_rows(self, rows: np.ndarray, common: Reduction) -> np.ndarray:
         """What a slice of the product is on the diagonal, in the shared coordinates."""
         A = np.zeros((len(rows), len(common.frame.t)), dtype=complex)
         split = self.first.n
-        A[:, self.first.kept] += rows[:, 1 : 1 + split]
-        A[:, self.second.kept] += rows[:, 1 + split :]
+        A[:, self.first.reduction.kept] += rows[:, 1 : 1 + split]
+        A[:, self.second.reduction.kept] += rows[:, 1 + split :]
         return orthonormal_rows(common.frame.pulled_back(A, -rows[:, 0]))
 
 
@@ -135,7 +119,7 @@ def _pairs(first: Fibre, second: Fibre) -> Fibre:
 def meeting(
     first: Factor,
     second: Factor,
-    common: Common,
+    common: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
     progress: Progress | None = None,
@@ -215,13 +199,13 @@ def _take(
     d: int,
     flag: np.ndarray,
     product: _Product,
-    common: Common,
+    common: Reduction,
     result: Meeting,
     rng: np.random.Generator,
     tracker: Tracker,
 ) -> None:
     """Add ends of dimension ``d`` on the diagonal to a meeting, unless larger sets hold them."""
-    x = product.first.frame.points(z[:, : product.first.n])[:, common.kept]
+    x = product.first.reduction.frame.points(z[:, : product.first.n])[:, common.kept]
     allowed = ~forbidden(common.nonzero, x, accuracy)
     x, accuracy = x[allowed], accuracy[allowed]
     if not len(x):

@@ -12,21 +12,19 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from nag.algebra.elimination import eliminate_linear
-from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.final_checks import checked_witness_set
-from nag.decomposition.irreducible import Class
-from nag.decomposition.monodromy import carried
-from nag.decomposition.pool import MOST_LOOPS, Pool, completed
+from nag.decomposition.reduction import Reduction
+from nag.decomposition.splitting import split
 from nag.decomposition.superset import Progress, forbidden
 from nag.decomposition.symmetric_images import in_orbits
+from nag.decomposition.trace import digits_of_evidence
 from nag.witness.cutting import NEARLY_SINGULAR, ON, Cut, Equations
-from nag.witness.fibres import Fibre, Tracker, admit
-from nag.witness.frame import Frame
+from nag.witness.fibres import Fibre, Tracker, admit, carried
 from nag.witness.gauss_newton import CLOSE, descend, polish
 from nag.witness.membership import Membership, is_member
+from nag.witness.points import Points
 from nag.witness.slices import complex_normal, random_rows, rows_through, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
@@ -36,7 +34,6 @@ ATTEMPTS = 3
 DEEP = 1e-14
 # Points that no deflation made regular, after which no more are tried: each costs seconds.
 MOST_REFUSALS = 3
-UNFINISHED = f"its trace is not linear after {MOST_LOOPS} loops: points are missing"
 
 
 def _local(
@@ -44,7 +41,7 @@ def _local(
     dimensions: Iterable[int],
     accuracy: float,
     deflate: bool,
-    pools: Mapping[int, Pool],
+    pools: Mapping[int, Points],
     equations: Equations,
     rng: np.random.Generator,
 ) -> tuple[Fibre, np.ndarray] | None:
@@ -103,19 +100,18 @@ def by_sampling(
         check_symmetry(system, symmetry)
     rng = np.random.default_rng([seed, 7])
     tracker = Tracker(settings, threads)
-    elimination = eliminate_linear(system, graphs=False)
-    reduced, frame = elimination.system, Frame.of(elimination)
-    equations = Equations(reduced.polynomials, reduced.n)
-    avoid = Evaluator.of(reduced.nonzero, reduced.n)
-    flag = random_rows(rng, reduced.n, reduced.n)
-    pools: dict[int, Pool] = {}
+    reduction = Reduction.of(system)
+    equations = reduction.equations
+    flag = random_rows(rng, reduction.n, reduction.n)
+    pools: dict[int, Points] = {}
+    hits: dict[int, list[int]] = {}
     counts, arrived, refused = PathCounts(), 0, 0
     for k in range(starts):
         if progress is not None:
             progress("sampling", k, starts)
-        start = complex_normal(rng, (reduced.n,)) * 2 ** rng.uniform(-2, 1)
+        start = complex_normal(rng, (reduction.n,)) * 2 ** rng.uniform(-2, 1)
         x = descend(equations.evaluator, start)
-        if x is None or forbidden(avoid, x[None], np.array([CLOSE]))[0]:
+        if x is None or forbidden(reduction.nonzero, x[None], np.array([CLOSE]))[0]:
             continue
         found, spent = _simple_point(x, pools, equations, flag, rng, tracker)
         counts += spent
@@ -126,38 +122,32 @@ def by_sampling(
         if found is not None:
             d, cut, z = found
             arrived += 1
-            pools[d] = pools.get(d, Pool()).arrived(cut, z)
-    everything = Evaluator.of(system.polynomials, system.n)
+            known = pools.get(d, Points(flag[:d]))
+            place = known.place(z[: cut.n])
+            if place is None:
+                pools[d] = known.with_point(cut, z)
+                hits.setdefault(d, []).append(1)
+            else:
+                hits[d][place] += 1
+    evidence = digits_of_evidence(system.polynomials)
     components: list[WitnessSet] = []
     above: list[Fibre] = []
     once = 0
     for d in sorted(pools, reverse=True):
-        pool, complete, spent = completed(pools[d], flag[:d], rng, tracker, progress)
-        counts += spent
+        found = split(pools[d], (), evidence, rng, tracker, progress=progress)
+        counts += found.counts
         sets, here = [], []
-        for label in sorted(set(pool.labels)):
-            own = [i for i, other in enumerate(pool.labels) if other == label]
-            fibres, _ = pool.fibres(own, d)
+        for each in found.classes:
+            fibres, _ = found.points.fibres(each.indices)
             embedded, spent = _is_embedded(fibres[0], above, flag, rng, tracker)
             counts += spent
             if embedded:
                 continue
-            reason = "" if label in complete else UNFINISHED
-            component, spent = checked_witness_set(
-                Class(np.arange(len(own)), reason),
-                fibres,
-                flag[:d],
-                equations,
-                everything,
-                frame,
-                system.groups,
-                rng,
-                tracker,
-            )
+            component, spent = checked_witness_set(each, found.points, reduction, rng, tracker)
             counts += spent
             sets.append(component)
             here += fibres
-            once += sum(pool.hits[i] for i in own) == 1
+            once += sum(hits[d][i] for i in each.indices if i < len(hits[d])) == 1
         above += here
         components += sorted(sets, key=lambda c: c.degree)
     notes = [
@@ -195,7 +185,7 @@ def by_sampling(
 
 def _simple_point(
     x: np.ndarray,
-    pools: Mapping[int, Pool],
+    pools: Mapping[int, Points],
     equations: Equations,
     flag: np.ndarray,
     rng: np.random.Generator,
@@ -214,7 +204,7 @@ def _simple_point(
 
 def _multiple_point(
     x: np.ndarray,
-    pools: Mapping[int, Pool],
+    pools: Mapping[int, Points],
     equations: Equations,
     flag: np.ndarray,
     rng: np.random.Generator,
@@ -235,7 +225,7 @@ def _found(
     dimensions: Iterable[int],
     accuracy: float,
     deflate: bool,
-    pools: Mapping[int, Pool],
+    pools: Mapping[int, Points],
     equations: Equations,
     flag: np.ndarray,
     rng: np.random.Generator,

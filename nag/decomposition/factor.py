@@ -6,13 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.algebra.elimination import Elimination, eliminate_linear
-from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.monodromy import carried
-from nag.witness.cutting import Equations
-from nag.witness.fibres import Fibre, Tracker, cut_fibres
-from nag.witness.frame import Frame
+from nag.decomposition.reduction import Reduction
+from nag.witness.fibres import Fibre, Tracker, carried, cut_fibres
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts, WitnessSet
@@ -26,10 +22,9 @@ class IntersectionError(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class Factor:
-    """A component to be intersected: ``component`` of the system that ``elimination`` reduced."""
+    """A component to be intersected, and the coordinates of the system that it is one of."""
 
-    elimination: Elimination
-    frame: Frame
+    reduction: Reduction
     component: WitnessSet
 
     @classmethod
@@ -38,27 +33,16 @@ class Factor:
             raise IntersectionError(
                 f"the component has {component.points.shape[1]} coordinates, its system {system.n}"
             )
-        elimination = eliminate_linear(system, graphs=False)
-        return cls(elimination, Frame.of(elimination), component)
+        return cls(Reduction.of(system), component)
 
     @property
     def n(self) -> int:
-        return self.elimination.system.n
-
-    @property
-    def kept(self) -> list[int]:
-        """The original variable that each coordinate is."""
-        return list(self.elimination.kept)
-
-    @property
-    def images(self) -> tuple[Polynomial, ...]:
-        """The original variables as polynomials in the coordinates."""
-        return self.elimination.images
+        return self.reduction.n
 
     @property
     def rows(self) -> np.ndarray:
         cut = self.component.slice
-        return orthonormal_rows(self.frame.pulled_back(cut.A, cut.b))
+        return orthonormal_rows(self.reduction.frame.pulled_back(cut.A, cut.b))
 
     @property
     def accuracy(self) -> float:
@@ -72,8 +56,8 @@ class Factor:
             IntersectionError: if no cut is found for a point.
         """
         deflate = self.component.multiplicity != 1
-        equations = Equations(self.elimination.system.polynomials, self.n)
-        points = self.component.points[:, self.kept]
+        points = self.component.points[:, self.reduction.kept]
+        equations = self.reduction.equations
         fibres = cut_fibres(points, self.accuracy, equations, self.rows, rng, deflate)
         if fibres is None:
             raise IntersectionError("the witness points are no regular zeros of the system")

@@ -7,13 +7,14 @@ from itertools import combinations_with_replacement, permutations
 
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
-from nag.decomposition.irreducible import Class
+from nag.decomposition.reduction import Reduction
+from nag.decomposition.splitting import Class
 from nag.witness.confirm import confirmed
 from nag.witness.cutting import ON, Equations, numerical_corank, sharpen
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
+from nag.witness.points import Points
 from nag.witness.slices import complex_normal, unit_complex
 from nag.witness.witness import PathCounts, Status, WitnessSet
 
@@ -76,12 +77,8 @@ def _coranks(
 
 def checked_witness_set(
     found: Class,
-    fibres: Sequence[Fibre],
-    rows: np.ndarray,
-    reduced: Equations,
-    original: Evaluator,
-    frame: Frame,
-    groups: Sequence[Sequence[int]],
+    points: Points,
+    reduction: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
     scheme: bool = True,
@@ -91,27 +88,21 @@ def checked_witness_set(
     Without ``scheme`` the set need not be a component of the scheme of the equations; then its
     multiplicity is 1 if it is a reduced one, and 0, not known, otherwise.
     """
-    d, counts = len(rows), PathCounts()
-    chosen, start = [], 0
-    for fibre in fibres:
-        local = found.indices[(found.indices >= start) & (found.indices < start + len(fibre))]
-        mask = np.zeros(len(fibre), dtype=bool)
-        mask[local - start] = True
-        start += len(fibre)
-        if mask.any():
-            chosen.append(fibre.only(mask))
-    points, steps = [], [0.0]
+    rows, d, counts = points.rows, points.dimension, PathCounts()
+    reduced, frame, groups = reduction.equations, reduction.frame, reduction.system.groups
+    chosen, _ = points.fibres(found.indices)
+    ends, steps = [], [0.0]
     first = chosen[0].points[0]
     for fibre in chosen:
         for z in fibre.points:
             sharpened = sharpen(fibre.cut.evaluator, rows, z)
-            points.append(sharpened.z[: fibre.cut.n])
+            ends.append(sharpened.z[: fibre.cut.n])
             steps.append(sharpened.step if np.isfinite(sharpened.step) else np.inf)
-    y = np.array(points)
+    y = np.array(ends)
     x = frame.points(y)
     order = np.lexsort((x.imag[:, 0], x.real[:, 0])) if x.shape[1] else np.arange(len(x))
     y, x = y[order], x[order]
-    residual = float(original.residuals(x).max(initial=0.0))
+    residual = float(reduction.original.residuals(x).max(initial=0.0))
     coranks = _coranks(reduced, rows, y, not chosen[0].cut.levels, rng)
     reasons = [found.reason] if found.reason else []
     if residual > ON:

@@ -14,13 +14,12 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.monodromy import carried
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.track import track
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, leading_power
-from nag.witness.fibres import Fibre, Moved, Tracker, homogeneous, moved
+from nag.witness.fibres import Fibre, Moved, Tracker, carried, homogeneous, moved
 from nag.witness.slices import padded, random_rows, unit_complex
 from nag.witness.witness import PathCounts
 

@@ -11,19 +11,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.algebra.elimination import eliminate_linear
-from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.diagonal import Common, meeting
+from nag.decomposition.assembly import assembled
+from nag.decomposition.diagonal import meeting
 from nag.decomposition.factor import Factor, IntersectionError, on_flag
-from nag.decomposition.final_checks import checked_witness_set
-from nag.decomposition.irreducible import irreducible_classes
+from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
 from nag.witness.cutting import NEARLY_SINGULAR, ON, Equations, numerical_corank
 from nag.witness.fibres import Fibre, Tracker, admit
-from nag.witness.frame import Frame
 from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
+from nag.witness.points import Points
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
@@ -94,13 +92,13 @@ def intersect_components(
     system, other = component_system(system, first), component_system(other, second)
     factors = Factor.of(system, first), Factor.of(other, second)
     tracker = Tracker(settings, threads)
-    union, common = _shared(_union(system, other))
+    common = Reduction.of(_union(system, other))
 
     def attempt(rng: np.random.Generator) -> Intersection:
         found = meeting(*factors, common, rng, tracker, progress)
-        points = found.fibres, found.rows
-        result = _split(union, common, *points, found.counts, found.notes, rng, tracker, progress)
-        bare = [_bare_point(x, accuracy, union, common) for x, accuracy in found.bare]
+        points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
+        result = _intersection(common, points, found.counts, found.notes, rng, tracker, progress)
+        bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
         return replace(
             result,
             components=(*result.components, *bare),
@@ -132,12 +130,12 @@ def intersect_equations(
     _check_variables(system, equations)
     system = component_system(system, component)
     factor = Factor.of(system, component)
-    further = [f.compose(factor.images) for f in equations.polynomials]
+    further = [f.compose(factor.reduction.images) for f in equations.polynomials]
     further = [f for f in dict.fromkeys(further) if f]
     further = [further[i] for i in intersection_order(further)]
     tracker = Tracker(settings, threads)
-    union, common = _shared(_union(system, equations))
-    reduced = factor.elimination.system
+    common = Reduction.of(_union(system, equations))
+    reduced = factor.reduction.reduced
 
     def attempt(rng: np.random.Generator) -> Intersection:
         flag = random_rows(rng, factor.n, factor.n)
@@ -157,17 +155,19 @@ def intersect_equations(
         notes = list(superset.notes)
         if superset.counts.failed:
             notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-        fibres, rows = {}, {}
+        points = {}
         for d, found in superset.fibres.items():
             if not found:
                 continue
-            cut = factor.frame.slice(superset.flag[:d])
-            rows[d] = orthonormal_rows(common.frame.pulled_back(cut.A, cut.b))
-            x = factor.frame.points(np.vstack([fibre.x for fibre in found]))[:, common.kept]
-            fibres[d], lost = _with_cuts(x, common.equations, rows[d], rng)
+            cut = factor.reduction.frame.slice(superset.flag[:d])
+            rows = orthonormal_rows(common.frame.pulled_back(cut.A, cut.b))
+            x = factor.reduction.frame.points(np.vstack([fibre.x for fibre in found]))
+            x = x[:, common.kept]
+            fibres, lost = _with_cuts(x, common.equations, rows, rng)
+            points[d] = Points.of(fibres, rows)
             if lost:
                 notes.append(f"{lost} singular points of dimension {d} could not be made regular")
-        return _split(union, common, fibres, rows, counts, notes, rng, tracker, progress)
+        return _intersection(common, points, counts, notes, rng, tracker, progress)
 
     return _least_doubtful(attempt, seed, 6)
 
@@ -208,24 +208,9 @@ def _union(first: PolynomialSystem, second: PolynomialSystem) -> PolynomialSyste
     )
 
 
-def _shared(union: PolynomialSystem) -> tuple[PolynomialSystem, Common]:
-    """The union of two systems, and the coordinates that its linear equations leave."""
-    elimination = eliminate_linear(union, graphs=False)
-    reduced = elimination.system
-    common = Common(
-        Equations(reduced.polynomials, reduced.n),
-        Frame.of(elimination),
-        list(elimination.kept),
-        Evaluator.of(reduced.nonzero, reduced.n),
-    )
-    return union, common
-
-
-def _split(
-    union: PolynomialSystem,
-    common: Common,
-    fibres: Mapping[int, Sequence[Fibre]],
-    rows: Mapping[int, np.ndarray],
+def _intersection(
+    reduction: Reduction,
+    points: Mapping[int, Points],
     counts: PathCounts,
     notes: Sequence[str],
     rng: np.random.Generator,
@@ -233,50 +218,22 @@ def _split(
     progress: Progress | None,
 ) -> Intersection:
     """The points of all dimensions, split into irreducible components."""
-    everything = Evaluator.of(union.polynomials, union.n)
-    components: list[WitnessSet] = []
-    for d in sorted(fibres, reverse=True):
-        if not fibres[d]:
-            continue
-        if progress is not None:
-            progress("splitting", len(components), 0)
-        classes, spent = irreducible_classes(fibres[d], rows[d], rng, tracker)
-        counts += spent
-        sets = []
-        for points in classes:
-            component, spent = checked_witness_set(
-                points,
-                fibres[d],
-                rows[d],
-                common.equations,
-                everything,
-                common.frame,
-                union.groups,
-                rng,
-                tracker,
-                scheme=False,
-            )
-            counts += spent
-            sets.append(component)
-        components.extend(sorted(sets, key=lambda c: c.degree))
-    undecided = any(c.status is Status.UNDECIDED for c in components)
+    found = assembled(points, reduction, rng, tracker, scheme=False, progress=progress)
     return Intersection(
-        system=union,
-        components=tuple(components),
-        paths=counts,
+        system=reduction.system,
+        components=found.components,
+        paths=counts + found.counts,
         seed=0,
         settings=tracker.settings,
-        complete=not (undecided or notes),
-        notes=tuple(notes),
+        complete=found.complete and not notes,
+        notes=(*notes, *found.notes),
     )
 
 
-def _bare_point(
-    x: np.ndarray, accuracy: float, union: PolynomialSystem, common: Common
-) -> WitnessSet:
+def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet:
     """An isolated point as a path's end left it, no system being known that sharpens it."""
     point = common.frame.points(x[None])
-    residual = float(Evaluator.of(union.polynomials, union.n).residuals(point).max(initial=0.0))
+    residual = float(common.original.residuals(point).max(initial=0.0))
     s = np.linalg.svd(common.equations.evaluator.balanced_jacobian(x), compute_uv=False)
     note = "" if residual < max(ON, accuracy) else "the point does not satisfy all equations"
     return WitnessSet(

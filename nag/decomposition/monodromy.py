@@ -1,29 +1,37 @@
-"""Monodromy: loops of slices permute the points of a fibre and merge those of one component."""
+"""Monodromy: loops of slices permute the points of a component."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Tracker
+from nag.witness.points import Points, moved_points
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
-ATTEMPTS = 3
 # An end is one of the known points when it is that near and the next one is a thousand times
 # farther; it is none of them when it is farther than the second bound from all.
 NEAR = 1e-6
 FAR = 1e-4
 
 
-def match(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
-    """The permutation p with ``ends[i]`` at ``points[p[i]]``; None if there is none."""
-    nearest = located(ends, points)
-    if nearest is None or (nearest < 0).any():
-        return None
-    return nearest if len(np.unique(nearest)) == len(points) else None
+@dataclass(frozen=True, eq=False)
+class Looped:
+    """Where a loop led.
+
+    Attributes:
+        origins: indices of the points whose paths came back regularly.
+        ends: their ends, with added unknowns.
+        places: indices of the points that the ends are, -1 for new ones; None if that is not clear.
+    """
+
+    origins: np.ndarray
+    ends: tuple[np.ndarray, ...]
+    places: np.ndarray | None
 
 
 def located(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
@@ -43,54 +51,22 @@ def located(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
     return np.where(hit, nearest, -1)
 
 
-def carried(
-    fibres: Sequence[Fibre],
-    source: np.ndarray,
-    target: np.ndarray,
-    gamma: complex,
-    tracker: Tracker,
-) -> tuple[list[Fibre] | None, PathCounts]:
-    """The fibres on another generic slice, or None if a path did not arrive regularly."""
-    counts, result = PathCounts(), []
-    for fibre in fibres:
-        ends = move(fibre, source, target, gamma, tracker)
-        counts += ends.counts.repeatable
-        if not ends.regular.all():
-            return None, counts
-        result.append(Fibre(fibre.cut, fibre.dimension, ends.points))
-    return result, counts
-
-
 def loop(
-    fibres: Sequence[Fibre], rows: np.ndarray, rng: np.random.Generator, tracker: Tracker
-) -> tuple[np.ndarray | None, PathCounts]:
-    """The permutation of all points of ``fibres`` along a random loop of slices.
-
-    None if no permutation was obtained in a few attempts, the later ones with careful tracking.
-    """
-    counts = PathCounts()
-    points = np.vstack([fibre.x for fibre in fibres])
-    for _attempt in range(ATTEMPTS):
-        middle = random_rows(rng, len(rows), rows.shape[1] - 1)
-        out, back = unit_complex(rng, 2)
-        there, spent = carried(fibres, rows, middle, complex(out), tracker)
-        counts += spent
-        if there is None:
-            continue
-        again, spent = carried(there, middle, rows, complex(back), tracker)
-        counts += spent
-        if again is None:
-            continue
-        permutation = match(np.vstack([fibre.x for fibre in again]), points)
-        if permutation is not None:
-            return permutation, counts
-    return None, counts
-
-
-def merge(labels: np.ndarray, permutation: np.ndarray) -> np.ndarray:
-    """Labels of the classes after every point was joined with its image."""
-    labels = labels.copy()
-    for i, j in enumerate(permutation):
-        if labels[i] != labels[j]:
-            labels[labels == max(labels[i], labels[j])] = min(labels[i], labels[j])
-    return labels
+    points: Points, start: Sequence[int], rng: np.random.Generator, tracker: Tracker
+) -> tuple[Looped, PathCounts]:
+    """Carry some points round a random loop of slices."""
+    middle = random_rows(rng, points.dimension, points.n)
+    out, back = (complex(g) for g in unit_complex(rng, 2))
+    there, counts = moved_points(points, start, middle, out, tracker)
+    origins = sorted(there)
+    which = tuple(points.which[i] for i in origins)
+    half = Points(middle, points.cuts, which, tuple(there[i] for i in origins))
+    again, spent = moved_points(half, range(len(half)), points.rows, back, tracker)
+    order = sorted(again)
+    ends = tuple(again[k] for k in order)
+    x = np.array([z[: points.n] for z in ends]).reshape(len(ends), points.n)
+    places = located(x, points.x)
+    # Two paths in one place: one of them has jumped.
+    if places is not None and len(np.unique(places[places >= 0])) < (places >= 0).sum():
+        places = None
+    return Looped(np.array([origins[k] for k in order], int), ends, places), counts + spent

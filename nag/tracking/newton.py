@@ -24,6 +24,8 @@ class Refined(NamedTuple):
         smallest: the same at the end.
         size: Frobenius norm of the Jacobian.
         condition: ``size / smallest``.
+        further: one more Newton step at each point, shape ``(P, N)``, if it was asked for: together
+            they have twice the digits of the points alone.
     """
 
     points: np.ndarray
@@ -33,6 +35,7 @@ class Refined(NamedTuple):
     smallest: np.ndarray
     size: np.ndarray
     condition: np.ndarray
+    further: np.ndarray | None = None
 
 
 def refine(
@@ -42,6 +45,7 @@ def refine(
     *,
     t: complex = 0.0,
     iterations: int = 3,
+    twice: bool = False,
 ) -> Refined:
     """Newton's method from ``points`` for rows, slices ``A x = 0`` and patches.
 
@@ -55,6 +59,7 @@ def refine(
         points: shape ``(P, N)``.
         t: where the homotopy is taken.
         iterations: number of Newton steps.
+        twice: whether points are found to twice the digits of doubles.
 
     A point where the Jacobian is singular is returned with a large ``error`` and whatever
     Newton's method made of it; compare ``moved`` with what was expected.
@@ -68,16 +73,22 @@ def refine(
     result = start.copy()
     P = len(start)
     before, smallest, error, size = np.zeros(P), np.zeros(P), np.full(P, np.inf), np.zeros(P)
+    further = np.zeros(result.shape if twice else (1, 1), dtype=np.complex128)
     if P:
-        batch = Refinement(result, P, iterations, before, smallest, error, size)
+        batch = Refinement(
+            result, P, iterations, before, smallest, error, size, further, int(twice)
+        )
         newton_lanes(system(fixed), work(fixed, 1), low_parts(fixed), batch)
     # A matrix that is singular in double precision leaves NaN.
     before, smallest = (np.where(np.isfinite(v), v, 0.0) for v in (before, smallest))
-    result = np.where(np.isfinite(result), result, start)
+    if not np.isfinite(result).all():
+        result = np.where(np.isfinite(result), result, start)
     moved = np.linalg.norm(aligned_difference(homotopy, result, start), axis=1)
     size = np.where(np.isfinite(size), size, 0.0)
     condition = size / np.maximum(smallest, 1e-300)
-    return Refined(result, np.maximum(error, 2e-16), moved, before, smallest, size, condition)
+    error = np.maximum(error, 2e-16)
+    steps = further if twice else None
+    return Refined(result, error, moved, before, smallest, size, condition, steps)
 
 
 def _at(homotopy: Homotopy, t: complex, A: np.ndarray) -> Homotopy:

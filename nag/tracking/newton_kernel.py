@@ -31,7 +31,8 @@ class Refinement(NamedTuple):
 
     ``points``: shape (count, N). ``before, after``: smallest singular value of the Jacobian at the
     first and the last point; ``error``: length of the last step; ``frobenius``: Frobenius norm of
-    the last Jacobian.
+    the last Jacobian. ``further``: where ``twice`` is not 0, one more step, which is too small for
+    the points to show; points and steps together have twice the digits.
     """
 
     points: Complexes
@@ -41,6 +42,8 @@ class Refinement(NamedTuple):
     after: Reals
     error: Reals
     frobenius: Reals
+    further: Complexes
+    twice: int
 
 
 def low_parts(homotopy: Homotopy) -> Low:
@@ -153,6 +156,8 @@ def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
     after = batch.after
     error = batch.error
     frobenius = batch.frobenius
+    further = batch.further
+    twice = batch.twice
     slots = low.slots
     zero = splat(0.0)
     for first in range(0, count, 8):
@@ -197,6 +202,16 @@ def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
             length = square_root(_matrix(s, w))
             store(w.norms, 1, _smallest(s, w))
         store(w.norms, 0, length)
+        if twice != 0:
+            for j in range(n):
+                z.write(slots, j, z.exact(load(w.vr, j), load(w.vi, j)))
+            _residual(s, w, low)
+            substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
+            for lane in range(min(8, count - first)):
+                for j in range(n):
+                    step_re = w.br[8 * j + lane]
+                    step_im = w.bi[8 * j + lane]
+                    further[n * (first + lane) + j] = complex(step_re, step_im)
         for lane in range(min(8, count - first)):
             after[first + lane] = w.norms[8 + lane]
             frobenius[first + lane] = w.norms[lane]

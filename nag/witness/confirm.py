@@ -8,6 +8,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish, vanish_at
+from nag.algebra.number import decimal_digits
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, analyse
 from nag.witness.cutting import ON, Cut
@@ -16,8 +17,9 @@ from nag.witness.slices import padded
 
 # Above this singular value a zero of as many equations as unknowns needs no confirmation.
 REGULAR = 1e-5
-# Values in doubles below this, beside their terms, are rounding.
-CERTAIN = 1e-14
+# Values in doubles below this, beside their terms, are rounding, if coefficients have no more
+# digits.
+CERTAIN, ROUND_NUMBERS = 1e-14, 6
 
 
 def confirmed(cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np.ndarray) -> bool:
@@ -36,12 +38,14 @@ def vanishing(cut: Cut, f: Polynomial, rows: np.ndarray, points: np.ndarray) -> 
     """At which zeros of ``cut`` on the slice, shape ``(P, n + aux)``, ``f`` vanishes.
 
     Values that are no rounding errors of their terms are computed to 100 digits: at large points a
-    value of one may be small beside its terms, and a small coordinate need not be zero. None where
-    that does not succeed.
+    value of one may be small beside its terms, and a small coordinate need not be zero. So are all
+    small ones where coefficients are long. None where that does not succeed.
     """
     evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
     small = evaluator.residuals(x)[:, 0] < ON
     rounding = np.abs(evaluator.values(x)) <= CERTAIN * evaluator.absolute(x)
+    if max(map(decimal_digits, f.terms.values()), default=0) > ROUND_NUMBERS:
+        rounding[:] = False
     return [
         bool(near) and (bool(certain) or _at_zero(cut, [f], rows, z))
         for near, certain, z in zip(small, rounding[:, 0], points, strict=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -122,6 +123,24 @@ def move(
         endgame=endgame,
     )
     return moved(paths)
+
+
+def carried(
+    fibres: Sequence[Fibre],
+    source: np.ndarray,
+    target: np.ndarray,
+    gamma: complex,
+    tracker: Tracker,
+) -> tuple[list[Fibre] | None, PathCounts]:
+    """The fibres on another generic slice, or None if a path did not arrive regularly."""
+    counts, result = PathCounts(), []
+    for fibre in fibres:
+        ends = move(fibre, source, target, gamma, tracker)
+        counts += ends.counts.repeatable
+        if not ends.regular.all():
+            return None, counts
+        result.append(Fibre(fibre.cut, fibre.dimension, ends.points))
+    return result, counts
 
 
 def admit(

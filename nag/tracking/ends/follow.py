@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 
+from nag.algebra.number import decimal_digits
 from nag.tracking.ends import records
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limit, Limits
@@ -152,16 +152,8 @@ def digits_of_evidence(homotopy: Homotopy, beyond: int) -> int:
     for row in homotopy.rows.parts:
         for part, terms in row:
             if homotopy.factors[part][0] != 0:
-                most = max(most, *map(_digits, terms.values()))
+                most = max(most, *map(decimal_digits, terms.values()))
     return min(LEAST_EVIDENCE + beyond + max(0, most - ROUND_NUMBERS), MOST_EVIDENCE)
-
-
-def _digits(c: object) -> int:
-    """Decimal digits of a rational number's numerator and denominator, the longer of both."""
-    if isinstance(c, int | Fraction):
-        c = Fraction(c)
-        return len(str(max(abs(c.numerator), c.denominator)))
-    return 0
 
 
 def _follow_in(

@@ -1,0 +1,93 @@
+"""A system in the coordinates in which its zero set is worked out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.numerics.scaling import scaled_terms, variable_scales
+from nag.witness.cutting import Equations
+from nag.witness.frame import Frame
+
+# Coefficients of comparable size are left as they are: scales below this factor bring nothing.
+LEAST_SCALE = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Reduction:
+    """A system, and what is left of it when linear equations have been solved.
+
+    Attributes:
+        system: the system that was given.
+        elimination: how linear equations were solved.
+        reduced: the system in the coordinates that are left, perhaps scaled.
+        frame: how these sit in the original ones.
+    """
+
+    system: PolynomialSystem
+    elimination: Elimination
+    reduced: PolynomialSystem
+    frame: Frame
+
+    @classmethod
+    def of(cls, system: PolynomialSystem, scaled: bool = False) -> Reduction:
+        """The reduction; ``scaled``: to coordinates in which coefficients are comparable."""
+        elimination = eliminate_linear(system, graphs=False)
+        reduced, frame = elimination.system, Frame.of(elimination)
+        if scaled:
+            reduced, scales = scaled_system(reduced)
+            frame = frame.scaled(scales)
+        return cls(system, elimination, reduced, frame)
+
+    @property
+    def n(self) -> int:
+        return self.reduced.n
+
+    @property
+    def kept(self) -> list[int]:
+        """The original variable that each coordinate is, but for its scale."""
+        return list(self.elimination.kept)
+
+    @property
+    def images(self) -> tuple[Polynomial, ...]:
+        """The original variables as polynomials in the coordinates without scales."""
+        return self.elimination.images
+
+    @cached_property
+    def equations(self) -> Equations:
+        """The equations in these coordinates."""
+        return Equations(self.reduced.polynomials, self.n)
+
+    @cached_property
+    def nonzero(self) -> Evaluator:
+        """The polynomials that must not vanish, in these coordinates."""
+        return Evaluator.of(self.reduced.nonzero, self.n)
+
+    @cached_property
+    def original(self) -> Evaluator:
+        """The equations that were given."""
+        return Evaluator.of(self.system.polynomials, self.system.n)
+
+
+def scaled_system(system: PolynomialSystem) -> tuple[PolynomialSystem, np.ndarray]:
+    """The system in coordinates that make its coefficients comparable, and their scales.
+
+    Scales are powers of two, so that nothing is rounded; they are one where little is gained.
+    """
+    powers = variable_scales(system.polynomials, system.n)
+    if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
+        return system, np.ones(system.n)
+    nonzero = [scaled_terms(f, powers) for f in system.nonzero]
+    polynomials = [scaled_terms(f, powers) for f in system.polynomials]
+    scaled = replace(
+        system,
+        polynomials=tuple(Polynomial(system.n, terms) for terms in polynomials),
+        nonzero=tuple(Polynomial(system.n, terms) for terms in nonzero),
+    )
+    return scaled, 2.0**powers

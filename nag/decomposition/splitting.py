@@ -1,0 +1,241 @@
+"""Points on a slice split into irreducible components: loops join, traces confirm.
+
+A class of points is a component when its trace is linear. Among few points the smallest such
+classes are searched for; among many, monodromy loops join points of one component first, and find
+points of it that are missing. Permutations of the points by symmetries of the
+system are followed: what a loop joins, they join elsewhere as well, and one class of each orbit is
+confirmed for all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.decomposition.monodromy import loop
+from nag.decomposition.trace import MOST_CLASSES, Trace
+from nag.witness.fibres import Tracker
+from nag.witness.points import Points
+from nag.witness.witness import PathCounts
+
+# Loops that join nothing before symmetries are given up, and loops after which to give up: the
+# worst of the measured systems needed 23.
+IDLE_LOOPS = 4
+MOST_LOOPS = 100
+# Motions of the slice of which one must bring all points to regular ends.
+ATTEMPTS = 4
+
+NOT_LINEAR = "its trace is not linear: points are missing, or loops did not join them"
+NO_TRACE = "the trace could not be computed"
+NO_DIGITS = "whether its trace is linear needs more digits"
+
+Progress = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Class:
+    """Points of one component, as indices into all points.
+
+    ``reason`` says why they could not be confirmed to be a whole component; empty if they were.
+    """
+
+    indices: np.ndarray
+    reason: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Split:
+    """Points, those that loops added included, and their classes, which hold each point once.
+
+    Attributes:
+        labels: for each point the smallest index in its class.
+    """
+
+    points: Points
+    labels: np.ndarray
+    classes: tuple[Class, ...]
+    counts: PathCounts
+
+
+@dataclass(eq=False)
+class _State:
+    """What is known while points are split.
+
+    ``labels``: for each point the smallest index in its class; ``verdicts``: for each label and
+    size of a class what its trace said.
+    """
+
+    points: Points
+    labels: np.ndarray
+    permutations: Sequence[np.ndarray]
+    orbits: np.ndarray
+    trace: Trace | None
+    verdicts: dict[tuple[int, int], bool | None]
+    counts: PathCounts
+
+    def indices(self, label: int) -> np.ndarray:
+        return np.flatnonzero(self.labels == label)
+
+    def verdict(self, label: int) -> bool | None:
+        return self.verdicts.get((label, int((self.labels == label).sum())))
+
+    def open_points(self) -> np.ndarray:
+        """Points of classes that are not confirmed, nor images of such."""
+        sure = [k for k in np.unique(self.labels).tolist() if self.verdict(k)]
+        done = np.isin(self.orbits, self.orbits[np.isin(self.labels, sure)])
+        return np.flatnonzero(~done)
+
+    def forget_symmetries(self) -> None:
+        self.permutations, self.orbits = (), np.arange(len(self.labels))
+
+
+def split(
+    points: Points,
+    permutations: Sequence[np.ndarray],
+    evidence: int,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    *,
+    labels: Sequence[int] | None = None,
+    progress: Progress | None = None,
+) -> Split:
+    """Split points on a generic slice into irreducible components.
+
+    Args:
+        permutations: of the points, by symmetries.
+        evidence: digits to which a trace must be linear.
+        labels: for each point the smallest index of those that are known to belong to its
+            component.
+        progress: called with a stage's name, the classes that are confirmed, and their number.
+    """
+    total = len(points)
+    known = np.arange(total) if labels is None else np.array(labels)
+    if points.dimension == 0:
+        classes = tuple(Class(np.array([i])) for i in range(total))
+        return Split(points, known, classes, PathCounts())
+    orbits = np.arange(total)
+    for permutation in permutations:
+        join(orbits, list(enumerate(permutation)), ())
+    state = _State(points, known, permutations, orbits, None, {}, PathCounts())
+    idle = 0
+    for _ in range(MOST_LOOPS):
+        open_points = state.open_points()
+        if progress is not None:
+            number = len(np.unique(state.labels))
+            progress("splitting", number - len(np.unique(state.labels[open_points])), number)
+        if len(open_points) and not _tested(state, open_points, evidence, rng, tracker):
+            break
+        open_points = state.open_points()
+        if idle >= IDLE_LOOPS and len(state.permutations):
+            state.forget_symmetries()
+            idle = 0
+            continue
+        if len(open_points) and not len(state.permutations):
+            _united(state, open_points)
+            open_points = state.open_points()
+        if not len(open_points):
+            break
+        idle = 0 if _looped(state, open_points, rng, tracker) else idle + 1
+    return Split(state.points, state.labels, tuple(_classes(state)), state.counts)
+
+
+def join(labels: np.ndarray, pairs: Sequence[tuple[int, int]], permutations: Sequence) -> None:
+    """Merge classes of points, in place, and with them all their images.
+
+    A class is labelled by its smallest point. ``permutations`` are those of the symmetries; they
+    carry points of one component to points of one component.
+    """
+    waiting = list(pairs)
+    while waiting:
+        i, j = waiting.pop()
+        a, b = sorted((labels[i], labels[j]))
+        if a != b:
+            labels[labels == b] = a
+            waiting += [(p[i], p[j]) for p in permutations]
+
+
+def _tested(
+    state: _State,
+    open_points: np.ndarray,
+    evidence: int,
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> bool:
+    """Test the traces of open classes, one of each orbit; False if paths keep failing."""
+    chosen, seen = [], set[int]()
+    for label in np.unique(state.labels[open_points]).tolist():
+        touched = set(state.orbits[state.labels == label].tolist())
+        if not touched & seen:
+            chosen.append(label)
+            seen |= touched
+    new = [k for k in chosen if (k, len(state.indices(k))) not in state.verdicts]
+    wanted = np.concatenate([state.indices(k) for k in new]) if new else np.zeros(0, dtype=int)
+    for _ in range(ATTEMPTS):
+        if state.trace is None:
+            state.trace = Trace.of(state.points, evidence, rng)
+            known = [state.indices(k) for k, _ in state.verdicts]
+            wanted = np.concatenate([wanted, *known])
+        state.trace, spent = state.trace.carried(state.points, wanted, tracker)
+        state.counts += spent
+        if state.trace is not None:
+            break
+    else:
+        return False
+    for label in new:
+        own = state.indices(label)
+        answer, state.trace = state.trace.linear(state.points, own)
+        state.verdicts[label, len(own)] = answer
+    return True
+
+
+def _united(state: _State, open_points: np.ndarray) -> None:
+    """Join classes whose traces are linear together, and confirm them."""
+    waiting = [np.flatnonzero(state.labels == k) for k in np.unique(state.labels[open_points])]
+    if len(waiting) > MOST_CLASSES:
+        return
+    unions, state.trace = state.trace.smallest_unions(state.points, waiting)
+    for union in unions:
+        joined = np.concatenate([waiting[c] for c in union])
+        first = int(state.labels[joined].min())
+        state.labels[joined] = first
+        state.verdicts[first, len(joined)] = True
+
+
+def _looped(
+    state: _State, open_points: np.ndarray, rng: np.random.Generator, tracker: Tracker
+) -> bool:
+    """Track a random loop from one point of each orbit; whether it joined or found any."""
+    start = open_points[np.unique(state.orbits[open_points], return_index=True)[1]]
+    found, spent = loop(state.points, start, rng, tracker)
+    state.counts += spent
+    if found.places is None or (len(state.permutations) and (found.places < 0).any()):
+        return False
+    before, hit = state.labels.copy(), found.places >= 0
+    pairs = list(zip(found.origins[hit], found.places[hit], strict=True))
+    join(state.labels, pairs, state.permutations)
+    for k in np.flatnonzero(~hit):
+        _add(state, int(found.origins[k]), found.ends[k])
+    return not np.array_equal(before, state.labels)
+
+
+def _add(state: _State, origin: int, z: np.ndarray) -> None:
+    """A point that a loop from ``origin`` led to."""
+    cut = state.points.cuts[state.points.which[origin]]
+    state.points = state.points.with_point(cut, z)
+    state.labels = np.append(state.labels, state.labels[origin])
+    state.orbits = np.append(state.orbits, len(state.orbits))
+
+
+def _classes(state: _State) -> list[Class]:
+    open_points = set(state.open_points().tolist())
+    result = []
+    for label in np.unique(state.labels).tolist():
+        own, reason = state.indices(label), ""
+        if label in open_points:
+            reason = NO_TRACE
+            if (label, len(own)) in state.verdicts:
+                reason = NO_DIGITS if state.verdict(label) is None else NOT_LINEAR
+        result.append(Class(own, reason))
+    return result

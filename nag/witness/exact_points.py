@@ -1,0 +1,146 @@
+"""Zeros of a cut on a slice in as many digits as are asked for, as integers of a small unit.
+
+Sums of them are exact, so that what cancels is known to the error of the points alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.high_precision import zero_near
+from nag.tracking.newton import Refined, refine
+from nag.witness.cutting import Cut
+from nag.witness.fibres import Fibre, homogeneous
+from nag.witness.slices import padded
+
+# Digits for which Newton's method with residuals in double-double may be enough.
+DOUBLE_DOUBLE = 30
+# Error of a step that is solved in doubles, in roundings times the condition, and of residuals in
+# double-double.
+STEP, RESIDUAL = 16.0, 1e-31
+# Digits beyond those asked for in which Newton's method computes: residuals lose some.
+SPARE = 25
+# Bits beyond the digits that are asked for.
+GUARD = 40
+BITS_PER_DIGIT = np.log2(10.0)
+
+
+@dataclass(frozen=True, eq=False)
+class ExactPoints:
+    """Points ``values / 2 ** bits`` with errors.
+
+    Attributes:
+        values: Python integers, real parts and then imaginary parts, shape ``(P, 2 n)``.
+        bits: the unit is ``2 ** -bits``.
+        radii: estimated errors of the coordinates, the largest of each point; inf where Newton's
+            method did not converge, shape ``(P,)``.
+    """
+
+    values: np.ndarray
+    bits: int
+    radii: np.ndarray
+
+
+def bits_of(digits: int) -> int:
+    """The unit's exponent for numbers of so many digits behind the point."""
+    return int(np.ceil(digits * BITS_PER_DIGIT)) + GUARD
+
+
+def exact_points(fibre: Fibre, rows: np.ndarray, digits: int) -> ExactPoints:
+    """The coordinates, without added unknowns, of the regular points of a fibre on ``rows``.
+
+    Args:
+        digits: behind the decimal point of coordinates of size one. Those of double-double are as
+            many as the condition of the point leaves; ``radii`` tells.
+    """
+    n, bits = fibre.cut.n, bits_of(digits)
+    values = np.zeros((len(fibre), 2 * n), dtype=object)
+    radii = np.full(len(fibre), np.inf)
+    if digits <= DOUBLE_DOUBLE:
+        values, radii = _twice(fibre, rows, bits)
+    for i in np.flatnonzero(~np.isfinite(radii)):
+        values[i], radii[i] = _in_balls(fibre.cut, rows, fibre.points[i], digits, bits)
+    return ExactPoints(values, bits, radii)
+
+
+def _twice(fibre: Fibre, rows: np.ndarray, bits: int) -> tuple[np.ndarray, np.ndarray]:
+    """By one step more than the points in doubles show."""
+    n = fibre.cut.n
+    start = homogeneous(fibre.points)
+    a = padded(rows, start.shape[1])
+    found = refine(fibre.cut.rows, a, start, iterations=1, twice=True)
+    v, step = found.points, found.further
+    quotient = v[:, 1 : n + 1] / v[:, :1]
+    # What the quotient leaves: v - q v0 without rounding, and the step's part of it.
+    rest = _remainder(v[:, 1 : n + 1], quotient, v[:, :1]) + (
+        step[:, 1 : n + 1] - quotient * step[:, :1]
+    )
+    rest = rest / v[:, :1]
+    values = fixed(quotient, bits) + fixed(rest, bits)
+    sizes = 1 + np.abs(quotient).max(axis=1, initial=0.0)
+    return values, _errors(found) * sizes / np.abs(v[:, 0])
+
+
+def _errors(found: Refined) -> np.ndarray:
+    """Errors of points of norm one with their further steps."""
+    eps = np.finfo(float).eps
+    length = np.linalg.norm(found.further, axis=1)
+    error = found.condition * (STEP * eps * length + RESIDUAL)
+    return np.where(np.isfinite(error) & (found.error < 1e-6), error, np.inf)
+
+
+def _remainder(a: np.ndarray, q: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """``a - q b`` for complex doubles, almost without rounding where ``q`` is ``a / b`` rounded."""
+    b = np.broadcast_to(b, q.shape)
+    real = [(q.real, b.real), (-q.imag, b.imag)]
+    imag = [(q.real, b.imag), (q.imag, b.real)]
+    parts = []
+    for total, pairs in ((a.real, real), (a.imag, imag)):
+        low = 0.0
+        for x, y in pairs:
+            product, error = _exact_product(x, y)
+            difference = total - product
+            other = difference - total
+            low = low + ((total - (difference - other)) - (product + other)) - error
+            total = difference
+        parts.append(total + low)
+    return parts[0] + 1j * parts[1]
+
+
+def _exact_product(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """``x y`` rounded and the rounding error, by Veltkamp's and Dekker's splitting."""
+    product = x * y
+    a, b = x * 134217729.0, y * 134217729.0
+    x1, y1 = a - (a - x), b - (b - y)
+    x2, y2 = x - x1, y - y1
+    return product, ((x1 * y1 - product) + x1 * y2 + x2 * y1) + x2 * y2
+
+
+def fixed(z: np.ndarray, bits: int) -> np.ndarray:
+    """Complex doubles as integers of the unit ``2 ** -bits``, real and then imaginary parts."""
+    parts = np.concatenate([z.real, z.imag], axis=1)
+    mantissa, exponent = np.frexp(np.where(np.isfinite(parts), parts, 0.0))
+    whole = np.ldexp(mantissa, 53).astype(np.int64).astype(object)
+    shift = (exponent.astype(np.int64) + (bits - 53)).astype(object)
+    return np.where(shift >= 0, whole << np.maximum(shift, 0), whole >> np.maximum(-shift, 0))
+
+
+def _in_balls(
+    cut: Cut, rows: np.ndarray, z: np.ndarray, digits: int, bits: int
+) -> tuple[np.ndarray, float]:
+    """By Newton's method in as many digits as are asked for."""
+    n = cut.n
+    nothing = np.zeros(2 * n, dtype=object)
+    slices = padded(rows, 1 + len(z))
+    import flint
+
+    with flint.ctx.workdps(digits + SPARE):
+        found = zero_near(cut.polynomials, slices, cut.evaluator.jacobian(z), z, digits + SPARE)
+        if found is None:
+            return nothing, np.inf
+        point, error = found
+        parts = [x.real for x in point[:n]] + [x.imag for x in point[:n]]
+        whole = [int((x * 2**bits).mid().floor().unique_fmpz()) for x in parts]
+    return np.array(whole, dtype=object), error
