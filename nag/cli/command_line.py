@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from types import ModuleType
 
 import nag
-from nag.cli import bench, certify, decompose, intersect, member, model, sample, solve
+from nag.cli import bench, certify, chart, decompose, intersect, member, model, sample, solve
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 
 FROM_COMPONENTS = (
@@ -70,6 +70,13 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         "solve the benchmark systems and measure how fast",
         "Solve the benchmark systems, check their numbers of solutions and measure the time, "
         "beside other programs if they are installed.",
+    ),
+    (
+        "chart",
+        chart,
+        "chart where methods fail, and speed against accuracy",
+        "Run families of systems that are hard in one way each, or solve cases in many settings "
+        "and arithmetics, and draw what comes of it.",
     ),
     (
         "model",

@@ -115,6 +115,16 @@ def close_circles(k: int, rng: np.random.Generator) -> Problem:
     return Problem(plain((x**2 + y**2 - 1) ** 2 - 2 * _small(2 * k)), _curves((2, 2)), ONLY)
 
 
+def touching_circles(k: int, rng: np.random.Generator) -> Problem:
+    """Two circles side by side that miss each other by 10^-k; their centres are not rational."""
+    x, y = Polynomial.variables(2)
+    square = 1 + _small(k)
+    if k == 0:
+        return Problem(plain((x**2 + y**2) ** 2 - 4 * x**2), _curves((2, 2)), ONLY)
+    form = (x**2 + y**2 - 1 + square) ** 2 - 4 * square * x**2
+    return Problem(plain(form), _curves((2, 2)), ONLY)
+
+
 def close_skew_lines(k: int, rng: np.random.Generator) -> Problem:
     """Two skew lines at a distance of 10^-k."""
     x, y, z = Polynomial.variables(3)
@@ -192,6 +202,7 @@ FAMILIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "big_circle": (big_circle, (2, 4, 6, 8)),
     "close_lines": (close_lines, CLOSE),
     "close_circles": (close_circles, CLOSE),
+    "touching_circles": (touching_circles, CLOSE),
     "close_skew_lines": (close_skew_lines, CLOSE),
     "close_planes": (close_planes, CLOSE),
     "hyperbola": (hyperbola, CLOSE),

@@ -70,14 +70,18 @@ def bennett_violated(k: int, rng: np.random.Generator) -> Problem:
 
 
 def bricard_violated(k: int, rng: np.random.Generator) -> Problem:
-    """Bricard's cube with one joint moved by 10^-k, so that it is rigid; 0: not moved."""
+    """Bricard's cube with one joint moved by 10^-k, so that it is rigid; 0: not moved.
+
+    In six configurations: for k = 2, 4 and 6 Krawczyk's test proves 16 simple zeros, of 24 at
+    most, and that nothing that must not vanish does so at six of them; at the others it does to
+    rounding.
+    """
     points = [[0, 0, 1], [1, 0, 1], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 1, 1]]
     axes = [[0, 0, 1], [0, 1, 0], [1, 0, 0], [0, 0, 1], [0, 1, 0], [1, 0, 0]]
     if k:
         points[3] = [1 + Fraction(1, 10**k), 1 - Fraction(2, 10**k), 0]
     found = model(_loop(points, axes)).system
-    truth = Counter({(1, 8, 1): 1})
-    return Problem(found, truth, ONLY, dimension=0 if k else None)
+    return Problem(found, Counter({(0, 1, 1): 6} if k else {(1, 8, 1): 1}), ONLY)
 
 
 def bennett_scaled(k: int, rng: np.random.Generator) -> Problem:

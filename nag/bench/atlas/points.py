@@ -155,6 +155,24 @@ def rounded(k: int, rng: np.random.Generator) -> Problem:
     return Problem(hidden([x**2 + y**2 - 1, x + y - root, z**2 - x - 3], rng), points((1, 4)))
 
 
+def to_infinity(k: int, rng: np.random.Generator) -> Problem:
+    """Two curves of degree k that touch at infinity to order k^2 - 1, and meet in one point.
+
+    Over it a third variable has two values; all other paths run to infinity.
+    """
+    x, y, z = Polynomial.variables(3)
+    return Problem(
+        hidden([y - x**k - x, y - x**k - 2, z**2 - x - y - 3], rng), points((1, 2)), ("solve",)
+    )
+
+
+def nearly_tangent(k: int, rng: np.random.Generator) -> Problem:
+    """A line cuts a circle in points at a distance of 10^(-k/2) or so; two for each in space."""
+    x, y, z = Polynomial.variables(3)
+    cut = y - 1 + _tenth(k)
+    return Problem(hidden([x**2 + y**2 - 1, cut, z**2 - x - 3], rng), points((1, 4)))
+
+
 def osculating(k: int, rng: np.random.Generator) -> Problem:
     """A circle and a curve touch to order k at one point, and cut at another if k is odd.
 
@@ -212,6 +230,8 @@ FAMILIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "far_cluster": (far_cluster, tuple((n, k, j) for n in (1, 2) for k in (4, 9) for j in DIGITS)),
     "nearly_dependent": (nearly_dependent, tuple((c, k) for c in (1, 2) for k in DIGITS)),
     "rounded": (rounded, (8, 12, 16, 24, 32, 48)),
+    "to_infinity": (to_infinity, (2, 3, 4, 5, 6)),
+    "nearly_tangent": (nearly_tangent, DIGITS),
     "osculating": (osculating, tuple(range(2, 13))),
     "grid": (grid, ((-8,), (8,), (-8, 8), (-8, -8), (8, 8), (0, 8), (-4, 4), (-8, 0, 8))),
     "given": (given, (0, 1, 2, 3)),
