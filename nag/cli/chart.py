@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from nag.cli import chart_stability
+from nag.cli import chart_speed, chart_stability
 from nag.cli.arguments import Parser
 
 
@@ -27,6 +27,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
 
 CHARTS = (
+    (
+        "speed-accuracy",
+        chart_speed,
+        "Solve cases in many settings, arithmetics and programs, and draw error against time.",
+    ),
     (
         "stability",
         chart_stability,
