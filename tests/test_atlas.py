@@ -28,7 +28,7 @@ from nag.numerics.discs import DiscPolynomials, Discs
 from nag.numerics.krawczyk import boxes_of
 from nag.solving.solve import solve
 
-pytest.importorskip("flint")
+
 
 
 def test_families_have_names_of_their_own() -> None:

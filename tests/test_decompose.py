@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from systems import system
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
@@ -19,11 +20,6 @@ from nag.witness.witness import Decomposition, Status
 
 FOLDER = Path(__file__).parent.parent / "cases"
 CASES = [*sorted(FOLDER.glob("*.toml")), *sorted(FOLDER.glob("literature/*.toml"))]
-
-
-def system(variables: str, *equations: str) -> PolynomialSystem:
-    names = tuple(variables.split())
-    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
 
 
 def kinds(answer: Decomposition) -> Counter[tuple[int, int, int]]:

@@ -7,6 +7,7 @@ from fractions import Fraction
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+from systems import system
 
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.expression import parse_polynomial
@@ -29,12 +30,6 @@ systems = st.builds(
     st.lists(linear_forms, max_size=4),
     st.lists(quadrics, max_size=3),
 )
-
-
-def system(variables: str, *equations: str, **more: object) -> PolynomialSystem:
-    names = variables.split()
-    read = tuple(parse_polynomial(e, names) for e in equations)
-    return PolynomialSystem(tuple(names), read, **more)
 
 
 @given(systems, st.lists(small, min_size=N, max_size=N), st.booleans())

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.number import square_root
@@ -54,7 +54,6 @@ moderate = st.floats(min_value=-1e100, max_value=1e100).filter(lambda v: v == 0 
 tail = st.floats(min_value=-0.5, max_value=0.5)
 
 
-@settings(deadline=None, derandomize=True)
 @given(st.lists(st.tuples(moderate, moderate), min_size=8, max_size=8))
 def test_transformations_lose_nothing(pairs: list[tuple[float, float]]) -> None:
     a, b, result = aligned(1), aligned(1), aligned(4)
@@ -80,7 +79,6 @@ numbers = st.tuples(moderate, st.lists(tail, min_size=3, max_size=3))
 
 
 @pytest.mark.parametrize(("arithmetic", "bits"), [(double_double, 99), (quad_double, 203)])
-@settings(deadline=None, derandomize=True)
 @given(pairs=st.lists(st.tuples(numbers, numbers), min_size=8, max_size=8))
 def test_sums_and_products_keep_their_digits(arithmetic: ModuleType, bits: int, pairs) -> None:
     count = arithmetic.WORDS

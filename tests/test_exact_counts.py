@@ -7,27 +7,19 @@ from collections import Counter
 
 import numpy as np
 import pytest
+from exact_counts import zero_set
+from random_small import DEGENERATIONS, small_system
+from singular_counts import standard_zero_set
+from systems import system
 
-flint = pytest.importorskip("flint")
-
-from exact_counts import zero_set  # noqa: E402
-from random_small import DEGENERATIONS, small_system  # noqa: E402
-from singular_counts import standard_zero_set  # noqa: E402
-
-from nag.algebra.expression import parse_polynomial  # noqa: E402
-from nag.algebra.system import PolynomialSystem  # noqa: E402
-from nag.bench.atlas.curves import FAMILIES as CURVES  # noqa: E402
-from nag.bench.atlas.points import FAMILIES as POINTS  # noqa: E402
-from nag.bench.zero_set import ZeroSet  # noqa: E402
+from nag.algebra.expression import parse_polynomial
+from nag.bench.atlas.curves import FAMILIES as CURVES
+from nag.bench.atlas.points import FAMILIES as POINTS
+from nag.bench.zero_set import ZeroSet
 
 needs_singular = pytest.mark.skipif(
     shutil.which("Singular") is None, reason="Singular is not installed"
 )
-
-
-def system(variables: str, *equations: str) -> PolynomialSystem:
-    names = tuple(variables)
-    return PolynomialSystem(names, tuple(parse_polynomial(f, names) for f in equations))
 
 
 @pytest.mark.parametrize(
@@ -54,7 +46,7 @@ def system(variables: str, *equations: str) -> PolynomialSystem:
 def test_zero_sets_in_the_plane(
     equations: list[str], components: dict[tuple[int, int, int], int]
 ) -> None:
-    found = zero_set(system("xy", *equations))
+    found = zero_set(system("x y", *equations))
     assert found == ZeroSet.of(Counter(components))
 
 
@@ -77,7 +69,7 @@ def test_zeros_on_the_line_are_those_of_the_common_divisor() -> None:
 )
 def test_factors_over_the_complex_numbers_are_counted(polynomial: str, factors: int) -> None:
     f = parse_polynomial(polynomial, ("x", "y"))
-    found = zero_set(system("xy", polynomial))
+    found = zero_set(system("x y", polynomial))
     assert found is not None
     assert found.components == Counter({(1, f.degree // factors, 1): factors})
 
@@ -104,7 +96,7 @@ def test_a_mere_sum_of_degrees_agrees_with_any_components_of_that_sum() -> None:
 def test_zero_sets_in_space(
     equations: list[str], points: dict[int, int], degrees: dict[tuple[int, int], int]
 ) -> None:
-    found = zero_set(system("xyz", *equations))
+    found = zero_set(system("x y z", *equations))
     assert found is not None
     assert (found.points, found.degrees) == (Counter(points), Counter(degrees))
 

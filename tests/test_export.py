@@ -13,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+import nag
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -27,6 +28,7 @@ from nag.files.export import (
     write_decomposition,
 )
 from nag.files.written_file import TargetError, check_target, write_target
+from nag.witness.moving import witness_at
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 VALIDATOR = jsonschema.Draft202012Validator(schema())
@@ -122,9 +124,7 @@ origins = st.none() | st.builds(
     reason=st.none() | texts,
 )
 
-whole_file = settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+whole_file = settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 def circle(**changes: object) -> Decomposition:
@@ -196,8 +196,40 @@ def test_irrational_coefficients_read_back_equal_and_are_marked(tmp_path) -> Non
 
 def test_every_field_of_a_component_is_exported() -> None:
     exported = document(circle())["components"][0]
-    names = {field.name for field in fields(WitnessSet)} - {"multidegree", "images"}
-    assert names | {"dimension", "degree"} == set(exported)
+    names = {field.name for field in fields(WitnessSet)} - {"multidegree", "images", "fibres"}
+    assert names | {"dimension", "degree", "cut_by"} == set(exported)
+
+
+def test_a_component_that_is_read_back_is_moved_by_the_equations_of_the_file(tmp_path) -> None:
+    # A double line and a double circle: both need deflation.
+    texts = ["(x^2 + y^2 - 1)^2*(x - 3)^2", "(x^2 + y^2 - 1)^2*(x - 3)*(z - x*y)", "(x - 3)*z^2"]
+    system = PolynomialSystem(
+        ("x", "y", "z"), [parse_polynomial(t, ["x", "y", "z"]) for t in texts]
+    )
+    answer = nag.decompose(system)
+    write_decomposition(answer, tmp_path / "export.json")
+    again = read_decomposition(tmp_path / "export.json")
+    assert again == answer
+    target = Slice(np.array([[0.3 + 0.1j, 0.5, -0.7j]]), np.array([0.2 - 0.4j]))
+    curves = [c for c in again.components if c.dimension == 1]
+    assert curves
+    for curve in curves:
+        assert curve.fibres and all(len(f.cut.polynomials) == 2 + f.cut.aux for f in curve.fibres)
+        moved = witness_at(system, curve, target)
+        assert moved.degree == curve.degree and moved.residual < 1e-12
+        assert [f.cut for f in moved.fibres] == [f.cut for f in curve.fibres]
+        assert np.array_equal(np.vstack([f.x for f in moved.fibres]), moved.points)
+
+
+def test_files_of_version_1_are_read(tmp_path) -> None:
+    old = document(circle())
+    old["version"] = 1
+    del old["equations"]
+    for component in old["components"]:
+        del component["cut_by"]
+    file = tmp_path / "old.json"
+    file.write_text(json.dumps(old))
+    assert read_decomposition(file) == circle()
 
 
 def test_multidegree_is_exported_only_where_the_system_has_groups() -> None:
@@ -216,7 +248,7 @@ def test_export_names_the_file_without_its_folder_and_holds_exact_polynomials() 
     assert content["case"] == {"title": "A title", "file": "case.toml", "kind": "system"}
     assert content["system"]["polynomials"] == ["1/3*x^2 - 7"]
     assert content["format"] == "nag-decomposition"
-    assert content["version"] == 1
+    assert content["version"] == 2
 
 
 def _broken(change) -> str:
@@ -246,7 +278,7 @@ BROKEN = {
     "nested": ("[" * 100_000, "nested too deep"),
     "long number": ('{"seed": ' + "9" * 10_000 + "}", "is not JSON"),
     "other format": ('{"format": "nag-solutions", "version": 1}', "format: must be"),
-    "later version": ('{"format": "nag-decomposition", "version": 2}', "version: must be 1"),
+    "later version": ('{"format": "nag-decomposition", "version": 3}', "version: must be 1 or 2"),
     "no system": (_broken(lambda c: c.pop("system")), "the key 'system' is missing"),
     "seed": (_broken(_set("seed", -1)), "seed: must be an integer, 0 or more"),
     "seed is true": (_broken(_set("seed", True)), "seed: must be an integer"),

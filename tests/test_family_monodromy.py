@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from evaluated import values
+from systems import family
 
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
@@ -22,13 +22,6 @@ from nag.solving.parameter import solve_family, solve_generic
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solve_classes import ClassEnds, track_classes
 from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
-
-
-def family(variables: str, parameters: str, *equations: str) -> Family:
-    names = variables.split() + parameters.split()
-    polynomials = [parse_polynomial(e, names) for e in equations]
-    return Family(tuple(variables.split()), tuple(parameters.split()), tuple(polynomials))
-
 
 # Symmetric in x and y, and even.
 EVEN = family(

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from systems import system
 
-from nag.algebra.expression import parse_polynomial
-from nag.algebra.system import PolynomialSystem
 from nag.decomposition import (
     decompose,
     intersect_components,
@@ -24,11 +23,6 @@ from nag.files.cases import read_case
 from nag.witness.membership import Membership
 
 CASES = Path(__file__).parent.parent / "cases"
-
-
-def system(variables: str, *equations: str) -> PolynomialSystem:
-    names = tuple(variables.split())
-    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
 
 
 def kinds(found: Intersection, accuracy: float = 1e-12) -> Counter[tuple[int, int]]:

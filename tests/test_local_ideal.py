@@ -16,7 +16,7 @@ from nag.algebra.local_ideal import local_ideal, standard_monomials
 
 
 @given(st.lists(st.tuples(*[st.integers(0, 4)] * 3), min_size=0, max_size=5))
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 def test_standard_monomials_are_those_that_no_monomial_divides(exponents) -> None:
     box = 9
     left = [

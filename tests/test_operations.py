@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from systems import system
 
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose, memberships, project, witness_at
 from nag.witness import membership as membership_module
@@ -17,11 +17,6 @@ from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import PathCounts, Slice, Status, WitnessSet
 
 MEMBER, FOREIGN, UNDECIDED = Membership.MEMBER, Membership.FOREIGN, Membership.UNDECIDED
-
-
-def system(variables: str, *equations: str) -> PolynomialSystem:
-    names = tuple(variables.split())
-    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
 
 
 def only(of: PolynomialSystem) -> WitnessSet:
@@ -86,7 +81,7 @@ def test_a_given_slice_shows_the_points_that_algebra_says() -> None:
 
 
 @given(seed=st.integers(0, 2**32))
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 def test_moving_away_and_back_leads_to_the_same_points(seed: int) -> None:
     component = only(CUBIC)
     slice_ = to_slice(random_rows(np.random.default_rng(seed), 1, 3))

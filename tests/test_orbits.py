@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from systems import system
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
-from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
 from nag.decomposition.monodromy import located
 from nag.decomposition.orbits import Action, irreducible_orbits
@@ -27,11 +26,6 @@ from nag.witness.points import Points
 from nag.witness.slices import random_rows
 
 CASES = Path(__file__).parent.parent / "cases"
-
-
-def system(variables: str, *equations: str) -> PolynomialSystem:
-    names = tuple(variables.split())
-    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
 
 
 def symmetry(variables: str, **images: str) -> SignedPermutation:

@@ -6,17 +6,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from systems import family
 
-from nag.algebra.expression import parse_polynomial
-from nag.solving.parameter import Family, solve_family, solve_generic
+from nag.solving.parameter import solve_family, solve_generic
 from nag.solving.start.target import StartError
-
-
-def family(variables: str, parameters: str, *equations: str) -> Family:
-    names = variables.split() + parameters.split()
-    polynomials = [parse_polynomial(e, names) for e in equations]
-    return Family(tuple(variables.split()), tuple(parameters.split()), tuple(polynomials))
-
 
 LINEAR = family("x y", "a b", "x^2 + y^2 - a", "x*y - b")
 NONLINEAR = family("x", "a b", "x^2 - (a^2 + b)*x + a^2*b")

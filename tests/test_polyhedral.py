@@ -13,20 +13,15 @@ import pytest
 from evaluated import values
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from systems import benchmark
 
-from nag.files.cases import read_case
 from nag.solving.start.fibre_monodromy import GenericSystem
 from nag.solving.start.mixed_cells import MixedCells, mixed_cells
 from nag.solving.start.polyhedral import polyhedral
-from nag.solving.start.target import Start, StartError, Target, unit
+from nag.solving.start.target import Start, StartError, unit
 from nag.solving.start.toric import binomial_solutions, by_degeneration, cell_weights
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
-
-
-def target(name: str) -> Target:
-    system = read_case(BENCHMARKS / f"{name}.toml").system
-    return Target.of(system.polynomials, system.n)
 
 
 @pytest.mark.parametrize(
@@ -45,7 +40,8 @@ def target(name: str) -> Target:
 def test_mixed_volumes_that_are_known(name: str, volume: int) -> None:
     for seed in range(3):
         assert (
-            mixed_cells(target(name).supports, np.random.default_rng(seed)).mixed_volume == volume
+            mixed_cells(benchmark(name).supports, np.random.default_rng(seed)).mixed_volume
+            == volume
         )
 
 
@@ -77,12 +73,12 @@ def lowest(cells: MixedCells, edge: np.ndarray) -> bool:
 
 @pytest.mark.parametrize("name", ["cyclic-5", "noon-5", "griewank-osborne", "caprasse"])
 def test_every_cell_is_on_the_lower_hull(name: str) -> None:
-    cells = mixed_cells(target(name).supports, np.random.default_rng(7))
+    cells = mixed_cells(benchmark(name).supports, np.random.default_rng(7))
     assert len({tuple(np.sort(e, axis=1).ravel()) for e in cells.edges}) == len(cells.edges)
     assert all(lowest(cells, edge) for edge in cells.edges)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(st.integers(2, 4), st.integers(0, 10**6))
 def test_the_volume_does_not_depend_on_the_lifting(n: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -96,7 +92,7 @@ def test_the_volume_does_not_depend_on_the_lifting(n: int, seed: int) -> None:
 
 
 @given(st.lists(st.integers(1, 5), min_size=1, max_size=5))
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 def test_the_volume_of_multiples_of_a_simplex_is_bezouts_number(degrees: list[int]) -> None:
     n = len(degrees)
     simplex = np.vstack([np.zeros((1, n), int), np.eye(n, dtype=int)])
@@ -105,7 +101,7 @@ def test_the_volume_of_multiples_of_a_simplex_is_bezouts_number(degrees: list[in
 
 
 def start_system(name: str, seed: int) -> Start:
-    each, rng = target(name), np.random.default_rng(seed)
+    each, rng = benchmark(name), np.random.default_rng(seed)
     return polyhedral(each, mixed_cells(each.supports, rng), rng, 1)
 
 
@@ -124,7 +120,7 @@ def test_the_start_system_has_as_many_regular_solutions_as_the_volume(
 @pytest.mark.parametrize("name", ["cyclic-5", "noon-5", "caprasse", "eco-8"])
 def test_binomials_have_as_many_solutions_as_the_volume_of_their_cell(name: str) -> None:
     rng = np.random.default_rng(3)
-    cells = mixed_cells(target(name).supports, rng)
+    cells = mixed_cells(benchmark(name).supports, rng)
     coefficients = [unit(rng, len(s)) for s in cells.supports]
     angles, owners = binomial_solutions(cells, coefficients)
     assert np.array_equal(np.bincount(owners), cells.volumes)
@@ -140,7 +136,7 @@ def test_binomials_have_as_many_solutions_as_the_volume_of_their_cell(name: str)
 
 
 def test_only_the_edges_of_a_cell_keep_their_terms_in_the_degeneration() -> None:
-    cells = mixed_cells(target("cyclic-6").supports, np.random.default_rng(1))
+    cells = mixed_cells(benchmark("cyclic-6").supports, np.random.default_rng(1))
     weights = cell_weights(cells)
     first = np.cumsum([0] + [len(s) for s in cells.supports])[:-1]
     on = np.zeros(weights.shape, dtype=bool)

@@ -15,7 +15,7 @@ from nag.mechanism.model import model
 from nag.mechanism.quaternion import multiply, norm_squared, rotate
 
 OWN = exact("7/4", "5/6", "1/3")
-laws = settings(max_examples=25, deadline=None)
+laws = settings(max_examples=25)
 
 
 @st.composite

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from systems import system
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import by_sampling, decompose, memberships, real_points_near, sample
@@ -22,11 +22,6 @@ from nag.witness.sampling import SamplingError
 from nag.witness.witness import Decomposition, Status
 
 CASES = Path(__file__).parent.parent / "cases"
-
-
-def system(variables: str, *equations: str) -> PolynomialSystem:
-    names = tuple(variables.split())
-    return PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
 
 
 def case(name: str) -> PolynomialSystem:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
+from systems import system
 
-from nag.algebra.expression import parse_polynomial
-from nag.algebra.system import PolynomialSystem
+from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition import decompose
 from nag.solving.solve import solve
 from nag.witness.witness import Decomposition
@@ -16,9 +16,7 @@ CONIC, LINE, POINT = (1, 2, 1), (1, 1, 1), (0, 1, 1)
 
 
 def decomposed(variables: str, equations: list[str], seed: int) -> Decomposition:
-    names = tuple(variables.split())
-    system = PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
-    return decompose(system, seed=seed)
+    return decompose(system(variables, *equations), seed=seed)
 
 
 def kinds(answer: Decomposition) -> Counter[tuple[int, int, int]]:
@@ -50,6 +48,29 @@ def test_scale_does_not_change_the_answer(
     assert kinds(answer) == Counter(expected)
 
 
+@pytest.mark.parametrize(
+    ("equations", "images", "expected"),
+    [
+        (["x^2 + y^2 - 10^12", "x - y"], {"x": "-x", "y": "-y"}, {(0, 1, 2): 1}),
+        (["x^2 + y^2 + z^2 - 10^12", "x*y - 10^6*z"], {"x": "-x", "y": "-y"}, {(1, 4, 1): 1}),
+        (["x*y - 10^10", "z^3 + x + y - 10^9"], {"x": "y", "y": "x"}, {(1, 6, 1): 1}),
+        (["x^2 + y^2 - 10^12", "z^2 - x*y/10^12 - 1"], {"x": "y", "y": "x"}, {(1, 4, 1): 1}),
+    ],
+)
+@pytest.mark.parametrize("seed", [0, 1])
+def test_scale_does_not_change_what_symmetries_carry_into_each_other(
+    equations: list[str],
+    images: dict[str, str],
+    expected: dict[tuple[int, int, int], int],
+    seed: int,
+) -> None:
+    of = system("x y z" if "z" in equations[-1] else "x y", *equations)
+    symmetry = SignedPermutation.of_map(images, of.variables)
+    answer = decompose(of, seed=seed, symmetries=[symmetry])
+    assert answer.complete
+    assert Counter((c.dimension, c.degree, c.orbit) for c in answer.components) == expected
+
+
 UNEVEN = [
     (
         # Two zeros are 2e-16 apart, in the smallest of three small coordinates.
@@ -77,9 +98,7 @@ UNEVEN = [
 def test_simple_solutions_with_uneven_coordinates_stay_simple(
     equations: list[str], count: int
 ) -> None:
-    names = ("x", "y", "z")
-    system = PolynomialSystem(names, tuple(parse_polynomial(e, names) for e in equations))
-    found = solve(system)
+    found = solve(system("x y z", *equations))
     assert found.complete
     assert Counter(s.multiplicity for s in found.solutions) == Counter({1: count})
 

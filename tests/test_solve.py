@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from systems import system
 
-from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
@@ -20,11 +20,6 @@ from nag.solving.solve import solve
 from nag.solving.start.target import StartError
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
-
-
-def system(variables: str, *equations: str, **more: object) -> PolynomialSystem:
-    names = variables.split()
-    return PolynomialSystem(names, [parse_polynomial(e, names) for e in equations], **more)
 
 
 def multiplicities(result: SolveResult) -> Counter[int]:

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from evaluated import values
+from systems import benchmark
 
-from nag.files.cases import read_case
 from nag.solving.start import monodromy as module
 from nag.solving.start.fibre_monodromy import GenericSystem, by_monodromy
 from nag.solving.start.mixed_cells import mixed_cells
@@ -25,11 +25,6 @@ from nag.solving.start.target import StartError, Target
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 
 
-def target(name: str) -> Target:
-    system = read_case(BENCHMARKS / f"{name}.toml").system
-    return Target.of(system.polynomials, system.n)
-
-
 def enlarged(each: Target, row: int) -> list[np.ndarray]:
     """The supports, one of them enlarged by a simplex."""
     supports = list(each.supports)
@@ -39,7 +34,7 @@ def enlarged(each: Target, row: int) -> list[np.ndarray]:
 
 
 def all_points(name: str, seed: int) -> tuple[Pencil, GenericSystem]:
-    each, rng = target(name), np.random.default_rng(seed)
+    each, rng = benchmark(name), np.random.default_rng(seed)
     row = irreducible_row(each.supports, rng)
     assert row is not None
     pencil, system = seeded_pencil(each.supports, row, rng)
@@ -51,7 +46,7 @@ def all_points(name: str, seed: int) -> tuple[Pencil, GenericSystem]:
 
 @pytest.mark.parametrize("name", ["cyclic-5", "griewank-osborne", "planar-3-rpr", "katsura-6"])
 def test_the_search_ends_with_all_solutions_by_the_trace_alone(name: str) -> None:
-    each, rng = target(name), np.random.default_rng(2)
+    each, rng = benchmark(name), np.random.default_rng(2)
     start = monodromy(each, rng, 1)
     row = irreducible_row(each.supports, rng)
     assert row is not None
@@ -98,4 +93,4 @@ def test_one_polynomial_in_one_variable() -> None:
 def test_what_no_trace_proves_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "trace_is_linear", lambda *_, **__: False)
     with pytest.raises(StartError, match="5 solutions were found, but no trace proves"):
-        monodromy(target("griewank-osborne"), np.random.default_rng(0), 1)
+        monodromy(benchmark("griewank-osborne"), np.random.default_rng(0), 1)

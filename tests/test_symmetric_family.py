@@ -67,7 +67,7 @@ def four_bar_at_two_displacements(numbers: list[Fraction]) -> tuple[tuple, tuple
 
 
 @given(st.lists(rationals, min_size=34, max_size=34))
-@settings(derandomize=True, deadline=None, max_examples=10)
+@settings(max_examples=10)
 def test_all_six_of_a_class_satisfy_the_equations_exactly(numbers: list[Fraction]) -> None:
     try:
         halves, values = four_bar_at_two_displacements(numbers)

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
+from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, Tracker, carried, cut_fibres
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import unit_complex
@@ -55,6 +57,9 @@ class Factor:
         Raises:
             IntersectionError: if no cut is found for a point.
         """
+        kept = [self._reduced(fibre) for fibre in self.component.fibres]
+        if kept and all(len(f.cut.polynomials) == self.n + f.cut.aux - f.dimension for f in kept):
+            return kept
         deflate = self.component.multiplicity != 1
         points = self.component.points[:, self.reduction.kept]
         equations = self.reduction.equations
@@ -62,6 +67,16 @@ class Factor:
         if fibres is None:
             raise IntersectionError("the witness points are no regular zeros of the system")
         return fibres
+
+    def _reduced(self, fibre: Fibre) -> Fibre:
+        """A fibre in the coordinates that are left, its linear equations solved."""
+        aux = fibre.cut.aux
+        unknowns = range(self.n, self.n + aux)
+        images = [f.with_variables(self.n + aux, range(self.n)) for f in self.reduction.images]
+        images += [Polynomial.variable(self.n + aux, i) for i in unknowns]
+        rows = [f.compose(images) for f in fibre.cut.polynomials]
+        points = np.hstack([fibre.x[:, self.reduction.kept], fibre.points[:, fibre.cut.n :]])
+        return Fibre(Cut(self.n, aux, tuple(f for f in rows if f)), fibre.dimension, points)
 
 
 def on_flag(

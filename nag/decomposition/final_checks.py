@@ -75,6 +75,19 @@ def _coranks(
     return result
 
 
+def _sharpened(fibres: Sequence[Fibre], rows: np.ndarray) -> tuple[list[Fibre], float]:
+    """Points to rounding, in an order that does not depend on how they were found."""
+    result, largest = [], float(np.finfo(float).eps)
+    for fibre in fibres:
+        ends = [sharpen(fibre.cut.evaluator, rows, z) for z in fibre.points]
+        largest = max([largest, *(s.step if np.isfinite(s.step) else np.inf for s in ends)])
+        points = np.array([s.z for s in ends])
+        if points.shape[1]:
+            points = points[np.lexsort((points.imag[:, 0], points.real[:, 0]))]
+        result.append(Fibre(fibre.cut, fibre.dimension, points))
+    return result, largest
+
+
 def checked_witness_set(
     found: Class,
     points: Points,
@@ -91,17 +104,10 @@ def checked_witness_set(
     rows, d, counts = points.rows, points.dimension, PathCounts()
     reduced, frame, groups = reduction.equations, reduction.frame, reduction.system.groups
     chosen, _ = points.fibres(found.indices)
-    ends, steps = [], [0.0]
     first = chosen[0].points[0]
-    for fibre in chosen:
-        for z in fibre.points:
-            sharpened = sharpen(fibre.cut.evaluator, rows, z)
-            ends.append(sharpened.z[: fibre.cut.n])
-            steps.append(sharpened.step if np.isfinite(sharpened.step) else np.inf)
-    y = np.array(ends)
+    chosen, accuracy = _sharpened(chosen, rows)
+    y = np.vstack([fibre.x for fibre in chosen])
     x = frame.points(y)
-    order = np.lexsort((x.imag[:, 0], x.real[:, 0])) if x.shape[1] else np.arange(len(x))
-    y, x = y[order], x[order]
     residual = float(reduction.original.residuals(x).max(initial=0.0))
     coranks = _coranks(reduced, rows, y, not chosen[0].cut.levels, rng)
     reasons = [found.reason] if found.reason else []
@@ -129,10 +135,18 @@ def checked_witness_set(
             multiplicity=multiple,
             status=Status.UNDECIDED if reasons else Status.IRREDUCIBLE,
             residual=residual,
-            accuracy=max(*steps, np.finfo(float).eps),
+            accuracy=accuracy,
             corank=coranks[0],
             multidegree=multidegree,
             note="; ".join(reasons),
+            fibres=tuple(
+                Fibre(
+                    reduction.lifted(fibre.cut),
+                    d,
+                    np.hstack([frame.points(fibre.x), fibre.points[:, fibre.cut.n :]]),
+                )
+                for fibre in chosen
+            ),
         ),
         counts,
     )

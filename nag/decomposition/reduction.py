@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
@@ -12,7 +14,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.scaling import scaled_terms, variable_scales
-from nag.witness.cutting import Equations
+from nag.witness.cutting import Cut, Equations
 from nag.witness.frame import Frame
 
 # Coefficients of comparable size are left as they are: scales below this factor bring nothing.
@@ -34,6 +36,7 @@ class Reduction:
     elimination: Elimination
     reduced: PolynomialSystem
     frame: Frame
+    _lifted: dict[Cut, Cut] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, system: PolynomialSystem, scaled: bool = False) -> Reduction:
@@ -59,6 +62,23 @@ class Reduction:
         """The original variables as polynomials in the coordinates without scales."""
         return self.elimination.images
 
+    def lifted(self, cut: Cut) -> Cut:
+        """A square system in these coordinates as one in the original variables.
+
+        The equations that the linear ones were solved for come after it.
+        """
+        if cut not in self._lifted:
+            n, total = self.system.n, self.system.n + cut.aux
+            place = [*self.kept, *range(n, total)]
+            powers = np.round(np.log2(self.frame.scales)).astype(int)
+            rows = [_unscaled(f, powers).with_variables(total, place) for f in cut.polynomials]
+            for i, image in enumerate(self.images):
+                if i not in self.kept:
+                    x = Polynomial.variable(total, i)
+                    rows.append(x - image.with_variables(total, self.kept))
+            self._lifted[cut] = Cut(n, cut.aux, tuple(rows))
+        return self._lifted[cut]
+
     @cached_property
     def equations(self) -> Equations:
         """The equations in these coordinates."""
@@ -73,6 +93,17 @@ class Reduction:
     def original(self) -> Evaluator:
         """The equations that were given."""
         return Evaluator.of(self.system.polynomials, self.system.n)
+
+
+def _unscaled(f: Polynomial, powers: Sequence[int]) -> Polynomial:
+    """``f(x / 2^powers)``; further variables are left as they are."""
+    if not any(powers):
+        return f
+    terms = {}
+    for exponents, c in f.terms.items():
+        shift = sum(int(p) * k for p, k in zip(powers, exponents, strict=False))
+        terms[exponents] = c * Fraction(2) ** -shift
+    return Polynomial(f.n, terms)
 
 
 def scaled_system(system: PolynomialSystem) -> tuple[PolynomialSystem, np.ndarray]:

@@ -55,7 +55,7 @@ def in_orbits(
             for symmetry in symmetries:
                 way = symmetry.after(carrier)
                 there = image(first, way)
-                (end,) = moved(replace(there, points=there.points[:1]), first.slice)
+                (end,) = moved(_first_point(there), first.slice)
                 if any(_among(end, points) for _, points in members):
                     continue
                 # Components that stand earlier have their whole orbits.
@@ -70,6 +70,12 @@ def in_orbits(
         images = tuple(way for way, _ in members[1:])
         found.append(replace(first, orbit=len(members), images=images))
     return found
+
+
+def _first_point(component: WitnessSet) -> WitnessSet:
+    """A witness set with one of its points only, to be moved."""
+    fibres = tuple(fibre.only(np.arange(len(fibre)) == 0) for fibre in component.fibres[:1])
+    return replace(component, points=component.points[:1], fibres=fibres)
 
 
 def _among(x: np.ndarray, points: np.ndarray) -> bool:

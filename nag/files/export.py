@@ -1,8 +1,10 @@
 """Decompositions as JSON: written, and read back to equal objects.
 
-The format is ``nag-decomposition``, version 1; its JSON Schema is in ``schema/`` beside this
-module. A file holds all that is needed to go on from it (system, slices, points, seed, settings)
-and nothing that differs between runs with the same seed (no times, no folders, no thread counts).
+The format is ``nag-decomposition``, version 2; its JSON Schema is in ``schema/`` beside this
+module. A file holds all that is needed to go on from it (system, slices, points, the equations that
+cut each component regularly, seed, settings) and nothing that differs between runs with the same
+seed (no times, no folders, no thread counts). Files of version 1, which lack these equations, are
+read as well.
 """
 
 from __future__ import annotations
@@ -27,6 +29,7 @@ from nag.files.json_values import (
     as_flag,
     as_list,
     as_matrix,
+    as_polynomials,
     as_system,
     as_table,
     as_text,
@@ -37,10 +40,12 @@ from nag.files.json_values import (
     wrong,
 )
 from nag.files.written_file import write_target
+from nag.witness.cutting import Cut
+from nag.witness.fibres import Fibre
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 FORMAT = "nag-decomposition"
-VERSION = 1
+VERSION = 2
 
 # A file is taken into memory whole, several times its size as Python objects.
 
@@ -99,9 +104,39 @@ def component_document(component: WitnessSet, variables: Sequence[str]) -> dict[
     }
 
 
+def _unknowns(count: int, variables: Sequence[str]) -> list[str]:
+    """Names for unknowns that deflation added."""
+    stem = "u"
+    while any(name.startswith(stem) for name in variables):
+        stem += "u"
+    return [f"{stem}{i + 1}" for i in range(count)]
+
+
+def _equations_document(cut: Cut, variables: Sequence[str]) -> dict[str, Any]:
+    names = _unknowns(cut.aux, variables)
+    texts = [f.text([*variables, *names]) for f in cut.polynomials]
+    return {"unknowns": names, "polynomials": texts}
+
+
 def document(decomposition: Decomposition, origin: Origin | None = None) -> dict[str, Any]:
     """The export as a JSON object (dicts, lists, strings, numbers, None)."""
     system = decomposition.system
+    cuts = list(dict.fromkeys(f.cut for c in decomposition.components for f in c.fibres))
+    place = {cut: i for i, cut in enumerate(cuts)}
+    components = [
+        component_document(c, system.variables)
+        | {
+            "cut_by": [
+                {
+                    "equations": place[f.cut],
+                    "points": len(f),
+                    "unknowns": pairs(f.points[:, system.n :]),
+                }
+                for f in c.fibres
+            ]
+        }
+        for c in decomposition.components
+    ]
     case = origin and {"title": origin.title, "file": origin.file, "kind": origin.kind}
     return {
         "format": FORMAT,
@@ -120,7 +155,8 @@ def document(decomposition: Decomposition, origin: Origin | None = None) -> dict
         },
         "order": [int(i) for i in decomposition.order],
         "system": system_document(system),
-        "components": [component_document(c, system.variables) for c in decomposition.components],
+        "equations": [_equations_document(cut, system.variables) for cut in cuts],
+        "components": components,
     }
 
 
@@ -152,7 +188,39 @@ def _multidegree(value: Any, groups: int, dimension: int, place: str) -> np.ndar
     return array
 
 
-def _component(value: Any, system: PolynomialSystem, place: str) -> WitnessSet:
+def _cut(value: Any, system: PolynomialSystem, place: str) -> Cut:
+    table = as_table(value, place)
+    names = as_texts(entry(table, "unknowns", place), f"{place}.unknowns")
+    texts = entry(table, "polynomials", place)
+    found = as_polynomials(texts, [*system.variables, *names], f"{place}.polynomials")
+    return Cut(system.n, len(names), tuple(found))
+
+
+def _fibres(
+    value: Any, cuts: Sequence[Cut], points: np.ndarray, dimension: int, place: str
+) -> tuple[Fibre, ...]:
+    found, first = [], 0
+    for i, item in enumerate(as_list(value, place)):
+        here = f"{place}[{i}]"
+        table = as_table(item, here)
+        which = as_count(entry(table, "equations", here), f"{here}.equations")
+        if which >= len(cuts):
+            raise wrong(f"{here}.equations", "the index of one of the equations")
+        cut = cuts[which]
+        last = first + as_count(entry(table, "points", here), f"{here}.points")
+        unknowns = as_matrix(entry(table, "unknowns", here), cut.aux, f"{here}.unknowns")
+        if last > len(points) or len(unknowns) != last - first:
+            raise wrong(f"{here}.unknowns", "one row for each of the points")
+        if len(cut.polynomials) != cut.n + cut.aux - dimension:
+            raise wrong(f"{here}.equations", "that of as many equations as cut the component")
+        found.append(Fibre(cut, dimension, np.hstack([points[first:last], unknowns])))
+        first = last
+    if found and first != len(points):
+        raise wrong(place, "one cut for each of the points")
+    return tuple(found)
+
+
+def _component(value: Any, system: PolynomialSystem, cuts: Sequence[Cut], place: str) -> WitnessSet:
     table = as_table(value, place)
 
     def get(key: str, convert: Any, *arguments: Any) -> Any:
@@ -187,6 +255,7 @@ def _component(value: Any, system: PolynomialSystem, place: str) -> WitnessSet:
         precision=get("precision", as_text),
         note=get("note", as_text),
         images=_images(orbit.get("images", []), size, system, f"{place}.orbit.images"),
+        fibres=_fibres(table.get("cut_by", []), cuts, points, len(b), f"{place}.cut_by"),
     )
 
 
@@ -212,7 +281,7 @@ def export_of(value: Any) -> Export:
     Raises:
         ExportError: if it is not one.
     """
-    table = as_document(value, FORMAT, VERSION)
+    table = as_document(value, FORMAT, VERSION, 1)
 
     def get(key: str, convert: Any) -> Any:
         return convert(entry(table, key, "the file"), key)
@@ -220,8 +289,11 @@ def export_of(value: Any) -> Export:
     system = get("system", as_system)
     paths = get("paths", as_table)
     order = [as_count(v, f"order[{i}]") for i, v in enumerate(get("order", as_list))]
+    parts = as_list(table.get("equations", []), "equations")
+    cuts = [_cut(v, system, f"equations[{i}]") for i, v in enumerate(parts)]
     components = [
-        _component(v, system, f"components[{i}]") for i, v in enumerate(get("components", as_list))
+        _component(v, system, cuts, f"components[{i}]")
+        for i, v in enumerate(get("components", as_list))
     ]
     decomposition = Decomposition(
         system=system,

@@ -99,7 +99,7 @@ def as_matrix(value: Any, columns: int, place: str) -> np.ndarray:
     return np.array(rows, dtype=complex).reshape(len(rows), columns)
 
 
-def _polynomials(value: Any, variables: Sequence[str], place: str) -> list[Polynomial]:
+def as_polynomials(value: Any, variables: Sequence[str], place: str) -> list[Polynomial]:
     found = []
     for i, text in enumerate(as_texts(value, place)):
         try:
@@ -120,7 +120,7 @@ def as_system(value: Any, place: str) -> PolynomialSystem:
             raise ExportError(f"{here}: {unknown[0]!r} is not one of the variables")
         groups.append([index[name] for name in names])
     parts = {
-        key: _polynomials(entry(table, key, place), variables, f"{place}.{key}")
+        key: as_polynomials(entry(table, key, place), variables, f"{place}.{key}")
         for key in ("polynomials", "nonzero")
     }
     try:
@@ -129,13 +129,14 @@ def as_system(value: Any, place: str) -> PolynomialSystem:
         raise ExportError(f"{place}: {error}") from None
 
 
-def as_document(value: Any, name: str, version: int) -> dict[str, Any]:
-    """The whole document, of the format and version given."""
+def as_document(value: Any, name: str, *versions: int) -> dict[str, Any]:
+    """The whole document, of the format and one of the versions given."""
     table = as_table(value, "the file")
     if table.get("format") != name:
         raise wrong("format", f'"{name}"')
-    if table.get("version") != version:
-        raise wrong("version", f"{version}, the version that this program reads")
+    if table.get("version") not in versions:
+        known = " or ".join(str(version) for version in sorted(versions))
+        raise wrong("version", f"{known}, which this program reads")
     return table
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import ast
 import builtins
-from collections.abc import Callable
 from types import FunctionType, ModuleType
 from typing import Any
 
 from llvmlite import ir
 
 from nag.machine_code import operators
-from nag.machine_code.operations import OPERATIONS
+from nag.machine_code.failures import check_call, check_divisor
+from nag.machine_code.operations import index, operation
 from nag.machine_code.records import (
     BOOL,
     COMPLEX,
@@ -30,7 +30,9 @@ from nag.machine_code.values import (
     BYTE,
     WORD,
     KernelError,
+    LocatedError,
     Value,
+    complex_of,
     constant,
     convert,
     llvm_type,
@@ -43,7 +45,8 @@ class Expressions:
     """Variables and expressions of a function that is being translated.
 
     Variables live in memory that the first block reserves; LLVM makes registers of them. A
-    variable keeps the type that it gets first.
+    variable keeps the type that it gets first. ``assigned`` are those that have a value wherever
+    the way to here led along; ``fails`` says whether a division by zero may end the function.
     """
 
     def __init__(self, module: Any, python: FunctionType, function: ir.Function) -> None:
@@ -51,7 +54,16 @@ class Expressions:
         self.reserve = ir.IRBuilder(function.append_basic_block("variables"))
         self.builder = ir.IRBuilder(function.append_basic_block("start"))
         self.variables: dict[str, tuple[Type, Any]] = {}
+        self.assigned: set[str] = set()
         self.local = set(python.__code__.co_varnames)
+        self.fails = False
+
+    def _place_of(self, node: ast.AST) -> str:
+        code = self.python.__code__
+        return f"{code.co_filename}:{code.co_firstlineno + getattr(node, 'lineno', 1) - 1}"
+
+    def _fail(self, node: ast.AST, message: str) -> LocatedError:
+        return LocatedError(f"{self._place_of(node)}: {message}")
 
     # Variables and memory.
 
@@ -67,6 +79,7 @@ class Expressions:
         except KernelError:
             raise KernelError(f"{name} is {kind} and cannot become {value.type}") from None
         self.builder.store(code, place)
+        self.assigned.add(name)
 
     def _assign(self, target: ast.expr, value: Value) -> None:
         if isinstance(target, ast.Name):
@@ -87,8 +100,8 @@ class Expressions:
         base = self._value(node.value)
         if not isinstance(base.type, Pointer):
             raise KernelError(f"{base.type} has no entries")
-        index = convert(self.builder, self._value(node.slice), INT)
-        return self.builder.gep(base.code, [index.code]), base.type.element
+        place = index(self.builder, self._value(node.slice))
+        return self.builder.gep(base.code, [place]), base.type.element
 
     def _load(self, place: Any, kind: Type) -> Value:
         return Value(kind, self.builder.load(place))
@@ -96,7 +109,9 @@ class Expressions:
     def _store(self, place: Any, kind: Type, value: Value) -> None:
         self.builder.store(convert(self.builder, value, kind).code, place)
 
-    def _item(self, value: Value, k: int) -> Value:
+    def _item(self, value: Value, k: Any) -> Value:
+        if type(k) is not int or not 0 <= k < len(value.type.items):
+            raise KernelError(f"{value.type} has no item {k!r}")
         return Value(value.type.items[k], self.builder.extract_value(value.code, k))
 
     def _field(self, value: Value, name: str) -> Value:
@@ -105,6 +120,8 @@ class Expressions:
                 place = self.builder.gep(value.code, [ir.Constant(WORD, k)])
                 word = self.builder.load(place)
                 word.set_metadata("invariant.load", self.module.constant_memory)
+                if kind is BOOL:
+                    return Value(BOOL, truth(self.builder, Value(INT, word)))
                 if kind is INT:
                     return Value(INT, word)
                 if kind is REAL:
@@ -117,10 +134,11 @@ class Expressions:
     def _static(self, node: ast.expr) -> Any:
         """What a name outside the function stands for; None for anything else."""
         if isinstance(node, ast.Name) and node.id not in self.local:
-            if node.id in self.module.modules:
-                return self.module.modules[node.id]
             known = self.python.__globals__
-            return known[node.id] if node.id in known else getattr(builtins, node.id, None)
+            found = known[node.id] if node.id in known else getattr(builtins, node.id, None)
+            if isinstance(found, ModuleType):
+                return self.module.modules.get(node.id, found)
+            return found
         if isinstance(node, ast.Attribute):
             owner = self._static(node.value)
             return getattr(owner, node.attr, None) if isinstance(owner, ModuleType) else None
@@ -146,10 +164,15 @@ class Expressions:
     def _value(self, node: ast.expr, allow_none: bool = False) -> Value:
         method = getattr(self, f"_of_{type(node).__name__}", None)
         if method is None:
-            raise KernelError(f"{type(node).__name__} is not translated")
-        value = method(node)
+            raise self._fail(node, f"{type(node).__name__} is not translated")
+        try:
+            value = method(node)
+        except LocatedError:
+            raise
+        except KernelError as error:
+            raise self._fail(node, str(error)) from None
         if value.type is NONE and not allow_none:
-            raise KernelError(f"{ast.unparse(node)} has no value")
+            raise self._fail(node, f"{ast.unparse(node)} has no value")
         return value
 
     def _of_Constant(self, node: ast.Constant) -> Value:
@@ -161,11 +184,11 @@ class Expressions:
         raise KernelError(f"{text} is no number")
 
     def _of_Name(self, node: ast.Name) -> Value:
-        if node.id in self.variables:
+        if node.id in self.assigned:
             kind, place = self.variables[node.id]
             return Value(kind, self.builder.load(place))
         if node.id in self.local:
-            raise KernelError(f"{node.id} has no value yet")
+            raise KernelError(f"{node.id} may have no value yet")
         return self._known(self._static(node), node.id)
 
     def _of_Attribute(self, node: ast.Attribute) -> Value:
@@ -197,7 +220,15 @@ class Expressions:
         return Value(kind, code)
 
     def _of_BinOp(self, node: ast.BinOp) -> Value:
-        left, right = self._value(node.left), self._value(node.right)
+        return self._operated(node, self._value(node.left), self._value(node.right))
+
+    def _operated(self, node: ast.BinOp | ast.AugAssign, left: Value, right: Value) -> Value:
+        if operators.divides_whole_numbers(node.op, left, right):
+            known = isinstance(right.code, ir.Constant) and right.code.constant
+            if not known:
+                text = f"{self._place_of(node)}: division of a whole number by zero"
+                check_divisor(self.function, self.builder, right, text)
+                self.fails = True
         return operators.binary(self.builder, node.op, left, right)
 
     def _of_UnaryOp(self, node: ast.UnaryOp) -> Value:
@@ -206,7 +237,29 @@ class Expressions:
         return operators.unary(self.builder, node.op, self._value(node.operand))
 
     def _of_BoolOp(self, node: ast.BoolOp) -> Value:
-        return self._of_IfExp(ast.IfExp(node, ast.Constant(True), ast.Constant(False)))
+        """One bit after the other, until one decides; of numbers Python makes no bit."""
+        after = self.function.append_basic_block()
+        ends = []
+        for value in node.values:
+            bit = self._value(value)
+            if bit.type != BOOL:
+                raise KernelError(f"{ast.unparse(value)} is {bit.type}, not bool")
+            ends.append((bit.code, self.builder.block))
+            if value is node.values[-1]:
+                self.builder.branch(after)
+            else:
+                following = self.function.append_basic_block()
+                ways = (following, after) if isinstance(node.op, ast.And) else (after, following)
+                self.builder.cbranch(bit.code, *ways)
+                self.builder.position_at_end(following)
+        self.builder.position_at_end(after)
+        return self._merged(BOOL, ends)
+
+    def _merged(self, kind: Type, ends: list[tuple[Any, Any]]) -> Value:
+        result = self.builder.phi(llvm_type(kind))
+        for code, end in ends:
+            result.add_incoming(code, end)
+        return Value(kind, result)
 
     def _of_IfExp(self, node: ast.IfExp) -> Value:
         yes, no, after = (self.function.append_basic_block() for _ in range(3))
@@ -227,24 +280,37 @@ class Expressions:
             codes.append(convert(self.builder, value, kind).code)
             self.builder.branch(after)
         self.builder.position_at_end(after)
-        result = self.builder.phi(llvm_type(kind))
-        for code, end in zip(codes, ends, strict=True):
-            result.add_incoming(code, end)
-        return Value(kind, result)
+        return self._merged(kind, list(zip(codes, ends, strict=True)))
 
     def _of_Compare(self, node: ast.Compare) -> Value:
         left = self._value(node.left)
-        result = None
-        for operator, comparator in zip(node.ops, node.comparators, strict=True):
+        if len(node.ops) > 1:
+            return self._chain(node, left)
+        operator, comparator = node.ops[0], node.comparators[0]
+        if isinstance(operator, ast.In | ast.NotIn):
+            bit = self._contains(left, comparator)
+            return Value(BOOL, self.builder.not_(bit) if isinstance(operator, ast.NotIn) else bit)
+        return Value(BOOL, operators.compare(self.builder, operator, left, self._value(comparator)))
+
+    def _chain(self, node: ast.Compare, left: Value) -> Value:
+        """Comparisons one after the other, until one does not hold."""
+        after = self.function.append_basic_block()
+        ends = []
+        for k, (operator, comparator) in enumerate(zip(node.ops, node.comparators, strict=True)):
             if isinstance(operator, ast.In | ast.NotIn):
-                bit = self._contains(left, comparator)
-                bit = self.builder.not_(bit) if isinstance(operator, ast.NotIn) else bit
+                raise KernelError("in is not chained")
+            right = self._value(comparator)
+            bit = operators.compare(self.builder, operator, left, right)
+            ends.append((bit, self.builder.block))
+            left = right
+            if k == len(node.ops) - 1:
+                self.builder.branch(after)
             else:
-                right = self._value(comparator)
-                bit = operators.compare(self.builder, operator, left, right)
-                left = right
-            result = bit if result is None else self.builder.and_(result, bit)
-        return Value(BOOL, result)
+                following = self.function.append_basic_block()
+                self.builder.cbranch(bit, following, after)
+                self.builder.position_at_end(following)
+        self.builder.position_at_end(after)
+        return self._merged(BOOL, ends)
 
     def _contains(self, value: Value, node: ast.expr) -> Any:
         if not isinstance(node, ast.Tuple):
@@ -259,24 +325,37 @@ class Expressions:
         if node.keywords:
             raise KernelError("arguments must not be named")
         if isinstance(node.func, ast.Attribute) and node.func.attr == "conjugate":
-            re, im = parts(
-                self.builder, convert(self.builder, self._value(node.func.value), COMPLEX)
-            )
-            return OPERATIONS[complex](
-                self.builder, [Value(REAL, re), Value(REAL, self.builder.fneg(im))]
-            )
+            return self._conjugate(node.func, node.args)
         function = self._static(node.func)
         arguments = [self._value(a) for a in node.args]
-        operation: Callable[..., Value] | None = OPERATIONS.get(function)
-        if operation is not None:
-            return operation(self.builder, arguments)
+        known = operation(function)
+        if known is not None:
+            count, emit = known
+            if len(arguments) != count and (count is not None or len(arguments) < 2):
+                wanted = "two or more" if count is None else count
+                name = ast.unparse(node.func)
+                raise KernelError(f"{name} takes {wanted} arguments here, not {len(arguments)}")
+            return emit(self.builder, arguments)
         if not isinstance(function, FunctionType):
             raise KernelError(f"{ast.unparse(node.func)} cannot be called")
-        callee, result = self.module.translated(function, tuple(a.type for a in arguments))
+        return self._called(function, arguments)
+
+    def _conjugate(self, node: ast.Attribute, arguments: list[ast.expr]) -> Value:
+        value = self._value(node.value)
+        if value.type != COMPLEX or arguments:
+            raise KernelError(f"no conjugate({len(arguments)} arguments) of {value.type}")
+        re, im = parts(self.builder, value)
+        return complex_of(self.builder, re, self.builder.fneg(im))
+
+    def _called(self, function: FunctionType, arguments: list[Value]) -> Value:
+        callee = self.module.translated(function, tuple(a.type for a in arguments))
         codes = [a.code for a in arguments]
-        if result is NONE:
-            self.builder.call(callee, codes)
-            return Value(NONE, None)
-        place = self.reserve.alloca(llvm_type(result))
-        self.builder.call(callee, [self.builder.bitcast(place, BYTE.as_pointer()), *codes])
-        return self._load(place, result)
+        place = None
+        if callee.result is not NONE:
+            place = self.reserve.alloca(llvm_type(callee.result))
+            codes.insert(0, self.builder.bitcast(place, BYTE.as_pointer()))
+        self.builder.call(callee.function, [*codes, self.function.args[-1]])
+        if callee.fails:
+            check_call(self.function, self.builder)
+            self.fails = True
+        return Value(NONE, None) if place is None else self._load(place, callee.result)

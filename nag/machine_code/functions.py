@@ -1,10 +1,6 @@
-"""Python functions translated to LLVM's language.
+"""Python functions translated to LLVM's language: statements, and whole functions.
 
-A small part of Python: numbers, tuples, pointers and records; assignments, ``if``, ``while``,
-``for .. in range(..)`` with a constant step, ``return``; calls of other such functions, which are
-translated for the types of their arguments, and of what `nag.machine_code.operations` knows. Names
-of the module must stay what they are. A variable keeps the type that it gets first. All parts of a
-chain of comparisons are evaluated. Whatever else there is in a function is refused.
+The package says which part of Python that is. Whatever else there is in a function is refused.
 """
 
 from __future__ import annotations
@@ -18,13 +14,14 @@ from typing import Any, get_type_hints
 
 from llvmlite import ir
 
-from nag.machine_code import operators
 from nag.machine_code.expressions import Expressions
 from nag.machine_code.records import INT, NONE, Record, Type, record
+from nag.machine_code.target import ENTRY
 from nag.machine_code.values import (
     BYTE,
     WORD,
     KernelError,
+    LocatedError,
     Value,
     constant,
     convert,
@@ -33,44 +30,85 @@ from nag.machine_code.values import (
 
 # Functions of at most so many syntax nodes are put in where they are called.
 SMALL = 130
-
-
-class LocatedError(KernelError):
-    """A `KernelError` that says where."""
+_MACHINE_CODE = __name__.rpartition(".")[0]
 
 
 class Module:
-    """An LLVM module with one function to be called from C and all those that it needs."""
+    """An LLVM module with one function to be called from C, `ENTRY`, and all those that it needs.
+
+    Args:
+        function: the Python function that the former is.
+        modules: what is meant by names of modules, see `nag.machine_code.kernel.Kernel`.
+        packages: where functions may come from, besides this package; all of Python if empty.
+
+    Raises:
+        KernelError: if anything in a function is not translated; it says in which file and line.
+    """
 
     def __init__(
-        self, function: FunctionType, modules: Mapping[str, ModuleType] | None = None
+        self,
+        function: FunctionType,
+        modules: Mapping[str, ModuleType] | None = None,
+        packages: tuple[str, ...] = (),
     ) -> None:
         self.modules = dict(modules or {})
+        self.packages = packages
         self.ir = ir.Module(function.__name__)
         self.ir.triple = ""
         self.constant_memory = self.ir.add_metadata([])
-        self._known: dict[tuple[Any, ...], tuple[ir.Function, Type] | None] = {}
+        self._known: dict[tuple[Any, ...], _Body | None] = {}
+        for name, module in self.modules.items():
+            self._check_home(f"{name} = {module.__name__}", module.__name__)
         hints = get_type_hints(function)
         hints.pop("return", None)
-        kinds = tuple(record(hint) for hint in hints.values())
-        _Body(self, function, kinds, function.__name__)
+        try:
+            kinds = tuple(record(hint) for hint in hints.values())
+        except TypeError as error:
+            raise _refused(function, str(error)) from None
+        _Body(self, function, kinds, ENTRY)
 
-    def translated(self, function: FunctionType, kinds: tuple[Type, ...]) -> tuple[Any, Type]:
-        """The function for these types of arguments, and the type of its result."""
+    def translated(self, function: FunctionType, kinds: tuple[Type, ...]) -> _Body:
+        """The function for these types of arguments."""
         key = (function, *kinds)
         if key not in self._known:
+            self._check_home(function.__name__, function.__module__)
             self._known[key] = None
-            body = _Body(self, function, kinds, f"{function.__name__}.{len(self._known)}")
-            self._known[key] = (body.function, body.result)
+            name = f"{function.__name__}.{len(self._known)}"
+            self._known[key] = _Body(self, function, kinds, name)
         known = self._known[key]
         if known is None:
             raise KernelError(f"{function.__name__} calls itself")
         return known
 
+    def _check_home(self, name: str, module: str) -> None:
+        """Changes are noticed only in these packages, so that nothing may come from elsewhere."""
+        homes = (*self.packages, _MACHINE_CODE)
+        if self.packages and not any(f"{module}.".startswith(f"{home}.") for home in homes):
+            raise KernelError(f"{name} comes from {module}, not from {' or '.join(self.packages)}")
+
+
+def _refused(function: FunctionType, message: str) -> LocatedError:
+    code = function.__code__
+    return LocatedError(f"{code.co_filename}:{code.co_firstlineno}: {message}")
+
 
 def _syntax(function: FunctionType) -> ast.FunctionDef:
-    tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
-    assert isinstance(tree, ast.FunctionDef)
+    """Syntax of a function that is nothing but its own statements and its module's names."""
+    name = function.__name__
+    try:
+        tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
+    except (OSError, SyntaxError, IndexError):
+        raise _refused(function, f"{name} has no source of its own") from None
+    if not isinstance(tree, ast.FunctionDef):
+        raise _refused(function, f"{name} is no function made by def")
+    if tree.decorator_list or hasattr(function, "__wrapped__"):
+        raise _refused(function, f"{name} is decorated")
+    if function.__closure__:
+        names = ", ".join(function.__code__.co_freevars)
+        raise _refused(function, f"{name} needs {names} of the function round it")
+    given = tree.args
+    if given.posonlyargs or given.kwonlyargs or given.vararg or given.kwarg or given.defaults:
+        raise _refused(function, f"{name} has arguments other than plain ones")
     return tree
 
 
@@ -83,48 +121,46 @@ class _Body(Expressions):
         tree = _syntax(function)
         names = [a.arg for a in tree.args.args]
         if len(names) != len(kinds):
-            raise KernelError(f"{name} takes {len(names)} arguments, not {len(kinds)}")
+            what = "arguments with types" if name == ENTRY else "arguments"
+            message = f"{function.__name__} takes {len(names)} {what}, not {len(kinds)}"
+            raise _refused(function, message)
         nodes = list(ast.walk(tree))
-        returns = any(isinstance(n, ast.Return) and n.value for n in nodes)
+        results = any(isinstance(n, ast.Return) and n.value for n in nodes)
+        self.returns = results and name != ENTRY
         given = [llvm_type(kind) for kind in kinds]
         # A result goes where the first argument points, as its type is known last.
-        if returns:
+        if self.returns:
             given.insert(0, BYTE.as_pointer())
+        given.append(WORD.as_pointer())
         code = ir.Function(module.ir, ir.FunctionType(ir.VoidType(), given), name)
         code.attributes.add("nounwind")
-        if name != function.__name__:
+        if name != ENTRY:
             code.linkage = "internal"
             if len(nodes) <= SMALL:
                 code.attributes.add("alwaysinline")
         super().__init__(module, function, code)
         self.result: Type = NONE
-        self.returns = returns
-        # Where each loop goes on and where it ends; those ends that a break leads to.
-        self.loops: list[tuple[Any, Any]] = []
-        self.left: set[str] = set()
+        # Where each loop goes on and where it ends; what has a value at each break of it.
+        self.loops: list[tuple[Any, Any, list[set[str]]]] = []
         start = self.builder.block
-        for argument, parameter, kind in zip(code.args[returns:], names, kinds, strict=True):
+        for argument, parameter, kind in zip(code.args[self.returns :], names, kinds, strict=False):
             if isinstance(kind, Record):
                 argument.add_attribute("noalias")
                 argument.attributes.dereferenceable = 8 * len(kind.fields)
                 argument.attributes.align = 8
             self._set(parameter, Value(kind, argument))
+        code.args[-1].add_attribute("noalias")
         self._suite(tree.body)
         if not self.builder.block.is_terminated:
-            if returns:
-                raise self._fail(tree, f"{name} may end without a result")
+            if self.returns:
+                raise self._fail(tree, f"{function.__name__} may end without a result")
             self.builder.ret_void()
         self.reserve.branch(start)
-
-    def _fail(self, node: ast.AST, message: str) -> LocatedError:
-        code = self.python.__code__
-        line = code.co_firstlineno + getattr(node, "lineno", 1) - 1
-        return LocatedError(f"{code.co_filename}:{line}: {message}")
 
     def _suite(self, statements: list[ast.stmt]) -> None:
         for statement in statements:
             if self.builder.block.is_terminated:
-                return
+                raise self._fail(statement, "nothing leads here")
             method = getattr(self, f"_do_{type(statement).__name__}", None)
             if method is None:
                 raise self._fail(statement, f"{type(statement).__name__} is not translated")
@@ -151,16 +187,18 @@ class _Body(Expressions):
         if isinstance(node.target, ast.Subscript):
             place, kind = self._place(node.target)
             old = self._load(place, kind)
-            value = operators.binary(self.builder, node.op, old, self._value(node.value))
-            self._store(place, kind, value)
+            self._store(place, kind, self._operated(node, old, self._value(node.value)))
+        elif isinstance(node.target, ast.Name):
+            old = self._of_Name(node.target)
+            self._assign(node.target, self._operated(node, old, self._value(node.value)))
         else:
-            old = self._value(ast.Name(node.target.id, ast.Load()))
-            value = operators.binary(self.builder, node.op, old, self._value(node.value))
-            self._assign(node.target, value)
+            raise KernelError(f"{ast.unparse(node.target)} cannot be changed")
 
     def _do_Return(self, node: ast.Return) -> None:
         if node.value is None and self.returns:
             raise KernelError("a result is missing")
+        if node.value is not None and not self.returns:
+            raise KernelError("a kernel returns nothing")
         if node.value is not None:
             value = self._value(node.value)
             if self.result is NONE:
@@ -173,18 +211,27 @@ class _Body(Expressions):
     def _do_If(self, node: ast.If) -> None:
         yes, no, after = (self.function.append_basic_block() for _ in range(3))
         self._branch(node.test, yes, no)
-        reached = False
+        before, ends = self.assigned, []
         for block, suite in ((yes, node.body), (no, node.orelse)):
             self.builder.position_at_end(block)
+            self.assigned = set(before)
             self._suite(suite)
             if not self.builder.block.is_terminated:
                 self.builder.branch(after)
-                reached = True
-        self.builder.position_at_end(after)
-        if not reached:
+                ends.append(self.assigned)
+        self._go_on(after, ends)
+
+    def _go_on(self, block: Any, ends: list[set[str]]) -> None:
+        """Go on where several ways end, if any; what has a value has one on each of them."""
+        self.builder.position_at_end(block)
+        if ends:
+            self.assigned = set.intersection(*ends)
+        else:
             self.builder.unreachable()
 
     def _do_While(self, node: ast.While) -> None:
+        if node.orelse:
+            raise self._fail(node.orelse[0], "else of a loop is not translated")
         head, body, after = (self.function.append_basic_block() for _ in range(3))
         self.builder.branch(head)
         self.builder.position_at_end(head)
@@ -193,22 +240,14 @@ class _Body(Expressions):
             self.builder.branch(body)
         else:
             self._branch(node.test, body, after)
-        self._loop(node.body, body, head, after)
-        self.builder.position_at_end(after)
-        if endless and after.name not in self.left:
-            self.builder.unreachable()
+        ends = [] if endless else [self.assigned]
+        self.builder.position_at_end(body)
+        self._go_on(after, ends + self._loop(node.body, head, after))
 
     def _do_For(self, node: ast.For) -> None:
-        call = node.iter
-        if not isinstance(call, ast.Call) or self._static(call.func) is not range:
-            raise KernelError("for needs range(..)")
-        bounds = [self._value(a) for a in call.args]
-        if len(bounds) == 1:
-            bounds.insert(0, constant(0))
-        step = bounds[2].code if len(bounds) == 3 else ir.Constant(WORD, 1)
-        if not isinstance(step, ir.Constant) or not step.constant:
-            raise KernelError("the step of a range must be a constant")
-        first, stop = (convert(self.builder, b, INT).code for b in bounds[:2])
+        if node.orelse:
+            raise self._fail(node.orelse[0], "else of a loop is not translated")
+        first, stop, step = self._range(node.iter)
         counter = self.reserve.alloca(WORD)
         self.builder.store(first, counter)
         head, body, following, after = (self.function.append_basic_block() for _ in range(4))
@@ -218,24 +257,41 @@ class _Body(Expressions):
         more = self.builder.icmp_signed("<" if step.constant > 0 else ">", now, stop)
         self.builder.cbranch(more, body, after)
         self.builder.position_at_end(body)
+        before = set(self.assigned)
         self._assign(node.target, Value(INT, self.builder.load(counter)))
-        self._loop(node.body, self.builder.block, following, after)
+        ends = self._loop(node.body, following, after)
         self.builder.position_at_end(following)
         self.builder.store(self.builder.add(self.builder.load(counter), step), counter)
         self.builder.branch(head)
-        self.builder.position_at_end(after)
+        self._go_on(after, [before, *ends])
 
-    def _loop(self, suite: list[ast.stmt], body: Any, following: Any, after: Any) -> None:
-        self.loops.append((following, after))
-        self.builder.position_at_end(body)
+    def _range(self, call: ast.expr) -> tuple[Any, Any, ir.Constant]:
+        """First number, end and step of a range."""
+        if not isinstance(call, ast.Call) or self._static(call.func) is not range or call.keywords:
+            raise KernelError("for needs range(..)")
+        bounds = [self._value(a) for a in call.args]
+        if not 1 <= len(bounds) <= 3:
+            raise KernelError(f"range takes 1 to 3 arguments, not {len(bounds)}")
+        if len(bounds) == 1:
+            bounds.insert(0, constant(0))
+        step = bounds[2] if len(bounds) == 3 else constant(1)
+        if step.type != INT or not isinstance(step.code, ir.Constant) or not step.code.constant:
+            raise KernelError("the step of a range must be a constant, and not zero")
+        first, stop = (convert(self.builder, b, INT).code for b in bounds[:2])
+        return first, stop, step.code
+
+    def _loop(self, suite: list[ast.stmt], following: Any, after: Any) -> list[set[str]]:
+        """What is repeated; returns what has a value at each break."""
+        self.loops.append((following, after, []))
+        self.assigned = set(self.assigned)
         self._suite(suite)
         if not self.builder.block.is_terminated:
             self.builder.branch(following)
-        self.loops.pop()
+        return self.loops.pop()[2]
 
     def _do_Break(self, node: ast.Break) -> None:
-        after = self.loops[-1][1]
-        self.left.add(after.name)
+        _, after, ends = self.loops[-1]
+        ends.append(self.assigned)
         self.builder.branch(after)
 
     def _do_Continue(self, node: ast.Continue) -> None:

@@ -40,7 +40,7 @@ def _sources(package: str) -> bytes:
     """Digest of all that kernels of ``nag.<package>`` are made of."""
     digest = blake2b(digest_size=DIGEST)
     here = Path(__file__).parent
-    for folder in (here, here.parent / package):
+    for folder in (here, here.parent.joinpath(*package.split("."))):
         for file in sorted(folder.rglob("*.py")):
             digest.update(file.read_bytes())
     return digest.digest()
@@ -72,6 +72,9 @@ class Kernel:
             object code is kept on disk until a file of either changes. None: it is not kept.
         modules: what module is meant where the function, or one that it calls, refers to a module
             by one of these names: so one source serves several arithmetics.
+
+    The function itself, called with the same records, does what the kernel does, slowly; for its
+    memory to be checked as well see `nag.machine_code.plain`.
     """
 
     def __init__(
@@ -93,12 +96,20 @@ class Kernel:
             records: NamedTuples, or tables made of them before.
 
         Raises:
-            TypeError: if an array has not the type that its field says.
+            TypeError: if an array has not the type that its field says, or their number is wrong.
+            KernelError: if it is to be compiled and something in it is not translated.
+            ZeroDivisionError: if a whole number was divided by zero; it says in which file and
+                line. What was written before stays.
         """
         if self._call is None:
             self.prepare()
         tables = [table(r) for r in records]
-        self._call(*(t.address for t in tables))
+        failed = ctypes.c_int64()
+        self._call(*(t.address for t in tables), ctypes.addressof(failed))
+        if failed.value:
+            from nag.machine_code.failures import message
+
+            raise ZeroDivisionError(message(failed.value))
 
     def prepare(self) -> None:
         """Load it from disk, or compile it."""
@@ -118,17 +129,15 @@ class Kernel:
 
         self._loaded = Loaded(code)
         count = self.function.__code__.co_argcount
-        kind = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * count)
-        address = self._loaded.address(self.function.__name__)
-        if not address:
-            raise RuntimeError(f"{self.function.__name__} is missing in its object code")
-        self._call = kind(address)
+        kind = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * (count + 1))
+        self._call = kind(self._loaded.address)
 
     def _compile(self) -> bytes:
         from nag.machine_code.functions import Module
         from nag.machine_code.target import object_code
 
-        return object_code(str(Module(self.function, self.modules).ir))
+        packages = (f"nag.{self.package}",) if self.package else ()
+        return object_code(str(Module(self.function, self.modules, packages).ir))
 
     @property
     def _origin(self) -> bytes:

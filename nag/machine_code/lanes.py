@@ -3,13 +3,15 @@
 Work arrays are flat, with the lane (the path) as the last and fastest index, so that vector ``k``
 of an array ``a`` is ``a[8 * k : 8 * k + 8]``. Every operation acts on each lane alone, hence a
 path's result does not depend on the paths beside it. No operation may be reassociated. Lanes are
-added, subtracted, multiplied and divided by Python's operators. Except for the last two, the
-functions here are names that kernels use; nothing calls them.
+added, subtracted, multiplied and divided by Python's operators. Kernels have the functions here
+translated; called from Python they do the same with arrays of eight doubles.
 """
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Sequence
+from functools import cache
 from itertools import pairwise
 from typing import Any
 
@@ -19,44 +21,68 @@ LANES = 8
 ALIGNMENT = 64
 
 
+def _vector(data: Any, index: int) -> np.ndarray:
+    flat = np.asarray(data)
+    if not 0 <= index < len(flat) // LANES:
+        raise IndexError(f"there is no vector {index} of {len(flat) // LANES}")
+    if flat.ctypes.data % ALIGNMENT:
+        raise IndexError(f"vectors are read from memory that is aligned to {ALIGNMENT} bytes")
+    return flat[LANES * index : LANES * (index + 1)]
+
+
 def load(data: Any, index: int) -> Any:
     """Vector ``index`` at a pointer that is aligned to 64 bytes."""
+    return _vector(data, index).copy()
 
 
 def store(data: Any, index: int, value: Any) -> None:
     """Write ``value`` to vector ``index`` at a pointer that is aligned to 64 bytes."""
-
-
-def shifted(data: Any, index: int) -> Any:
-    """The pointer to entry ``index``."""
+    _vector(data, index)[:] = value
 
 
 def splat(value: float) -> Any:
     """The same number in every lane."""
+    return np.full(LANES, float(value))
 
 
 def fma(a: Any, b: Any, c: Any) -> Any:
-    """``a * b + c``, fused where the machine can."""
+    """``a * b + c``, fused where the machine can; in Python it is."""
+    return fused(a, b, c)
 
 
 def fnma(a: Any, b: Any, c: Any) -> Any:
-    """``c - a * b``, fused where the machine can."""
+    """``c - a * b``, fused where the machine can; in Python it is."""
+    return fused(-a, b, c)
+
+
+@cache
+def _fused_of_doubles() -> Any:
+    """C's function, which rounds once whatever the processor can."""
+    function = ctypes.CDLL(None).fma
+    function.restype = ctypes.c_double
+    function.argtypes = [ctypes.c_double] * 3
+    return function
 
 
 def fused(a: Any, b: Any, c: Any) -> Any:
     """``a * b + c`` with one rounding, on every machine."""
+    return np.array(list(map(_fused_of_doubles(), a.tolist(), b.tolist(), c.tolist())))
 
 
 def select_less(a: Any, b: Any, x: Any, y: Any) -> Any:
     """``x`` in the lanes where ``a < b``, ``y`` elsewhere."""
+    return np.where(a < b, x, y)
 
 
 def any_less(a: Any, b: Any) -> bool:
     """Whether ``a < b`` in at least one lane."""
+    return bool((a < b).any())
 
 
 def square_root(a: Any) -> Any:
     """The square root, lane by lane."""
+    with np.errstate(invalid="ignore"):
+        return np.sqrt(a)
 
 
 def aligned(vectors: int) -> np.ndarray:

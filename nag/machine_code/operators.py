@@ -1,7 +1,8 @@
-"""Operators of Python on the values in kernels, with Python's meaning; nothing is raised.
+"""Operators of Python on the values in kernels, with Python's meaning.
 
-Division by zero gives an infinity or NaN; whole numbers wrap round at 64 bits. No operation on
-floating-point numbers is reassociated or contracted.
+Only the division of whole numbers raises, see `nag.machine_code.failures`; other divisions by zero
+give an infinity or NaN, and powers that are not real NaN. Whole numbers wrap round at 64 bits. No
+operation on floating-point numbers is reassociated or contracted.
 """
 
 from __future__ import annotations
@@ -12,19 +13,21 @@ from typing import Any
 
 from llvmlite import ir
 
-from nag.machine_code.records import BOOL, COMPLEX, INT, LANES, REAL, Pointer
+from nag.machine_code.records import BOOL, COMPLEX, INT, LANES, NUMBERS, REAL
 from nag.machine_code.values import (
     WORD,
     KernelError,
     Value,
     common,
     complex_of,
+    constant,
     convert,
     parts,
 )
 
 _FLOATING = {ast.Add: "fadd", ast.Sub: "fsub", ast.Mult: "fmul", ast.Div: "fdiv"}
-_WHOLE = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.LShift: "shl", ast.RShift: "ashr"}
+_WHOLE = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul"}
+_SHIFTS = {ast.LShift: "shl", ast.RShift: "ashr"}
 _HYPOT = "_hypot" if sys.platform == "win32" else "hypot"
 _COMPARE = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 
@@ -38,8 +41,14 @@ def intrinsic(builder: ir.IRBuilder, name: str, *arguments: Any) -> Any:
     return builder.call(function, arguments)
 
 
+def divides_whole_numbers(operator: ast.operator, left: Value, right: Value) -> bool:
+    """Whether ``left operator right`` is an error where ``right`` is zero."""
+    whole = left.type in (BOOL, INT) and right.type in (BOOL, INT)
+    return whole and isinstance(operator, ast.Div | ast.FloorDiv | ast.Mod)
+
+
 def binary(builder: ir.IRBuilder, operator: ast.operator, left: Value, right: Value) -> Value:
-    """``left operator right``.
+    """``left operator right``; whole numbers are divided by one that is not zero.
 
     Raises:
         KernelError: if the types have no such operator.
@@ -47,8 +56,8 @@ def binary(builder: ir.IRBuilder, operator: ast.operator, left: Value, right: Va
     kind = type(operator)
     if kind is ast.Pow:
         return _power(builder, left, right)
-    if isinstance(left.type, Pointer):
-        raise KernelError(f"no {kind.__name__} of {left.type} and {right.type}")
+    if kind in _SHIFTS:
+        return _shift(builder, kind, left, right)
     if kind is ast.Div and left.type in (BOOL, INT):
         left = convert(builder, left, REAL)
     left, right = common(builder, [left, right])
@@ -67,13 +76,26 @@ def binary(builder: ir.IRBuilder, operator: ast.operator, left: Value, right: Va
 
 
 def _floor(builder: ir.IRBuilder, kind: type, a: Any, b: Any) -> Value:
-    zero = ir.Constant(WORD, 0)
-    rest = builder.srem(a, b)
+    zero, one = ir.Constant(WORD, 0), ir.Constant(WORD, 1)
+    # The smallest number divided by -1 has no result in 64 bits, and processors stop there.
+    inverts = builder.icmp_signed("==", b, ir.Constant(WORD, -1))
+    divisor = builder.select(inverts, one, b)
+    rest = builder.srem(a, divisor)
     signs = builder.icmp_signed("<", builder.xor(rest, b), zero)
     off = builder.and_(builder.icmp_signed("!=", rest, zero), signs)
     if kind is ast.Mod:
         return Value(INT, builder.add(rest, builder.select(off, b, zero)))
-    return Value(INT, builder.sub(builder.sdiv(a, b), builder.zext(off, WORD)))
+    quotient = builder.sub(builder.sdiv(a, divisor), builder.zext(off, WORD))
+    return Value(INT, builder.select(inverts, builder.neg(a), quotient))
+
+
+def _shift(builder: ir.IRBuilder, kind: type, left: Value, right: Value) -> Value:
+    if left.type != INT or right.type != INT:
+        raise KernelError(f"no {kind.__name__} of {left.type} and {right.type}")
+    known = isinstance(right.code, ir.Constant)
+    if not known or not 0 <= right.code.constant < WORD.width:
+        raise KernelError("whole numbers are shifted by constants from 0 to 63")
+    return Value(INT, getattr(builder, _SHIFTS[kind])(left.code, right.code))
 
 
 def _power(builder: ir.IRBuilder, left: Value, right: Value) -> Value:
@@ -81,7 +103,9 @@ def _power(builder: ir.IRBuilder, left: Value, right: Value) -> Value:
         if not isinstance(right.code, ir.Constant) or right.code.constant != 2:
             raise KernelError("the only whole exponent is 2")
         return binary(builder, ast.Mult(), left, left)
-    left, right = convert(builder, left, REAL), convert(builder, right, REAL)
+    if left.type not in (INT, REAL) or right.type != REAL:
+        raise KernelError(f"no Pow of {left.type} and {right.type}")
+    left = convert(builder, left, REAL)
     return Value(REAL, intrinsic(builder, "llvm.pow.f64", left.code, right.code))
 
 
@@ -113,14 +137,14 @@ def absolute(builder: ir.IRBuilder, code: Any) -> Any:
 
 def unary(builder: ir.IRBuilder, operator: ast.unaryop, value: Value) -> Value:
     """``-value`` or ``+value``."""
-    if isinstance(operator, ast.UAdd):
+    if isinstance(operator, ast.UAdd) and value.type in (INT, REAL, COMPLEX, LANES):
         return value
     if isinstance(operator, ast.USub):
         if value.type in (REAL, LANES):
             return Value(value.type, builder.fneg(value.code))
         if value.type == INT:
             if isinstance(value.code, ir.Constant):
-                return Value(INT, ir.Constant(WORD, -value.code.constant))
+                return constant(-value.code.constant)
             return Value(INT, builder.neg(value.code))
         if value.type == COMPLEX:
             re, im = parts(builder, value)
@@ -152,19 +176,35 @@ def magnitude(builder: ir.IRBuilder, value: Value) -> Value:
         return Value(REAL, intrinsic(builder, _HYPOT, *parts(builder, value)))
     if value.type == REAL:
         return Value(REAL, absolute(builder, value.code))
-    negative = builder.icmp_signed("<", value.code, ir.Constant(WORD, 0))
-    return Value(INT, builder.select(negative, builder.neg(value.code), value.code))
+    code = convert(builder, value, INT).code
+    negative = builder.icmp_signed("<", code, ir.Constant(WORD, 0))
+    return Value(INT, builder.select(negative, builder.neg(code), code))
 
 
 def truncated(builder: ir.IRBuilder, value: Value) -> Value:
-    """``int(value)``: towards zero."""
+    """``int(value)``: towards zero; the nearest there is for what has more than 64 bits, 0 for NaN.
+
+    Raises:
+        KernelError: if it is no real number.
+    """
     if value.type == REAL:
-        return Value(INT, builder.fptosi(value.code, WORD))
+        name = "llvm.fptosi.sat.i64.f64"
+        function = builder.module.globals.get(name)
+        if function is None:
+            kind = ir.FunctionType(WORD, [value.code.type])
+            function = ir.Function(builder.module, kind, name)
+        return Value(INT, builder.call(function, [value.code]))
     return convert(builder, value, INT)
 
 
 def extreme(builder: ir.IRBuilder, sign: str, values: list[Value]) -> Value:
-    """``min`` (sign ``<``) or ``max`` (sign ``>``): the first one that no other one exceeds."""
+    """``min`` (sign ``<``) or ``max`` (sign ``>``): the first one that no other one exceeds.
+
+    Raises:
+        KernelError: if they are no numbers.
+    """
+    if any(v.type not in NUMBERS for v in values):
+        raise KernelError(f"no order of {', '.join(str(v.type) for v in values)}")
     result, *rest = common(builder, values)
     operator = ast.Lt() if sign == "<" else ast.Gt()
     for value in rest:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from operator import index
 from typing import Any, get_type_hints
 
 import numpy as np
@@ -68,7 +69,7 @@ def several(items: tuple[Type, ...]) -> Tuple:
 
 
 _FIELDS: dict[Any, Type] = {
-    bool: INT,
+    bool: BOOL,
     int: INT,
     float: REAL,
     Wholes: pointer(INT),
@@ -76,6 +77,7 @@ _FIELDS: dict[Any, Type] = {
     Complexes: pointer(COMPLEX),
 }
 _WORDS: dict[Type, Any] = {
+    BOOL: bool,
     INT: int,
     REAL: float,
     pointer(INT): np.dtype("i8").str,
@@ -111,7 +113,8 @@ def table(values: Any) -> Table:
     """The words of a NamedTuple, int64; the arrays in it must stay as they are.
 
     Raises:
-        TypeError: if an array is not contiguous or has another type than its field.
+        TypeError: if an array is not contiguous or has another type than its field, or a number is
+            none of its field's type.
     """
     if isinstance(values, Table):
         return values
@@ -120,7 +123,9 @@ def table(values: Any) -> Table:
     doubles = words.view(np.float64)
     for k, (value, dtype) in enumerate(zip(values, layout, strict=True)):
         if dtype is int:
-            words[k] = value
+            words[k] = index(value)
+        elif dtype is bool:
+            words[k] = bool(value)
         elif dtype is float:
             doubles[k] = value
         else:
@@ -134,5 +139,5 @@ def table(values: Any) -> Table:
 
 @cache
 def _layout(cls: type) -> tuple[Any, ...]:
-    """What each field's word is made from: ``int``, ``float``, or an array of a dtype."""
+    """What each field's word is made from: ``bool, int, float``, or an array of a dtype."""
     return tuple(_WORDS[kind] for _, kind in record(cls).fields)

@@ -1,22 +1,34 @@
-"""This computer as LLVM knows it: object code for it, and object code made ready to run."""
+"""Computers as LLVM knows them: object code for one, and object code made ready to run here."""
 
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
+from itertools import count
+from typing import Any, NamedTuple
 
 import llvmlite
 from llvmlite import binding
 
+# The function that is called from Python, see `nag.machine_code.functions`.
+ENTRY = "nag_kernel"
+
+
+class Processor(NamedTuple):
+    """Kind of system (LLVM's target triple), name of the processor, and its features."""
+
+    triple: str
+    name: str
+    features: str
+
 
 @cache
-def processor() -> tuple[str, str, str]:
-    """Kind of system, name of the processor, and its features; object code is for one of each."""
+def processor() -> Processor:
+    """This computer; object code is for one of each."""
     try:
         features = binding.get_host_cpu_features().flatten()
     except RuntimeError:
         features = ""
-    return binding.get_process_triple(), binding.get_host_cpu_name(), features
+    return Processor(binding.get_process_triple(), binding.get_host_cpu_name(), features)
 
 
 def compiler() -> str:
@@ -30,25 +42,34 @@ def _prepare() -> None:
     binding.initialize_native_asmprinter()
 
 
-def _machine() -> binding.TargetMachine:
+def _machine(processor: Processor) -> binding.TargetMachine:
     _prepare()
-    triple, name, features = processor()
-    target = binding.Target.from_triple(triple)
+    target = binding.Target.from_triple(processor.triple)
     # On x86, LLVM's loader knows static relocations best; elsewhere it has a choice of its own.
     relocation = "static" if target.name.startswith("x86") else "default"
     return target.create_target_machine(
-        cpu=name, features=features, opt=1, reloc=relocation, codemodel="jitdefault", jit=True
+        cpu=processor.name,
+        features=processor.features,
+        opt=1,
+        reloc=relocation,
+        codemodel="jitdefault",
+        jit=True,
     )
 
 
-def object_code(text: str) -> bytes:
+def object_code(text: str, target: Processor | None = None) -> bytes:
     """Object code for a module in LLVM's language.
 
     Vectors are written by hand, so that loops are not looked through for more of them.
+
+    Args:
+        target: by default this computer; of another kind of processor only after
+            `llvmlite.binding.initialize_all_targets` and ``initialize_all_asmprinters``.
     """
+    target = Processor(*(target or processor()))
     module = binding.parse_assembly(text)
-    module.triple = processor()[0]
-    machine = _machine()
+    module.triple = target.triple
+    machine = _machine(target)
     module.data_layout = str(machine.target_data)
     options = binding.create_pipeline_tuning_options(speed_level=1)
     options.loop_vectorization = False
@@ -58,14 +79,24 @@ def object_code(text: str) -> bytes:
     return machine.emit_object(module)
 
 
+@cache
+def _loader() -> Any:
+    """LLVM's loader of object code (ORC); one serves all kernels."""
+    return binding.create_lljit_compiler(_machine(Processor(*processor())))
+
+
+_numbers = count()
+
+
 class Loaded:
-    """Object code in memory."""
+    """Object code in memory, for as long as this lives, and the ``address`` of its `ENTRY`.
+
+    Raises:
+        RuntimeError: if there is none, or a function that it needs is nowhere in this process.
+    """
 
     def __init__(self, code: bytes) -> None:
-        self._engine: Any = binding.create_mcjit_compiler(binding.parse_assembly(""), _machine())
-        self._engine.add_object_file(binding.ObjectFileRef.from_data(code))
-        self._engine.finalize_object()
-
-    def address(self, name: str) -> int:
-        """Address of a function; 0 if there is none of that name."""
-        return self._engine.get_function_address(name)
+        builder = binding.JITLibraryBuilder().add_object_img(code).add_current_process()
+        builder.export_symbol(ENTRY)
+        self._library: Any = builder.link(_loader(), f"kernel {next(_numbers)}")
+        self.address: int = self._library[ENTRY]

@@ -38,6 +38,10 @@ class KernelError(Exception):
     """A function cannot be compiled; the message says where and why."""
 
 
+class LocatedError(KernelError):
+    """A `KernelError` that says where."""
+
+
 class Value(NamedTuple):
     """A value of a type, computed by LLVM's ``code``."""
 
@@ -57,10 +61,16 @@ def llvm_type(kind: Type) -> ir.Type:
 
 
 def constant(value: bool | int | float | complex) -> Value:
-    """A number that is known."""
+    """A number that is known.
+
+    Raises:
+        KernelError: if it is a whole number of more than 64 bits.
+    """
     if isinstance(value, bool):
         return Value(BOOL, ir.Constant(BIT, value))
     if isinstance(value, int):
+        if not -(2**63) <= value < 2**63:
+            raise KernelError(f"{value} does not fit in 64 bits")
         return Value(INT, ir.Constant(WORD, int(value)))
     if isinstance(value, float):
         return Value(REAL, ir.Constant(DOUBLE, float(value)))

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from nag.algebra.symmetry import SignedPermutation
+from nag.witness.cutting import Cut
+from nag.witness.fibres import Fibre
 from nag.witness.witness import Decomposition, Slice, WitnessSet
 
 
@@ -15,7 +19,18 @@ def image(component: WitnessSet, symmetry: SignedPermutation) -> WitnessSet:
     """
     cut = Slice(symmetry.of_point(component.slice.A), component.slice.b)
     points = symmetry.of_point(component.points)
-    return replace(component, slice=cut, points=points, orbit=1, images=())
+    fibres = tuple(_image(fibre, symmetry) for fibre in component.fibres)
+    return replace(component, slice=cut, points=points, orbit=1, images=(), fibres=fibres)
+
+
+def _image(fibre: Fibre, symmetry: SignedPermutation) -> Fibre:
+    """A fibre's points and equations, added unknowns left as they are."""
+    n, aux = fibre.cut.n, fibre.cut.aux
+    back = symmetry.inverse
+    whole = SignedPermutation((*back.sources, *range(n, n + aux)), (*back.signs, *([1] * aux)))
+    polynomials = tuple(whole.of_polynomial(f) for f in fibre.cut.polynomials)
+    points = np.hstack([symmetry.of_point(fibre.x), fibre.points[:, n:]])
+    return Fibre(Cut(n, aux, polynomials), fibre.dimension, points)
 
 
 def expanded(decomposition: Decomposition) -> Decomposition:

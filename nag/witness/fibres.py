@@ -31,6 +31,16 @@ class Fibre:
     dimension: int
     points: np.ndarray
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Fibre):
+            return NotImplemented
+        return (
+            self.cut.polynomials == other.cut.polynomials
+            and self.cut.n == other.cut.n
+            and self.dimension == other.dimension
+            and np.array_equal(self.points, other.points)
+        )
+
     @property
     def x(self) -> np.ndarray:
         """The points without the unknowns that deflation added, shape ``(P, n)``."""

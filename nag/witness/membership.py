@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Sequence
 from dataclasses import replace
 from enum import Enum
@@ -22,8 +21,6 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 HIT = 1e-8
 MISS = 1e-5
 ATTEMPTS = 4
-# Cuts are the same whenever they are asked for; finding those of a double component takes long.
-_recent: deque[tuple[PolynomialSystem, WitnessSet, list[Fibre]]] = deque(maxlen=256)
 
 
 class Membership(Enum):
@@ -75,20 +72,18 @@ def is_member(
 
 
 def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fibre]:
-    """The points of a component with square systems that cut them, found anew from the system.
+    """The points of a component with square systems that cut them.
 
-    They are kept for the components that were asked for last.
+    They are found anew from the system where the component does not hold them.
 
     Raises:
         ValueError: if the points are not regular zeros of the system or of a deflation of it.
     """
-    for known, owner, fibres in _recent:
-        if known is system and owner is component:
-            return fibres
+    if component.fibres:
+        return list(component.fibres)
     _, fibres = _cut(system, component)
     if fibres is None:
         raise ValueError("the witness points are no regular zeros of the system")
-    _recent.append((system, component, fibres))
     return fibres
 
 

@@ -40,11 +40,11 @@ def orthonormal_rows(rows: np.ndarray) -> np.ndarray:
 
 
 def sharpened_ends(fibre: Fibre, rows: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, float]:
-    """Points of a fibre to rounding, without added unknowns, and the largest last step."""
-    found, steps = np.zeros((len(points), fibre.cut.n), dtype=complex), [0.0]
+    """Points of a fibre to rounding, with added unknowns, and the largest last step."""
+    found, steps = np.zeros(points.shape, dtype=complex), [0.0]
     for i, z in enumerate(points):
         sharpened = sharpen(fibre.cut.evaluator, rows, z)
-        found[i] = sharpened.z[: fibre.cut.n]
+        found[i] = sharpened.z
         steps.append(sharpened.step if sharpened.converged else np.inf)
     return found, max(steps)
 
@@ -87,21 +87,23 @@ def witness_at(
             ends = move(fibre, rows, goal, gamma, tracker, endgame=True)
             infinite += ends.counts.at_infinity
             irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-            x, step = sharpened_ends(fibre, goal, ends.points[ends.regular])
-            found.append(x)
+            z, step = sharpened_ends(fibre, goal, ends.points[ends.regular])
+            if system.n:
+                z = z[np.lexsort((z.imag[:, 0], z.real[:, 0]))]
+            found.append(Fibre(fibre.cut, component.dimension, z))
             accuracy = max(accuracy, step)
-        points = np.vstack(found)
+        points = np.vstack([fibre.x for fibre in found])
         residual = float(
             Evaluator.of(system.polynomials, system.n).residuals(points).max(initial=0.0)
         )
         if len(points) == component.degree and np.isfinite(accuracy) and residual < ON:
-            order = np.lexsort((points.imag[:, 0], points.real[:, 0])) if system.n else [0]
             return replace(
                 component,
                 slice=to_slice(goal),
-                points=points[order],
+                points=points,
                 residual=residual,
                 accuracy=accuracy,
+                fibres=tuple(found),
             )
         lost = (
             f"of the {component.degree} points of the component, the slice meets {infinite} at "

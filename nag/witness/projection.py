@@ -133,9 +133,9 @@ def _pseudo_witness(
                 # Finite points of a generic slice are regular (Bertini's theorem).
                 unclear |= bool((moved.failed | (moved.finite & ~moved.regular)).any())
                 ends = moved.points[moved.regular]
-            x, step = sharpened_ends(fibre, target, ends)
+            z, step = sharpened_ends(fibre, target, ends)
             unclear |= not step < 1e-8
-            points.append(x)
+            points.append(z[:, : fibre.cut.n])
         if unclear:
             continue
         x = np.vstack(points)

@@ -78,7 +78,8 @@ def sample(
                 tracker = Tracker("careful" if attempt else settings, threads)
                 moved = move(one, rows, target, gamma, tracker)
                 ends = moved.points[moved.regular]
-            x, step = sharpened_ends(fibre, target, ends)
+            z, step = sharpened_ends(fibre, target, ends)
+            x = z[:, :n]
             if len(x) and step < 1e-10 and evaluator.residuals(x).max(initial=0.0) < ON:
                 points[k], accuracy = x[0], max(accuracy, step)
                 break

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+
+if TYPE_CHECKING:
+    from nag.witness.fibres import Fibre
 
 
 def _read_only(array: np.ndarray, dtype: type) -> np.ndarray:
@@ -77,6 +81,9 @@ class WitnessSet:
         note: why the status is undecided; empty otherwise.
         images: symmetries of the system that carry it into the others of its orbit, one each;
             empty where they are not known.
+        fibres: the points again, in their order, with the square systems in the system's variables
+            that cut them as regular zeros, and the unknowns that deflation added; empty where they
+            were not kept. With them a component can be moved, sampled and tested.
     """
 
     slice: Slice
@@ -91,6 +98,7 @@ class WitnessSet:
     precision: str = "double"
     note: str = ""
     images: tuple[SignedPermutation, ...] = ()
+    fibres: tuple[Fibre, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", _read_only(self.points, complex))
@@ -109,6 +117,7 @@ class WitnessSet:
             all(getattr(self, name) == getattr(other, name) for name in plain)
             and self.slice == other.slice
             and np.array_equal(self.points, other.points)
+            and self.fibres == other.fibres
             and (self.multidegree is None or np.array_equal(self.multidegree, other.multidegree))
         )
 

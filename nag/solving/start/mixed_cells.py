@@ -232,7 +232,7 @@ def follow_cells(s: Lifted, w: Followed) -> None:
                     cell[2 * which + 1] = enters
 
 
-_kernel = Kernel(follow_cells, "tracking")
+_kernel = Kernel(follow_cells, "solving")
 
 
 def _follow(

@@ -1,0 +1,122 @@
+"""Kernels as plain Python: slow, with lanes as NumPy arrays, and every place in memory checked.
+
+It is what compiled kernels are compared with. Integers are Python's own, which do not wrap round;
+divisions of doubles by zero give an infinity or NaN as in machine code, but functions of the
+standard library raise where they have no value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import FunctionType, ModuleType
+from typing import Any
+
+import numpy as np
+
+from nag.machine_code import lanes
+
+
+class Memory:
+    """An array of a record as a kernel sees it: flat, read and written one number at a time.
+
+    Raises:
+        IndexError: if a place is not one of its numbers, counted from 0.
+    """
+
+    def __init__(self, array: np.ndarray, name: str) -> None:
+        self._flat = array.reshape(-1)
+        self._name = name
+        assert np.shares_memory(self._flat, array) or not array.size
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+        return self._flat
+
+    def _place(self, k: Any) -> int:
+        if isinstance(k, bool) or not isinstance(k, int | np.integer):
+            raise IndexError(f"{self._name}: {k!r} is no place in memory")
+        if not 0 <= k < len(self._flat):
+            raise IndexError(f"{self._name}: there is no number {k} of {len(self._flat)}")
+        return int(k)
+
+    def __getitem__(self, k: Any) -> Any:
+        value = self._flat[self._place(k)]
+        return value if isinstance(value, np.floating) else value.item()
+
+    def __setitem__(self, k: Any, value: Any) -> None:
+        place = self._place(k)
+        if not np.can_cast(np.min_scalar_type(value), self._flat.dtype, "same_kind"):
+            raise TypeError(f"{self._name}: {value!r} is no {self._flat.dtype}")
+        self._flat[place] = value
+
+
+def _checked(record: Any) -> Any:
+    """A record with arrays that check, and doubles that may be divided by zero."""
+    kind = type(record).__name__
+    fields = {}
+    for name, value in zip(record._fields, record, strict=True):
+        if isinstance(value, np.ndarray):
+            fields[name] = Memory(value, f"{kind}.{name}")
+        else:
+            fields[name] = np.float64(value) if isinstance(value, float) else value
+    return record._replace(**fields)
+
+
+class _Bound:
+    """Copies of functions that mean other modules by some names."""
+
+    def __init__(self, modules: Mapping[str, ModuleType]) -> None:
+        self.modules = modules
+        self._functions: dict[FunctionType, FunctionType] = {}
+        self._modules: dict[ModuleType, ModuleType] = {}
+
+    def function(self, function: FunctionType) -> FunctionType:
+        if function not in self._functions:
+            names: dict[str, Any] = {"__builtins__": __builtins__}
+            copy = FunctionType(function.__code__, names, function.__name__)
+            self._functions[function] = copy
+            known = function.__globals__
+            for name in function.__code__.co_names:
+                if name in known:
+                    names[name] = self._value(name, known[name])
+        return self._functions[function]
+
+    def _value(self, name: str, value: Any) -> Any:
+        if isinstance(value, ModuleType):
+            return self._module(self.modules.get(name, value))
+        if isinstance(value, FunctionType) and _is_bound(value.__module__):
+            return self.function(value)
+        return value
+
+    def _module(self, module: ModuleType) -> ModuleType:
+        if not _is_bound(module.__name__):
+            return module
+        if module not in self._modules:
+            copy = self._modules[module] = ModuleType(module.__name__)
+            for name, value in vars(module).items():
+                if not name.startswith("__"):
+                    setattr(copy, name, self._value(name, value))
+        return self._modules[module]
+
+
+def _is_bound(module: str) -> bool:
+    """Whether functions of a module may refer to one that is exchanged: the libraries' do not."""
+    return module != lanes.__name__ and module.partition(".")[0] not in ("numpy", "math")
+
+
+def run(
+    function: FunctionType, *records: Any, modules: Mapping[str, ModuleType] | None = None
+) -> None:
+    """What ``Kernel(function, None, modules)`` does with these records, in plain Python.
+
+    Args:
+        function: a function that can be compiled.
+        records: NamedTuples; their arrays are written to.
+        modules: what module is meant by which name, see `nag.machine_code.kernel.Kernel`.
+
+    Raises:
+        IndexError: if it reads or writes outside an array, or lanes that are not aligned.
+        ZeroDivisionError: if it divides a whole number by zero.
+    """
+    bound = _Bound(modules or {}).function(function)
+    with np.errstate(all="ignore"):
+        bound(*map(_checked, records))

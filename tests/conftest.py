@@ -1,0 +1,8 @@
+"""Every run of the tests is the same: examples come from no seed, and nothing has a deadline."""
+
+from __future__ import annotations
+
+from hypothesis import settings
+
+settings.register_profile("nag", derandomize=True, deadline=None, max_examples=50)
+settings.load_profile("nag")

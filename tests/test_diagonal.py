@@ -1,0 +1,74 @@
+"""Two components meet on the diagonal of their product in the points that algebra says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from systems import system
+
+from nag.decomposition import decompose
+from nag.decomposition.diagonal import Meeting, meeting
+from nag.decomposition.factor import Factor
+from nag.decomposition.reduction import Reduction
+from nag.witness.fibres import Tracker
+
+SPHERE = "x^2 + y^2 + z^2 - 1"
+
+
+def met(
+    first: str, second: str, seed: int = 0, *, nonzero: tuple[str, ...] = ()
+) -> tuple[Meeting, Reduction]:
+    """The meeting of two surfaces in space, and the coordinates that its points have."""
+    factors = []
+    for equation in (first, second):
+        of = system("x y z", equation)
+        (component,) = decompose(of).components
+        factors.append(Factor.of(of, component))
+    common = Reduction.of(system("x y z", first, second, nonzero=nonzero))
+    return meeting(*factors, common, np.random.default_rng(seed), Tracker()), common
+
+
+def points(found: Meeting, common: Reduction) -> np.ndarray:
+    """The points of a curve, in space."""
+    return common.frame.points(np.vstack([fibre.x for fibre in found.fibres[1]]))
+
+
+def sizes(found: Meeting) -> dict[int, int]:
+    return {d: sum(map(len, fibres)) for d, fibres in found.fibres.items() if fibres}
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    ("second", "degree"), [("x^2 - y*z + 3", 4), ("3*x - 4*y + z", 2), ("x^2 + 3*y^2 + z", 4)]
+)
+def test_surfaces_meet_in_curves_of_the_product_of_their_degrees(
+    second: str, degree: int, seed: int
+) -> None:
+    found, common = met(SPHERE, second, seed)
+    assert found.notes == [] and found.bare == []
+    assert sizes(found) == {1: degree}
+    assert common.original.residuals(points(found, common)).max() < 1e-12
+    (row,) = found.rows[1]
+    own = np.vstack([fibre.x for fibre in found.fibres[1]])
+    assert np.abs(row[0] + own @ row[1:]).max() < 1e-12
+
+
+def test_surfaces_that_touch_along_a_curve_meet_in_it_once() -> None:
+    # A cylinder about the sphere: z^2 = 0 on both.
+    found, common = met(SPHERE, "x^2 + y^2 - 1")
+    assert found.notes == [] and sizes(found) == {1: 2}
+    assert np.abs(points(found, common)[:, 2]).max() < 1e-10
+
+
+def test_a_component_meets_itself_in_itself() -> None:
+    found, _ = met(SPHERE, SPHERE)
+    assert found.notes == [] and sizes(found) == {2: 2}
+
+
+def test_what_must_not_vanish_is_left_out() -> None:
+    # The sphere meets two planes in circles, one of which is forbidden.
+    second = "x^2 + y^2 + z^2 - 1 - (x - y)*(x + y - 3)"
+    found, common = met(SPHERE, second, nonzero=("x - y",))
+    assert found.notes == [] and sizes(found) == {1: 2}
+    x = points(found, common)
+    assert np.abs(x[:, 0] + x[:, 1] - 3).max() < 1e-12

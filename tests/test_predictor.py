@@ -1,0 +1,142 @@
+"""Where steps lead, and how long they are, by the sources of the kernel in plain Python."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from nag.machine_code import plain
+from nag.machine_code.lanes import LANES, aligned
+from nag.machine_code.records import Reals
+from nag.tracking.predictor import (
+    CORRECT,
+    GOAL,
+    GROWTH,
+    H_USED,
+    PREDICT,
+    H,
+    T,
+    convergence_radius,
+    next_step,
+    next_t,
+    predict,
+)
+
+ORDER = 4
+LANE = 3
+
+
+class Point(NamedTuple):
+    """One coordinate, and what the predictor reads and writes."""
+
+    N: int
+    base: Reals
+    zr: Reals
+    mode: Reals
+    vr: Reals
+    vi: Reals
+
+
+def series(radius: complex) -> Point:
+    """The path ``1 / (1 - h / radius)``, which Pade's approximant is exact for."""
+    base = aligned(2 * (ORDER + 1))
+    for k in range(ORDER + 1):
+        coefficient = radius ** -float(k)
+        base[LANES * 2 * k : LANES * (2 * k + 1)] = coefficient.real
+        base[LANES * (2 * k + 1) : LANES * (2 * k + 2)] = coefficient.imag
+    return Point(1, base, aligned(1), aligned(1), aligned(1), aligned(1))
+
+
+def predicts(p: Point) -> None:
+    predict(p, p, 4)
+
+
+@pytest.mark.parametrize("radius", [2.0 + 0.0j, -3.0 + 0.0j, 1.0 - 2.0j, 1.5j])
+def test_a_path_with_one_pole_is_predicted_exactly_half_way_to_it(radius: complex) -> None:
+    point, steps = series(radius), 0.5 * abs(radius) * np.linspace(-1, 1, LANES)
+    point.zr[:] = steps
+    plain.run(predicts, point)
+    assert np.abs(point.vr + 1j * point.vi - 1 / (1 - steps / radius)).max() < 1e-14
+
+
+def test_close_to_the_pole_the_taylor_polynomial_is_taken() -> None:
+    point = series(1.0 + 0.0j)
+    point.zr[:] = 0.9
+    plain.run(predicts, point)
+    expected = sum(0.9**k for k in range(ORDER + 1))
+    assert np.abs(point.vr - expected).max() < 1e-14 and not point.vi.any()
+
+
+def test_lanes_that_do_not_predict_stay_where_they_are() -> None:
+    point = series(2.0 + 0.0j)
+    point.mode[:] = [CORRECT, PREDICT] * 4
+    point.vr[:], point.zr[:] = 7.0, 1.0
+    plain.run(predicts, point)
+    assert (point.vr[::2] == 7.0).all() and np.abs(point.vr[1::2] - 2.0).max() < 1e-14
+
+
+def norms(radius: float, order: int) -> np.ndarray:
+    """Squared norms of the corrections, which do not matter, and of a series' coefficients."""
+    values = aligned(order + 2)
+    for k in range(1, order + 1):
+        values[LANES * (k + 1) : LANES * (k + 2)] = radius ** (-2.0 * k)
+    return values
+
+
+@pytest.mark.parametrize("radius", [1e-3, 0.5, 40.0])
+def test_the_radius_is_that_of_a_geometric_series(radius: float) -> None:
+    assert convergence_radius(norms(radius, ORDER), ORDER + 1, LANE) == pytest.approx(
+        radius, rel=1e-12
+    )
+
+
+def test_a_polynomial_converges_everywhere() -> None:
+    values = norms(1.0, ORDER)
+    values[LANES * (ORDER + 1) :] = 0.0
+    assert convergence_radius(values, ORDER + 1, LANE) == 1e6
+
+
+class Steps(NamedTuple):
+    """Scalars of the lanes, as the kernel keeps them."""
+
+    scalars: np.ndarray
+    norms: np.ndarray
+    tr: np.ndarray
+    zr: np.ndarray
+
+
+def steps(radius: float = 1.0, **scalars: float) -> Steps:
+    rows = {"t": T, "goal": GOAL, "h": H, "used": H_USED, "growth": GROWTH}
+    made = Steps(np.zeros(8 * LANES), norms(radius, ORDER), np.zeros(LANES), np.zeros(LANES))
+    for name, value in scalars.items():
+        made.scalars[LANES * rows[name] + LANE] = value
+    return made
+
+
+def test_a_step_is_as_long_as_the_next_term_allows() -> None:
+    # The term of order 5 is (h / 2)^5.
+    made = steps(radius=2.0)
+    next_step(made, ORDER, LANE, 1e-5, 0.9)
+    assert made.scalars[LANES * H + LANE] == pytest.approx(0.2, rel=1e-12)
+
+
+def test_a_step_stays_inside_the_radius_and_grows_by_what_was_found() -> None:
+    made = steps(radius=2.0)
+    next_step(made, ORDER, LANE, 1.0, 0.5)
+    assert made.scalars[LANES * H + LANE] == pytest.approx(1.0, rel=1e-12)
+    made = steps(radius=2.0, used=0.1, growth=3.0)
+    next_step(made, ORDER, LANE, 1e-5, 0.9)
+    assert made.scalars[LANES * H + LANE] == pytest.approx(0.3, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("h", "t"),
+    [(0.1, 0.9), (0.5, 0.5), (0.55, 0.625), (0.74, 0.625), (0.75, 0.25), (2.0, 0.25)],
+)
+def test_a_step_ends_at_the_goal_or_well_before_it(h: float, t: float) -> None:
+    made = steps(t=1.0, goal=0.25, h=h)
+    next_t(made, LANE)
+    assert made.tr[LANE] == pytest.approx(t, rel=1e-12)
+    assert made.zr[LANE] == pytest.approx(t - 1.0, rel=1e-12)

@@ -1,0 +1,137 @@
+"""Points of plane curves: traces, irreducible classes, and the checks before they are reported."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from cuts import curve, fibre, points_on
+from systems import system
+
+from nag.algebra.evaluation import Evaluator
+from nag.decomposition.final_checks import checked_witness_set
+from nag.decomposition.reduction import Reduction
+from nag.decomposition.splitting import Class, split
+from nag.decomposition.trace import EVIDENCE, Trace
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.points import Points
+from nag.witness.slices import random_rows
+from nag.witness.witness import Status, WitnessSet
+
+CIRCLE, LINE, CUBIC = "x^2 + y^2 - 1", "x - 2*y - 3", "y^2 - x^3 + x - 2"
+UNION = f"({CIRCLE})*({LINE})"
+TRACKER = Tracker()
+ROWS = random_rows(np.random.default_rng(6), 1, 2)
+
+
+def on(points: np.ndarray, equation: str) -> np.ndarray:
+    """Which points lie on a curve."""
+    return np.abs(Evaluator.of([curve(equation)], 2).values(points)[:, 0]) < 1e-9
+
+
+def on_line(equation: str, rng: np.random.Generator) -> Points:
+    """All points of a reduced plane curve on a random line."""
+    rows = random_rows(rng, 1, 2)
+    return Points.of([fibre(equation, rows[0])], rows)
+
+
+def trace_of(points: Points, rng: np.random.Generator) -> Trace:
+    found, counts = Trace.of(points, EVIDENCE, rng).carried(points, range(len(points)), TRACKER)
+    assert found is not None and counts.tracked == 2 * len(points) and counts.failed == 0
+    return found
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("equation", [CIRCLE, LINE, CUBIC, UNION])
+def test_the_trace_of_a_whole_curve_is_linear_and_of_nothing_less(equation: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    points = on_line(equation, rng)
+    trace, whole = trace_of(points, rng), len(points)
+    on_curves = [on(points.x, e) for e in (CIRCLE, LINE, CUBIC)]
+    for size in range(1, whole + 1):
+        for chosen in combinations(range(whole), size):
+            taken = np.isin(np.arange(whole), chosen)
+            expected = all(taken[curve].all() or not taken[curve].any() for curve in on_curves)
+            assert trace.linear(points, chosen)[0] is expected
+
+
+def test_the_smallest_unions_of_classes_with_linear_traces_are_found() -> None:
+    rng = np.random.default_rng(3)
+    points = on_line(UNION, rng)
+    trace = trace_of(points, rng)
+    circle, line = np.flatnonzero(on(points.x, CIRCLE)), np.flatnonzero(on(points.x, LINE))
+    classes = [circle[:1], line, circle[1:]]
+    assert trace.smallest_unions(points, classes)[0] == [[1], [0, 2]]
+    assert trace.smallest_unions(points, classes[:2])[0] == [[1]]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_points_fall_into_the_irreducible_curves(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    points = on_line(f"{UNION}*({CUBIC})", rng)
+    found = split(points, (), EVIDENCE, rng, TRACKER)
+    assert [c.reason for c in found.classes] == ["", "", ""]
+    classes = {frozenset(c.indices.tolist()) for c in found.classes}
+    curves = {frozenset(np.flatnonzero(on(points.x, e)).tolist()) for e in (CIRCLE, LINE, CUBIC)}
+    assert classes == curves and sorted(map(len, classes)) == [1, 2, 3]
+    assert [int(found.labels[c.indices].min()) for c in found.classes] == [
+        min(c.indices) for c in found.classes
+    ]
+
+
+def test_a_point_that_is_missing_is_found_by_loops() -> None:
+    rng = np.random.default_rng(5)
+    rows = random_rows(rng, 1, 2)
+    whole = fibre(CUBIC, rows[0])
+    less = Points.of([whole.only(np.arange(3) > 0)], rows)
+    found = split(less, (), EVIDENCE, rng, TRACKER)
+    assert [(len(c.indices), c.reason) for c in found.classes] == [(3, "")]
+    gaps = np.linalg.norm(found.points.x[:, None] - whole.x[None], axis=2)
+    assert sorted(gaps.argmin(axis=1)) == [0, 1, 2] and gaps.min(axis=1).max() < 1e-12
+
+
+def test_isolated_points_are_components_by_themselves() -> None:
+    cut = fibre(CIRCLE, ROWS[0]).cut
+    points = Points.of([Fibre(cut, 0, np.eye(2))], np.zeros((0, 3), dtype=complex))
+    found = split(points, (), EVIDENCE, np.random.default_rng(0), TRACKER)
+    assert [c.indices.tolist() for c in found.classes] == [[0], [1]]
+    assert found.counts.tracked == 0
+
+
+def checked(points: np.ndarray, reduction: Reduction, reason: str = "") -> WitnessSet:
+    """What the final checks say of points of the cubic as a component."""
+    own = Points.of([Fibre(fibre(CUBIC, ROWS[0]).cut, 1, points)], ROWS)
+    found = Class(np.arange(len(points)), reason)
+    return checked_witness_set(found, own, reduction, np.random.default_rng(0), TRACKER)[0]
+
+
+POINTS = points_on(curve(CUBIC), ROWS[0])
+REDUCTION = Reduction.of(system("x y", CUBIC, groups=((0,), (1,))))
+
+
+def test_a_curve_passes_the_checks_with_its_multidegree() -> None:
+    made = checked(POINTS, REDUCTION)
+    assert made.status is Status.IRREDUCIBLE and made.note == ""
+    assert (made.degree, made.multiplicity, made.corank) == (3, 1, 1)
+    # Two points with x fixed, three with y fixed.
+    assert made.multidegree.tolist() == [2, 3]
+    assert made.residual < 1e-15 and made.accuracy < 1e-14
+    assert np.abs(made.points @ made.slice.A.T - made.slice.b).max() < 1e-14
+
+
+def test_points_are_sharpened_to_rounding() -> None:
+    made = checked(POINTS + 1e-8, REDUCTION)
+    gaps = np.linalg.norm(made.points[:, None] - POINTS[None], axis=2).min(axis=1)
+    assert made.status is Status.IRREDUCIBLE and gaps.max() < 1e-13
+
+
+def test_a_reason_for_doubt_is_kept() -> None:
+    made = checked(POINTS, REDUCTION, "some reason")
+    assert made.status is Status.UNDECIDED and made.note == "some reason"
+
+
+def test_points_that_do_not_satisfy_all_equations_are_not_reported_as_a_component() -> None:
+    made = checked(POINTS, Reduction.of(system("x y", CUBIC, CIRCLE)))
+    assert made.status is Status.UNDECIDED and made.residual > 1e-3 and made.degree == 3
+    assert "a point does not satisfy all equations" in made.note
