@@ -17,6 +17,8 @@ from types import ModuleType
 import nag
 from nag.cli import (
     bench,
+    certify,
+    chart,
     check,
     decompose,
     eliminate,
@@ -107,11 +109,25 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         "decomposition of a case with the papers' prime components.",
     ),
     (
+        "certify",
+        certify,
+        "prove the points of an export",
+        "Prove that there is exactly one zero in a box about each solution of `nag solve --json`, "
+        "or witness point of `nag decompose --json`, that they are distinct, and which are real.",
+    ),
+    (
         "bench",
         bench,
         "solve the benchmark systems and measure how fast",
         "Solve the benchmark systems, check their numbers of solutions and measure the time, "
         "beside other programs if they are installed.",
+    ),
+    (
+        "chart",
+        chart,
+        "chart where methods fail, and speed against accuracy",
+        "Run families of systems that are hard in one way each, or solve cases in many settings "
+        "and arithmetics, and draw what comes of it.",
     ),
     (
         "model",
