@@ -78,7 +78,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    from nag.cli.progress import compilation_notice
+    from nag.cli.progress import compilation_notice, progress_line
 
     started = time.perf_counter()
     if options.json is not None:
@@ -93,7 +93,8 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         try:
             origin, cloud, top, tail = _cloud(options)
             onto = _onto(options.onto, cloud.ambient.system.variables)
-            found = image_ideal(cloud, onto, options.degree, options.polynomial)
+            with progress_line(sys.stderr, options.quiet) as progress:
+                found = image_ideal(cloud, onto, options.degree, options.polynomial, progress)
         except (SourceError, InterpolationError) as error:
             raise UsageError(f"{options.case}: {error}") from None
     complete = not found.note and not tail
