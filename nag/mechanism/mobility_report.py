@@ -19,8 +19,9 @@ from nag.mechanism.axes import space_of
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.joint_types import freedoms_in
 from nag.mechanism.mobility import gruebler_kutzbach
-from nag.mechanism.model import Formulation, Model, model
+from nag.mechanism.model import Model, model
 from nag.numerics.local_dimension import LocalDimension, local_dimension
+from nag.text.table import html_table
 from nag.witness.expansion import expanded
 
 
@@ -118,6 +119,12 @@ class MobilityReport:
         """What the numbers mean."""
         return _sentence(self)
 
+    def __repr__(self) -> str:
+        return str(self)
+
+    def _repr_html_(self) -> str:
+        return html_table("MobilityReport", [["", ""], *map(list, self.rows())])
+
     def __str__(self) -> str:
         return "\n".join(f"{label.ljust(10)}  {text}" for label, text in self.rows())
 
@@ -199,7 +206,7 @@ def mobility(
     mechanism: Mechanism,
     point: Sequence[Number] | None = None,
     *,
-    formulation: Formulation = "auto",
+    formulation: str = "auto",
     components: bool = True,
     seed: int = 0,
     threads: int = 1,
@@ -217,6 +224,14 @@ def mobility(
     Raises:
         nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
         nag.numerics.local_dimension.NoSolution: if an exact point is no configuration.
+
+    >>> import nag
+    >>> print(nag.mobility(nag.read_case("cases/bennett.toml").mechanism))
+    counted     -2 by Gruebler-Kutzbach (spatial)
+    model       1 equation in 2 unknowns, formulation H
+    local       tangent dimension 1, local dimension 1
+    components  1 through the configuration: dimension 1, degree 2
+    mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
     """
     if len(mechanism.graph.edges) < len(mechanism.graph):
         return _without_loops(mechanism)

@@ -101,6 +101,11 @@ def local_dimension(
     Raises:
         ValueError: if the point has not one coordinate for each variable.
         NoSolution: if an exact point does not satisfy the equations.
+
+    >>> import nag
+    >>> cusp = nag.local_dimension(nag.system("x^3 = y^2"), (0, 0))
+    >>> cusp.tangent_dimension, cusp.lower, cusp.upper
+    (2, 1, 1)
     """
     from nag.numerics.dimension_bounds import bounds
 
