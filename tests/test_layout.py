@@ -20,6 +20,8 @@ ORDER = (
     "decomposition",
     "mechanism",
     "files",
+    "symbolic",
+    "check",
     "report",
     "interface",
     "bench",
