@@ -7,10 +7,12 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
+from nag.algebra.from_python import coordinates
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
@@ -204,7 +206,7 @@ def _freedoms(number: int | None) -> str:
 
 def mobility(
     mechanism: Mechanism,
-    point: Sequence[Number] | None = None,
+    point: Sequence[Any] | Mapping[str, Any] | None = None,
     *,
     formulation: str = "auto",
     components: bool = True,
@@ -215,7 +217,8 @@ def mobility(
     """The mobility of a mechanism at its reference configuration, or at another one.
 
     Args:
-        point: in the model's variables (`nag.model(mechanism).system.variables`), exact or doubles.
+        point: in the model's variables (`nag.model(mechanism).system.variables`), in order or by
+            name; exact numbers as `nag.Joint` takes them, or doubles.
         formulation: of the model, as for `nag.model`.
         components: whether to decompose the configuration space as well, to know the components
             through the configuration; it takes longer.
@@ -236,7 +239,7 @@ def mobility(
     if len(mechanism.graph.edges) < len(mechanism.graph):
         return _without_loops(mechanism)
     made = model(mechanism, formulation)
-    at = tuple(made.reference) if point is None else tuple(point)
+    at = made.reference if point is None else coordinates(point, made.system.variables)
     found = local_dimension(made.system, at, seed=seed)
     through: tuple[tuple[int, int], ...] | None = None
     doubt = ""

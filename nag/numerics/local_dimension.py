@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from nag.algebra.from_python import coordinates
 from nag.algebra.number import Irrational, Number, is_zero
 
 if TYPE_CHECKING:
@@ -109,8 +110,7 @@ def local_dimension(
     """
     from nag.numerics.dimension_bounds import bounds
 
-    if len(point) != system.n:
-        raise ValueError(f"the point has {len(point)} coordinates, the system {system.n} variables")
+    point = coordinates(point, system.variables)
     exact = exact_numbers(point)
     if exact is not None and not accuracy:
         wrong = [i for i, f in enumerate(system.polynomials) if not is_zero(f(exact))]
