@@ -152,22 +152,16 @@ def model(
     modes: Modes = REFERENCE,
     space: Space | None = None,
 ) -> Model:
-    """The smallest faithful model of a mechanism, or the one that is asked for.
-
-    The smallest is the one with the fewest estimated paths.
-
-    Args:
-        mechanism: what is modelled.
-        formulation: ``"auto"`` or a key of `nag.mechanism.formulation_names.FORMULATIONS`.
-        modes: assembly modes, for joints that are not in that of the reference configuration
-            (`nag.mechanism.assembly_modes`), which are those of the mechanism in space.
-        space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
+    """The model of a mechanism with the fewest estimated paths, or the one that is asked for.
 
     Args:
         mechanism: at least one of its joints must belong to a loop.
-        formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
-            components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
-            for half-angles, ``"auto"`` for the smaller one.
+        formulation: ``"auto"`` or a key of `nag.mechanism.formulation_names.FORMULATIONS`:
+            ``"E"`` for Euler parameters (PT13, table 1, by prime components: T25, lemma 2.1; in the
+            plane a cosine and a sine for each body), ``"H"`` for half-angles of the joints.
+        modes: assembly modes, for joints that are not in that of the reference configuration
+            (`nag.mechanism.assembly_modes`), which are those of the mechanism in space.
+        space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
 
     Raises:
         ModelError: if the mechanism has no loop, or ``formulation`` does not cover it.
