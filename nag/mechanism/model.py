@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from nag.algebra.number import Number
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space, space_of
@@ -53,7 +54,7 @@ class Model:
             in other assembly modes.
         sign_group: size of the group of sign changes a -> -a that acts on E; 1 for H and in the
             plane, where configurations have one point each.
-        symmetries: generators of that group, as signs of the system's variables.
+        symmetries: generators of that group, as `nag.decompose` takes them.
         path_bound: number of solutions that a square system of these degrees, cut by linear
             equations, has at most (Bezout's number, multihomogeneous where there are groups).
         structure: the part of the mechanism that has loops, and what was cut off.
@@ -68,7 +69,7 @@ class Model:
     system: PolynomialSystem
     reference: tuple[Number, ...]
     sign_group: int
-    symmetries: tuple[tuple[int, ...], ...]
+    symmetries: tuple[SignedPermutation, ...]
     path_bound: int
     structure: LoopStructure
     form: Form
@@ -112,6 +113,11 @@ class Model:
         """The mobility that counting predicts for the whole mechanism."""
         return gruebler_kutzbach(self.mechanism)
 
+    def __repr__(self) -> str:
+        from nag.mechanism.shown import model_text
+
+        return model_text(self)
+
     @property
     def cut(self) -> tuple[Joint, ...]:
         """Joints of dangling trees; each adds its own freedom to every component's dimension."""
@@ -151,29 +157,28 @@ def model(
     The smallest is the one with the fewest estimated paths.
 
     Args:
-        mechanism: what is modelled.
-        formulation: ``"auto"`` or a key of `nag.mechanism.formulation_names.FORMULATIONS`.
-        modes: assembly modes, for joints that are not in that of the reference configuration
-            (`nag.mechanism.assembly_modes`), which are those of the mechanism in space.
+        mechanism: at least one of its joints must belong to a loop.
+        formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
+            components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
+            for half-angles and other joint coordinates, ``"S"`` for rods as distances, ``"auto"``.
+        modes: assembly modes (`nag.mechanism.assembly_modes`), of the mechanism in space.
         space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
 
     Raises:
         ModelError: if the mechanism has no loop, or ``formulation`` does not cover it.
+
+    >>> import nag
+    >>> model = nag.model(nag.read_case("cases/bennett.toml").mechanism)
+    >>> model.formulation, model.system.n, model.system.degrees
+    ('H', 2, (2,))
+    >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
+    True
     """
-    if formulation != "auto" and formulation not in FORMULATIONS:
-        names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS))
-        raise ModelError(f"formulation {formulation!r} is unknown; use one of {names}")
     structure = with_loops(mechanism)
     if space is None:
         space = "spatial" if modes else space_of(structure.joints)
-    if formulation == "auto":
-        chosen = smallest(structure, space, modes)
-    else:
-        chosen = alternative(structure, space, formulation, modes)
+    chosen = _chosen(structure, space, formulation, modes)
     form = chosen.form
-    if form is None:
-        instead = "" if formulation == "E" else "; use formulation E"
-        raise ModelError(f"formulation {chosen.formulation}: {chosen.problem}{instead}")
     symmetries = form.symmetries if isinstance(form, EulerModel) else ()
     return Model(
         mechanism=mechanism,
@@ -183,12 +188,25 @@ def model(
         system=form.system,
         reference=form.reference,
         sign_group=2 ** len(symmetries),
-        symmetries=symmetries,
+        symmetries=tuple(map(SignedPermutation.of_signs, symmetries)),
         path_bound=path_bound(form.system),
         structure=structure,
         form=form,
         modes=modes,
     )
+
+
+def _chosen(structure: LoopStructure, space: Space, formulation: str, modes: Modes) -> Alternative:
+    if formulation == "auto":
+        return smallest(structure, space, modes)
+    if formulation not in FORMULATIONS:
+        names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS))
+        raise ModelError(f"formulation {formulation!r} is unknown; use one of {names}")
+    chosen = alternative(structure, space, formulation, modes)
+    if chosen.form is None:
+        instead = "" if formulation == "E" else "; use formulation E"
+        raise ModelError(f"formulation {formulation}: {chosen.problem}{instead}")
+    return chosen
 
 
 def formulations(mechanism: Mechanism) -> tuple[str, ...]:
