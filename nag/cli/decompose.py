@@ -137,7 +137,7 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
     if arguments.modes == "all" and (arguments.expand or arguments.method == "sampling"):
         option = "--expand" if arguments.expand else "--method sampling"
         raise UsageError(f"{option}: is not for --modes all")
-    if arguments.coordinates != "joint" or model.formulation == "H":
+    if arguments.coordinates != "joint" or model.formulation != "E":
         return model
     if arguments.formulation is not None:
         raise UsageError(
