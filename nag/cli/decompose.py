@@ -15,6 +15,9 @@ from nag.cli.arguments import (
     read_problem,
     whole,
 )
+from nag.cli.certify import add_certify, certified
+from nag.cli.sweep import run as run_sweep
+from nag.cli.sweep import sweep_of
 
 if TYPE_CHECKING:
     from nag.decomposition.superset import Progress
@@ -33,6 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag decompose``."""
     add_case(parser)
     add_running(parser)
+    add_certify(parser)
     parser.add_argument(
         "--expand",
         action="store_true",
@@ -65,6 +69,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="with --method sampling: number of random points (default: 100)",
     )
+    parser.add_argument(
+        "--sweep",
+        type=sweep_of,
+        metavar="NAME=FIRST:LAST:COUNT",
+        help="the components for so many values of a parameter: found for a general value, then "
+        "followed by parameter homotopy",
+    )
 
 
 def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
@@ -73,6 +84,8 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
+    if arguments.sweep is not None:
+        return run_sweep(arguments)
     started = time.perf_counter()
     if arguments.starts is not None and arguments.method != "sampling":
         raise UsageError("--starts: is for --method sampling")
@@ -110,6 +123,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.files.problem import origin
     from nag.files.written_file import TargetError
     from nag.report.answer import answer_lines
+    from nag.report.table import labelled
 
     decomposition = accounted(decomposition, points)
     failure = None
@@ -122,7 +136,10 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     lines = answer_lines(decomposition, case, model, points, seconds)
     if failure is not None:
         raise UsageError(failure, lines)
-    return lines, decomposition.complete
+    if not arguments.certify:
+        return lines, decomposition.complete
+    certificate, rows = certified(decomposition)
+    return [*lines, "", *labelled(rows)], decomposition.complete and certificate.all_proved
 
 
 def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:

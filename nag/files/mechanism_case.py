@@ -6,6 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from nag.algebra.number import Number
+from nag.files.axis_forms import KEYS as LINE_KEYS
+from nag.files.axis_forms import read_line
 from nag.files.case_table import Table
 from nag.mechanism.graph import ORIGIN, Body, Joint, Mechanism, MechanismError
 from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS
@@ -36,7 +38,7 @@ def read_mechanism(top: Table, number: ReadNumber) -> Mechanism:
 
 
 def _read_joint(name: str, table: Table, number: ReadNumber) -> Joint:
-    table.allow(("name", "type", "bodies", *VECTORS))
+    table.allow(("name", "type", "bodies", *VECTORS, *LINE_KEYS))
     bodies = table.texts("bodies", "names of bodies", 2)
     if not all(b.strip() and b.isprintable() for b in bodies):
         table.fail("bodies", "holds an empty or unprintable name; write names of bodies")
@@ -44,9 +46,11 @@ def _read_joint(name: str, table: Table, number: ReadNumber) -> Joint:
     known = JOINT_TYPES.get(SYNONYMS.get(kind, kind))
     # What the type needs is asked for here; what does not belong to it, the joint itself refuses.
     needed = () if known is None else known.fields
-    vectors = {
-        key: table.vector(key, 3, number) for key in VECTORS if key in needed or key in table.values
-    }
+    line = read_line(table, number)
+    vectors = dict(zip(("point", "axis"), line, strict=True)) if line else {}
+    for key in VECTORS:
+        if key not in vectors and (key in needed or key in table.values):
+            vectors[key] = table.vector(key, 3, number)
     return Joint(
         name=name,
         type=kind,

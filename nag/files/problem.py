@@ -41,7 +41,7 @@ def origin(case: Case, model: Model | None) -> Origin:
     return Origin(
         title=case.title,
         file=Path(case.path).name,
-        kind=case.kind,
+        kind="system" if model is None else "mechanism",
         formulation=model.formulation if model else None,
         reason=model.reason if model else None,
     )

@@ -13,6 +13,9 @@ from nag.mechanism.graph import Joint
 Vector = tuple[Any, Any, Any]
 Space = Literal["planar", "spherical", "spatial"]
 
+# Squared length from which an integer direction is shortened.
+LONG = 100
+
 
 def dot(u: Sequence[Any], v: Sequence[Any]) -> Any:
     """The bilinear product <u, v>, without conjugation."""
@@ -42,7 +45,9 @@ def direction(axis: Sequence[Number]) -> Vector:
     """A multiple of ``axis``: of unit length where that is rational, else with small integers.
 
     The line stays the same; a rational unit vector keeps every norm in the models equal to 1, and
-    where there is none the models carry the squared length instead of a square root.
+    where there is none the models carry the squared length instead of a square root. Long integer
+    vectors are divided by a power of two near their length: a norm c^2 + N s^2 with a large N is so
+    small at ordinary turns that it cannot be told from zero.
     """
     if not all(isinstance(x, Fraction) for x in axis):
         return tuple(axis)
@@ -51,9 +56,12 @@ def direction(axis: Sequence[Number]) -> Vector:
         denominator = denominator * x.denominator // gcd(denominator, x.denominator)
     divisor = gcd(*(int(x * denominator) for x in axis))
     primitive = tuple(x * denominator / divisor for x in axis)
-    length = square_root(dot(primitive, primitive))
+    squared = dot(primitive, primitive)
+    length = square_root(squared)
     if isinstance(length, Fraction):
         return tuple(x / length for x in primitive)
+    if squared > LONG:
+        return tuple(x / 2 ** (int(squared).bit_length() // 2) for x in primitive)
     return primitive
 
 
