@@ -60,7 +60,7 @@ def test_points_of_norm_zero_for_axes_without_rational_unit_vector():
         # The root, put into the joint's norm c^2 + N s^2.
         coefficients = [complex(f.terms.get(e, 0)) for e in _powers(m.system.n, i)]
         root = np.roots(coefficients[::-1])[0]
-        factor = m.form.factors[i]
+        factor = m.form.charts.factors[i]
         k = complex(factor.charts[0])
         (joint,) = (j for j in m.mechanism.joints if j.name == factor.joint)
         axis = np.array([float(x) for x in joint.axis])
@@ -76,7 +76,7 @@ def _powers(n, i):
 
 
 def test_charts_leave_out_different_points_and_none_of_a_special_angle():
-    factors = model(general_loop(7, 2), "H").form.factors
+    factors = model(general_loop(7, 2), "H").form.charts.factors
     charts = [k for factor in factors for k in factor.charts]
     assert len({abs(k) for k in charts}) == len(charts)
     assert not {abs(k) for k in charts} & {Fraction(0), Fraction(1)}

@@ -90,7 +90,7 @@ def test_half_turns_of_kept_and_eliminated_joints_lift():
     """Bennett's opposite joints turn alike, so J1 at half a turn takes eliminated J3 with it."""
     m = model(case("bennett"), "H")
     (equation,) = m.system.polynomials
-    (k,) = m.form.factors[0].charts
+    (k,) = m.form.charts.factors[0].charts
     x = 1 / k
     rest = equation([x, Fraction(0)])
     point = [x, -rest / (equation([x, Fraction(1)]) - rest)]

@@ -7,6 +7,7 @@ loops find the other points on the slice, and the trace says when these are all.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,10 +16,11 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.discovery import regular_on_flag
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.reduction import Reduction
+from nag.decomposition.sign_orbits import keeps, sign_orbit
 from nag.decomposition.splitting import split
 from nag.decomposition.symmetric_images import in_orbits
 from nag.decomposition.trace import digits_of_evidence
-from nag.witness.fibres import Tracker
+from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import polish
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
@@ -83,15 +85,18 @@ def components_through_points(
         for each in answer.classes:
             component, spent = checked_witness_set(each, answer.points, reduction, rng, tracker)
             counts += spent
+            if component.status is Status.IRREDUCIBLE and symmetries:
+                fibres, _ = answer.points.fibres(each.indices)
+                found, spent = _with_orbit(
+                    component, fibres, flag[:d], reduction, symmetries, rng, tracker
+                )
+                counts += spent
+                if found is None:
+                    notes.append(f"the orbit of a component of dimension {d} is not known")
+                component = component if found is None else found
             components.append(component)
     open_ones = [c for c in components if c.status is not Status.IRREDUCIBLE]
-    whole = [c for c in components if c.status is Status.IRREDUCIBLE]
-    try:
-        options = {"seed": seed, "threads": threads, "settings": settings}
-        whole = in_orbits(system, whole, symmetries, **options)
-    except ValueError as error:
-        notes.append(f"orbits of the symmetries are not known: {error}")
-    components = sorted([*whole, *open_ones], key=lambda c: (-c.dimension, c.degree))
+    components.sort(key=lambda c: (-c.dimension, c.degree))
     return Decomposition(
         system=system,
         components=tuple(components),
@@ -102,3 +107,41 @@ def components_through_points(
         complete=not (notes or open_ones),
         notes=tuple(notes),
     )
+
+
+def _with_orbit(
+    component: WitnessSet,
+    fibres: Sequence[Fibre],
+    rows: np.ndarray,
+    reduction: Reduction,
+    symmetries: Sequence[SignedPermutation],
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> tuple[WitnessSet | None, PathCounts]:
+    """The component with its orbit, or None if that could not be found."""
+    n, counts = reduction.system.n, PathCounts()
+    plain = all(g.sources == tuple(range(n)) for g in symmetries)
+    kept = reduction.kept
+    generators = [tuple(g.signs[i] for i in kept) for g in symmetries]
+    if plain and len(fibres) == 1 and all(keeps(fibres[0].cut, g) for g in generators):
+        carriers, counts = sign_orbit(fibres[0], rows, generators, rng, tracker)
+        if carriers is None:
+            return None, counts
+        images = []
+        for carrier in carriers[1:]:
+            way = SignedPermutation.identity(n)
+            for k in carrier:
+                way = symmetries[k].after(way)
+            images.append(way)
+        return replace(component, orbit=len(carriers), images=tuple(images)), counts
+    try:
+        (found,) = in_orbits(
+            reduction.system,
+            [component],
+            symmetries,
+            threads=tracker.threads,
+            settings=tracker.settings,
+        )
+    except ValueError:
+        return None, counts
+    return found, counts

@@ -125,7 +125,13 @@ def read_case(
         values: numbers or expressions for some of the parameters, in place of the file's.
 
     Raises:
-        CaseError: if it cannot be read or makes no sense.
+        CaseError: if it cannot be read or makes no sense; one line says where and what would be
+            right.
+
+    >>> import nag
+    >>> case = nag.read_case("cases/slider-crank.toml")
+    >>> case.kind, case.system.n, [point.name for point in case.points]
+    ('system', 6, ['singular, s1 = -1', 'singular, s1 = 1'])
     """
     path = Path(path)
     top = Table(str(path), "", read_toml(path))

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import cmath
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
-
-import mpmath
 
 from nag.algebra.number import Irrational, Number, square_root, to_mpf
 from nag.mechanism.loops import LoopStructure
@@ -51,10 +50,18 @@ def arithmetic_of(point: Sequence[Any]) -> Arithmetic:
     """The arithmetic in which ``point`` is to be lifted: exact, `mpmath` or complex doubles."""
     if all(isinstance(x, int | Fraction | Irrational) for x in point):
         return Arithmetic(lambda c: c, square_root)
-    if any(isinstance(x, mpmath.mpf | mpmath.mpc) for x in point):
+    if any(_is_multiprecision(x) for x in point):
+        import mpmath
+
         digits = mpmath.mp.dps
         return Arithmetic(lambda c: to_mpf(c, digits), mpmath.sqrt)
     return Arithmetic(lambda c: complex(float(c)), cmath.sqrt)
+
+
+def _is_multiprecision(x: Any) -> bool:
+    """Whether it is one of `mpmath`'s numbers; there are none before that is loaded."""
+    mpmath = sys.modules.get("mpmath")
+    return mpmath is not None and isinstance(x, mpmath.mpf | mpmath.mpc)
 
 
 def as_entries(point: Sequence[Any]) -> tuple[Any, ...]:
@@ -63,7 +70,7 @@ def as_entries(point: Sequence[Any]) -> tuple[Any, ...]:
     for x in point:
         if isinstance(x, int):
             x = Fraction(x)
-        elif not isinstance(x, Fraction | Irrational | mpmath.mpf | mpmath.mpc):
+        elif not isinstance(x, Fraction | Irrational) and not _is_multiprecision(x):
             x = complex(x)
         entries.append(x)
     return tuple(entries)

@@ -7,11 +7,14 @@ is lifted; loops and the trace find the witness points of the component through 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.given_points import components_through_points
 from nag.mechanism.model import Model, model
+from nag.mechanism.rods import RodModel
 from nag.witness.witness import Decomposition, Status
 
 
@@ -28,7 +31,10 @@ def euler_decomposition(
         decomposition: its components, all of them or one of each orbit.
         threads: for path tracking.
     """
-    target = model(source.mechanism, "E", source.modes)
+    target = model(source.mechanism, "E", source.modes, source.space)
+    reason = f"{source.reason}; carried over from formulation {source.formulation}"
+    target = replace(target, reason=f"{reason} to the bodies' Euler parameters")
+    spins = source.form.spins if isinstance(source.form, RodModel) else 0
     starts = []
     notes = list(decomposition.notes)
     for component in decomposition.components:
@@ -36,7 +42,7 @@ def euler_decomposition(
             notes.append(f"a component of dimension {component.dimension} is undecided")
         lifted = source.lift(component.points[0])
         point = np.array(target.project(lifted), dtype=complex)
-        starts.append((component.dimension, point))
+        starts.append((component.dimension + spins, point))
     answer = components_through_points(
         target.system,
         starts,

@@ -221,16 +221,29 @@ def prime_component(
         scale = norm_squared(a) * norm_squared(b)
         return [turned - scale * dot(u, v)]
     if joint.type == "prismatic":
-        unit = unit_multiple(constant)
-        return list(difference(b, multiply(a, unit)))
-    relative = multiply(multiply(conjugate(a), b), conjugate(constant))
+        return list(difference(b, multiply(a, unit_multiple(constant))))
+    relative = multiply(conjugate(a), b)
+    return [dot(row, relative) for row in mode_conditions(joint, mode)]
+
+
+def mode_conditions(joint: Joint, mode: int) -> list[tuple[Number, ...]]:
+    """Rows whose products with the relative orientation r vanish in an assembly mode.
+
+    Two for a turn about an axis, three for a joint that keeps orientations, none for the others.
+    """
+    if joint.type in ("spherical", "universal"):
+        return []
+    back = conjugate(mode_rotation(joint, mode))
     line = (Fraction(0), *direction(joint.axis))
     columns = []
     for i in range(4):
         unit = tuple(Fraction(int(i == j)) for j in range(4))
-        columns.append(difference(multiply(line, unit), multiply(unit, line)))
-    rows, _ = row_echelon([tuple(c[i] for c in columns) for i in range(4)])
-    return [dot(row, relative) for row in rows]
+        turn = multiply(unit, back)
+        if joint.type == "prismatic":
+            columns.append(turn[1:])
+        else:
+            columns.append(difference(multiply(line, turn), multiply(turn, line)))
+    return row_echelon([tuple(c[i] for c in columns) for i in range(len(columns[0]))])[0]
 
 
 def unit_multiple(constant: Sequence[Number]) -> tuple[Number, ...]:

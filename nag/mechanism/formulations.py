@@ -17,8 +17,9 @@ from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.path_estimates import estimated_paths, path_bound
 from nag.mechanism.planar import PlanarModel, planar_model
+from nag.mechanism.rods import RodModel, rod_model
 
-Form = EulerModel | HalfAngleModel | PlanarModel
+Form = EulerModel | HalfAngleModel | PlanarModel | RodModel
 
 
 class ModelError(ValueError):
@@ -70,6 +71,8 @@ def alternative(
     try:
         if formulation == "H":
             return Alternative("H", half_angle_model(structure, modes))
+        if formulation == "S":
+            return Alternative("S", rod_model(structure, modes))
         if space == "planar":
             return Alternative("E", planar_model(structure))
         return Alternative("E", euler_model(structure, space == "spherical", modes))
@@ -88,15 +91,34 @@ def alternatives(
 def smallest(structure: LoopStructure, space: Space, modes: Modes = REFERENCE) -> Alternative:
     """The formulation with the fewest estimated paths.
 
-    Euler parameters, which cover everything, are worked out only where they could be it: they have
-    at least the norms of the moving bodies, each a quadric.
+    What cannot be it is not worked out: half-angles have four equations for each loop; Euler
+    parameters, which cover everything, have many quadrics.
     """
-    others = [alternative(structure, space, n, modes) for n in FORMULATIONS if n != "E"]
+    rods = alternative(structure, space, "S", modes)
+    if rods.form is not None and rods.paths <= 4 ** (len(structure.loops) + 1):
+        return rods
+    others = [rods, alternative(structure, space, "H", modes)]
     fitting = sorted((a for a in others if a.form is not None), key=lambda a: a.paths)
-    if fitting and fitting[0].paths <= 2 ** (len(structure.moving) + 1) - 2:
+    if fitting and fitting[0].paths <= _least_euler_paths(structure, space):
         return fitting[0]
     euler = alternative(structure, space, "E", modes)
     return min([*fitting, euler], key=lambda a: a.paths)
+
+
+def _least_euler_paths(structure: LoopStructure, space: Space) -> int:
+    """What the estimate for Euler parameters is at least.
+
+    Norms of the moving bodies, and two equations for each turning joint between them, are
+    independent quadrics; those of joints at the base are linear and leave fewer variables.
+    """
+    moving = len(structure.moving)
+    sliding = sum(j.type == "prismatic" for j in structure.joints)
+    if space == "planar" or sliding:
+        return 2 ** (max(moving - sliding, 0) + 1) - 2
+    turning = [j for j in structure.joints if j.type in ("revolute", "cylindrical", "planar")]
+    at_base = sum(structure.base in j.bodies for j in turning)
+    quadrics = min(moving + 2 * (len(turning) - at_base), 4 * moving - 2 * at_base)
+    return 2 ** (quadrics + 1) - 2
 
 
 def description(alternative: Alternative, space: Space) -> str:
@@ -104,13 +126,17 @@ def description(alternative: Alternative, space: Space) -> str:
     if alternative.formulation == "E":
         return "one pair (c, s) for each body" if space == "planar" else "Euler parameters"
     form = alternative.form
+    if isinstance(form, RodModel):
+        free = sum(f.kind == "free" for f in form.charts.plain)
+        names = "Study coordinates" if free else "joint coordinates"
+        return f"{names}, {counted(len(form.rods), 'rod')} between spherical joints as distances"
     if not isinstance(form, HalfAngleModel):
         return "half-angles"
     lost = len({f.joint for c in form.closures for f in c.lost})
     each = " of each loop" if len(form.closures) > 1 else ""
     count = lost // len(form.closures) if lost % len(form.closures) == 0 else 0
     word = {1: "one joint", 2: "two joints"}.get(count, "joints")
-    kinds = {f.kind for f in form.factors}
+    kinds = {f.kind for f in form.charts.factors}
     names = "half-angles" if kinds <= {"turn"} else "joint coordinates"
     return f"{names} with {word}{each} eliminated"
 

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from nag.algebra.from_python import exact_vector
 from nag.algebra.number import Number, is_zero, number_text
 from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS
 
@@ -36,9 +37,16 @@ class MechanismError(ValueError):
         key: str | None = None,
     ) -> None:
         super().__init__(message)
+        self.message = message
         self.joint = joint
         self.body = body
         self.key = key
+
+    def __str__(self) -> str:
+        owner = f"joint {self.joint!r}" if self.joint is not None else ""
+        if not owner and self.body is not None:
+            owner = f"body {self.body!r}"
+        return ": ".join([*filter(None, (owner, self.key)), self.message])
 
 
 @dataclass(frozen=True)
@@ -55,6 +63,17 @@ class Joint:
             a revolute or cylindrical joint, of the slide of a prismatic one, the normal of a planar
             one, the axis in the first body of a universal one. None for the others.
         second_axis: of a universal joint, the axis in the second body. None for the others.
+
+    Numbers may be int, Fraction, Decimal, text, NumPy's, sympy's, or float; a float is read as its
+    shortest decimal (0.1 is 1/10).
+
+    Raises:
+        MechanismError: if a vector holds something that is no number.
+
+    >>> import nag
+    >>> joint = nag.Joint("A", "revolute", ("base", "left"), (0, 0.1, "1/3"), (0, 0, 1))
+    >>> joint.point
+    (Fraction(0, 1), Fraction(1, 10), Fraction(1, 3))
     """
 
     name: str
@@ -66,9 +85,11 @@ class Joint:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "type", SYNONYMS.get(self.type, self.type))
-        for field in ("bodies", "point", "axis", "second_axis"):
-            if getattr(self, field) is not None:
-                object.__setattr__(self, field, tuple(getattr(self, field)))
+        object.__setattr__(self, "bodies", tuple(self.bodies))
+        for field in ("point", "axis", "second_axis"):
+            value = getattr(self, field)
+            if value is not None:
+                object.__setattr__(self, field, _exact(value, field, joint=self.name))
 
     def other(self, body: str) -> str:
         """The body at the other end."""
@@ -90,7 +111,8 @@ class Body:
 
     def __post_init__(self) -> None:
         if self.orientation is not None:
-            object.__setattr__(self, "orientation", tuple(self.orientation))
+            exact = _exact(self.orientation, "orientation", body=self.name)
+            object.__setattr__(self, "orientation", exact)
 
 
 @dataclass(frozen=True)
@@ -179,12 +201,79 @@ class Mechanism:
             graph.add_edge(*joint.bodies, key=joint.name, joint=joint)
         return graph
 
+    @classmethod
+    def from_graph(cls, graph: Any, ground: Any = None) -> Mechanism:
+        """The mechanism that a networkx graph describes: nodes are bodies, edges joints.
+
+        Each edge has the attributes of a `Joint`: ``type``, and what that type needs (``point``,
+        ``axis``). Its name is the attribute ``name``, else its key if that is text, else made of
+        its ends. A node may have the ``orientation`` of a `Body`. Other attributes are ignored.
+        In a directed graph an edge's first body is its source; of an undirected one
+        ``bodies=(first, second)`` says which is first, where that matters.
+
+        Args:
+            graph: a `networkx.MultiGraph`, or another of networkx' graphs.
+            ground: the node that is fixed; by default the graph's attribute ``ground``.
+
+        Raises:
+            MechanismError: if an attribute is missing or makes no sense, or the graph is not
+                connected; the message says which edge or node, and what would be right.
+
+        >>> import nag, networkx
+        >>> G = networkx.MultiGraph()
+        >>> G.add_edge("base", "left", "A", type="revolute", axis=(0, 0, 1), point=(0, 0, 0))
+        'A'
+        >>> G.add_edge("left", "top", "B", type="revolute", axis=(0, 0, 1), point=(0, 1, 0))
+        'B'
+        >>> nag.Mechanism.from_graph(G, ground="base")
+        Mechanism of 3 bodies (base, left, top), ground base
+          A  revolute, base - left, point (0, 0, 0), axis (0, 0, 1)
+          B  revolute, left - top, point (0, 1, 0), axis (0, 0, 1)
+        """
+        from nag.mechanism.networkx_graph import mechanism_from_graph
+
+        return mechanism_from_graph(graph, ground)
+
+    def to_graph(self) -> networkx.MultiGraph:
+        """The mechanism as a networkx graph, of which `from_graph` makes the same mechanism.
+
+        Edges are keyed by the joints' names and have their fields as attributes; ``ground`` and
+        the order of the ``joints`` are attributes of the graph.
+
+        >>> import nag
+        >>> graph = nag.read_case("cases/bennett.toml").mechanism.to_graph()
+        >>> graph.number_of_nodes(), graph.number_of_edges(), graph.graph["ground"]
+        (4, 4, 'B0')
+        >>> nag.Mechanism.from_graph(graph).to_graph().edges == graph.edges
+        True
+        """
+        from nag.mechanism.networkx_graph import graph_of
+
+        return graph_of(self)
+
+    def __repr__(self) -> str:
+        from nag.mechanism.shown import mechanism_text
+
+        return mechanism_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.mechanism.shown import mechanism_html
+
+        return mechanism_html(self)
+
     def orientation(self, body: str) -> tuple[Number, ...]:
         """Euler parameters of the local frame of ``body`` at the reference configuration."""
         for given in self.bodies:
             if given.name == body and given.orientation is not None:
                 return given.orientation
         return (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
+
+
+def _exact(values: Any, key: str, **owner: str) -> tuple[Number, ...]:
+    try:
+        return exact_vector(values, "coordinates")
+    except ValueError as error:
+        raise MechanismError(str(error), key=key, **owner) from None
 
 
 def _check_joint(joint: Joint) -> None:

@@ -8,16 +8,16 @@ loop. Everything is relative to the reference configuration.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm
 from typing import Any
 
 from nag.algebra.number import Number
-from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import REFERENCE, Modes
+from nag.mechanism.axes import difference
+from nag.mechanism.charts import Charts
 from nag.mechanism.configuration import (
     Arithmetic,
     Configuration,
@@ -26,26 +26,12 @@ from nag.mechanism.configuration import (
     configuration,
 )
 from nag.mechanism.euler import slide_directions
-from nag.mechanism.graph import Joint
-from nag.mechanism.joint_factors import (
-    Factor,
-    factors_of,
-    mode_constant,
-    reversed_generators,
-)
-from nag.mechanism.loop_product import Closure, Element, closures, combination
+from nag.mechanism.joint_factors import Factor
+from nag.mechanism.joint_products import displacement, joint_elements, moved, opposite
+from nag.mechanism.loop_product import Closure, Element, closures
 from nag.mechanism.loops import Loop, LoopStructure, loop_bases
 from nag.mechanism.path_estimates import intersection_number
-from nag.mechanism.quaternion import (
-    DualQuaternion,
-    conjugate,
-    dual_multiply,
-    multiply,
-    norm_squared,
-    scale,
-    translation,
-)
-from nag.mechanism.row_reduction import independent_polynomials
+from nag.mechanism.quaternion import conjugate, multiply, norm_squared, scale
 
 # An equation has at most as many terms as the product of its factors has.
 MOST_TERMS = 2**10
@@ -58,7 +44,7 @@ class HalfAngleModel:
     Attributes:
         structure: the mechanism's part with loops.
         closures: one for each loop.
-        factors: the kept factors, in the order of their variables.
+        charts: the kept factors, in the order of their variables.
         elements: for each joint, by name, its factors and constants in the direction from its first
             body to its second.
         system: the equations; one group of variables for each factor; points where a factor's norm
@@ -69,7 +55,7 @@ class HalfAngleModel:
 
     structure: LoopStructure
     closures: tuple[Closure, ...]
-    factors: tuple[Factor, ...]
+    charts: Charts
     elements: dict[str, tuple[Element, ...]]
     system: PolynomialSystem
     reference: tuple[Number, ...]
@@ -92,10 +78,7 @@ class HalfAngleModel:
         self, point: Sequence[Any], arithmetic: Arithmetic
     ) -> dict[Factor, tuple[Any, ...]]:
         convert = arithmetic.convert
-        values = {
-            f: f.homogeneous([point[i] for i in group], convert)
-            for f, group in zip(self.factors, self.system.groups, strict=True)
-        }
+        values = self.charts.at(point, convert)
         for closure in self.closures:
             values |= closure.recovered(values.__getitem__, convert)
         return values
@@ -114,7 +97,7 @@ class HalfAngleModel:
         values = self._coordinates(as_entries(point), arithmetic)
         structure, mechanism = self.structure, self.structure.mechanism
         relative = {
-            name: _displacement(elements, values, convert)
+            name: displacement(elements, values, convert)
             for name, elements in self.elements.items()
         }
         reference = {
@@ -137,7 +120,8 @@ class HalfAngleModel:
         for joint in structure.joints:
             if slide_directions(joint):
                 place = [convert(x) for x in joint.point]
-                slides[joint.name] = _gap(relative[joint.name], place)
+                there = moved(relative[joint.name], place)
+                slides[joint.name] = difference(there, place)
         return configuration(structure, euler, arithmetic, slides)
 
 
@@ -152,41 +136,15 @@ def half_angle_model(structure: LoopStructure, modes: Modes = REFERENCE) -> Half
     kept = [f for f in _in_order(chosen) if f not in lost]
     if not kept:
         raise ValueError(_too_short(structure))
-    count, charted = 0, []
-    for factor in kept:
-        charted.append(factor.charted(count))
-        count += len(charted[-1].charts)
-    groups, n = [], 0
-    for factor in kept:
-        groups.append(tuple(range(n, n + factor.dimension)))
-        n += factor.dimension
-    variables = Polynomial.variables(n)
-    values = {
-        f: tuple(
-            Polynomial.constant(n, w) if isinstance(w, Fraction) else w
-            for w in c.homogeneous([variables[i] for i in group])
-        )
-        for f, c, group in zip(kept, charted, groups, strict=True)
-    }
-    equations = [f for c in chosen for f in c.polynomials(values.__getitem__)]
-    zero = Polynomial(n, {})
-    equations = [f for f in (zero + f for f in equations) if f]
-    norms = [c.norm([variables[i] for i in g]) for c, g in zip(charted, groups, strict=True)]
-    system = PolynomialSystem(
-        _variable_names(kept),
-        tuple(_primitive(f) for f in independent_polynomials(equations)),
-        tuple(f for f in norms if f is not None),
-        tuple(groups),
-    )
-    names = dict(zip(kept, charted, strict=True))
-    reference = () if modes else tuple(x for f in charted for x in f.reference)
+    charts = Charts.of(kept)
+    equations = [f for c in chosen for f in c.polynomials(charts.values.__getitem__)]
     return HalfAngleModel(
         structure,
-        tuple(_renamed(c, names) for c in chosen),
-        tuple(charted),
-        {name: _rename_all(e, names) for name, e in elements.items()},
-        system,
-        reference,
+        tuple(chosen),
+        charts,
+        elements,
+        charts.system(equations),
+        () if modes else charts.reference,
         modes,
     )
 
@@ -246,7 +204,7 @@ def _too_short(structure: LoopStructure) -> str:
 def _cost(closure: Closure) -> tuple[int, int]:
     """Bound of the number of paths, that of the quadric included."""
     dimensions = [e.factor.dimension for e in closure.kept if e.factor is not None]
-    degrees = [(1,) * len(dimensions)] * len(closure.annihilator)
+    degrees = [(1,) * len(dimensions)] * (8 - len(closure.basis))
     if closure.quadric:
         degrees = [*degrees[:3], (2,) * len(dimensions)]
     return intersection_number(degrees, dimensions), int(closure.quadric)
@@ -266,22 +224,10 @@ def _loop_elements(
     for joint, body in zip(loop.joints, loop.bodies, strict=True):
         forward = joint.bodies[0] == body
         if joint.name not in known:
-            known[joint.name] = tuple(_joint_elements(joint, modes.get(joint.name, 0), forward))
+            known[joint.name] = joint_elements(joint, modes.get(joint.name, 0), forward)
         own = known[joint.name]
-        product += own if forward else _opposite(own)
+        product += own if forward else opposite(own)
     return product
-
-
-def _joint_elements(joint: Joint, mode: int, forward: bool) -> Iterator[Element]:
-    for factor in factors_of(joint):
-        generators = factor.generators
-        yield Element(factor, generators if forward else reversed_generators(generators))
-    if mode:
-        yield Element(None, (mode_constant(joint, mode),))
-
-
-def _opposite(elements: Sequence[Element]) -> list[Element]:
-    return [Element(e.factor, reversed_generators(e.generators)) for e in reversed(elements)]
 
 
 def _in_order(chosen: Sequence[Closure]) -> list[Factor]:
@@ -289,55 +235,3 @@ def _in_order(chosen: Sequence[Closure]) -> list[Factor]:
     for closure in chosen:
         order.update(dict.fromkeys(e.factor for e in closure.kept if e.factor is not None))
     return list(order)
-
-
-def _rename_all(elements: Sequence[Element], names: dict[Factor, Factor]) -> tuple[Element, ...]:
-    return tuple(
-        Element(None if e.factor is None else names.get(e.factor, e.factor), e.generators)
-        for e in elements
-    )
-
-
-def _renamed(closure: Closure, names: dict[Factor, Factor]) -> Closure:
-    return Closure(
-        _rename_all(closure.kept, names),
-        closure.eliminated,
-        closure.annihilator,
-        closure.coordinates,
-        closure.quadric,
-    )
-
-
-def _displacement(
-    elements: Sequence[Element], values: dict[Factor, tuple[Any, ...]], convert: Any
-) -> DualQuaternion:
-    result: DualQuaternion | None = None
-    for element in elements:
-        value = combination(element, values.__getitem__, convert)
-        result = value if result is None else dual_multiply(result, value)
-    return result
-
-
-def _gap(displacement: DualQuaternion, place: Sequence[Any]) -> tuple[Any, ...]:
-    """How far the displacement moves a point."""
-    zero = 0 * place[0]
-    one = zero + 1
-    at = ((one, zero, zero, zero), (zero, *(x / 2 for x in place)))
-    moved, squared = translation(dual_multiply(displacement, at))
-    # A translation by the place, then the displacement: the origin goes where the place goes.
-    return tuple(m / squared - x for m, x in zip(moved, place, strict=True))
-
-
-def _primitive(f: Polynomial) -> Polynomial:
-    """``f`` times the rational number that makes its coefficients coprime integers."""
-    if not f.exact or not f:
-        return f
-    denominator = lcm(*(c.denominator for c in f.terms.values()))
-    divisor = gcd(*(int(c * denominator) for c in f.terms.values()))
-    return f * Fraction(denominator, divisor)
-
-
-def _variable_names(factors: Sequence[Factor]) -> tuple[str, ...]:
-    if all(f.joint.isascii() and f.joint.isidentifier() for f in factors):
-        return tuple(f"{letter}_{f.joint}" for f in factors for letter in f.letters)
-    return tuple(f"x{i + 1}" for i in range(sum(f.dimension for f in factors)))

@@ -24,7 +24,7 @@ from nag.mechanism.axes import across, direction, dot
 from nag.mechanism.graph import Joint
 from nag.mechanism.quaternion import DualQuaternion, Quaternion, dual_conjugate, line
 
-Kind = Literal["turn", "slide", "ball", "plane"]
+Kind = Literal["turn", "slide", "ball", "plane", "free"]
 
 ZERO, ONE = Fraction(0), Fraction(1)
 NOTHING: Quaternion = (ZERO, ZERO, ZERO, ZERO)
@@ -37,7 +37,15 @@ _CHARTS = tuple(
     for a, b in ((3, 7), (-5, 9), (7, 11), (-4, 13), (8, 17), (-9, 19), (6, 23), (-11, 29))
 )
 # Letters of the variables of a joint, in the order of its factors.
-_LETTERS = {"turn": "xy", "slide": "d", "ball": ("a", "b", "c"), "plane": ("x", "d", "e")}
+_LETTERS = {
+    "turn": ("x", "y"),
+    "slide": ("d",),
+    "ball": ("a", "b", "c"),
+    "plane": ("x", "d", "e"),
+    "free": ("e1", "e2", "e3", "g0", "g1", "g2", "g3"),
+}
+# Number of coordinates that turn, each with a chart constant of its own.
+_TURNING = {"turn": 1, "slide": 0, "ball": 3, "plane": 1, "free": 3}
 
 
 @dataclass(frozen=True)
@@ -45,7 +53,7 @@ class Factor:
     """One factor of a joint.
 
     Attributes:
-        joint: name of the joint.
+        joint: name of the joint; of a body in the air, its own name.
         kind: what it does.
         generators: the first is the unit.
         number: which factor of that kind it is in its joint, from 0.
@@ -71,7 +79,7 @@ class Factor:
 
     def charted(self, first: int) -> Factor:
         """The same with chart constants, those of a model being numbered from ``first``."""
-        count = {"turn": 1, "slide": 0, "ball": 3, "plane": 1}[self.kind]
+        count = _TURNING[self.kind]
         return replace(self, charts=tuple(_chart(first + i) for i in range(count)))
 
     def homogeneous(self, x: Sequence[Any], convert: Any = lambda c: c) -> tuple[Any, ...]:
@@ -129,6 +137,13 @@ def factors_of(joint: Joint) -> tuple[Factor, ...]:
         return turn, Factor(name, "turn", (UNIT, second), 1)
     u, v = across(axis)
     return (Factor(name, "plane", (UNIT, line(joint.point, axis), _shift(u), _shift(v))),)
+
+
+def free_factor(body: str) -> Factor:
+    """Study coordinates of a body: all dual quaternions, of which Study's quadric moves it."""
+    units = [tuple(Fraction(int(i == j)) for j in range(4)) for i in range(4)]
+    generators = [(u, NOTHING) for u in units] + [(NOTHING, u) for u in units]
+    return Factor(body, "free", tuple(generators))
 
 
 def mode_constant(joint: Joint, mode: int) -> DualQuaternion:

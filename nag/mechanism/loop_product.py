@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from nag.algebra.number import Number, is_zero
@@ -48,16 +49,24 @@ class Closure:
     Attributes:
         kept: the elements of A.
         eliminated: the elements of B.
-        annihilator: rows whose products with conj(A) vanish when the loop closes.
-        coordinates: rows that give conj(A) in the basis of W.
+        basis: of W, each a vector of 8 entries: 1, g, k, gk, or the generators of one joint.
         quadric: whether w00 w11 = w10 w01 is needed as well.
     """
 
     kept: tuple[Element, ...]
     eliminated: tuple[Element, ...]
-    annihilator: tuple[tuple[Number, ...], ...]
-    coordinates: tuple[tuple[Number, ...], ...]
+    basis: tuple[tuple[Number, ...], ...]
     quadric: bool
+
+    @cached_property
+    def annihilator(self) -> tuple[tuple[Number, ...], ...]:
+        """Rows whose products with conj(A) vanish when the loop closes."""
+        return tuple(null_space(self.basis, 8))
+
+    @cached_property
+    def coordinates(self) -> tuple[tuple[Number, ...], ...]:
+        """Rows that give conj(A) in the basis of W."""
+        return tuple(left_inverse(self.basis))
 
     @property
     def lost(self) -> tuple[Factor, ...]:
@@ -67,7 +76,7 @@ class Closure:
     @property
     def equations(self) -> int:
         """Number of equations, before dependent ones are left out."""
-        return len(self.annihilator) + int(self.quadric)
+        return 8 - len(self.basis) + int(self.quadric)
 
     def polynomials(self, coordinates: Callable[[Factor], Sequence[Any]]) -> list[Polynomial]:
         """The loop's equations; ``coordinates`` gives a factor's homogeneous coordinates."""
@@ -165,16 +174,15 @@ def _closure(kept: Sequence[Element], piece: Sequence[Element]) -> Closure | Non
     for element in piece:
         # The first factor's index runs fastest: 1, g, k, gk.
         products = [dual_multiply(p, g) for g in element.generators for p in products]
-    basis = [[x for part in q for x in part] for q in products]
+    basis = tuple(tuple(x for part in q for x in part) for q in products)
     if len(row_echelon(basis)[0]) < 4:
         return None
     pair = sum(e.factor is not None for e in piece) == 2
-    study = [dot4(p[0], q[1]) + dot4(p[1], q[0]) for p in products for q in products]
+    study = (dot4(p[0], q[1]) + dot4(p[1], q[0]) for p in products for q in products)
     return Closure(
         kept=tuple(kept),
         eliminated=tuple(piece),
-        annihilator=tuple(null_space(basis, 8)),
-        coordinates=tuple(left_inverse(basis)),
+        basis=basis,
         quadric=pair and all(is_zero(x) for x in study),
     )
 

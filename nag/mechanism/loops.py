@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -86,30 +87,15 @@ def loop_structure(mechanism: Mechanism) -> LoopStructure:
 
     A mechanism without loops gives a structure without moving bodies.
     """
-    import networkx
-
     groups = rigid_groups(mechanism)
     mechanism = groups.merged
     if groups.is_one_body:
         return LoopStructure(mechanism, groups, mechanism.ground, (), (), (), ())
-    graph = mechanism.graph.copy()
-    cut: set[str] = set()
-    leaves = [b for b in graph if graph.degree(b) == 1]
-    while leaves:
-        leaf = leaves.pop()
-        if graph.degree(leaf) != 1:
-            continue
-        _, neighbour, name = next(iter(graph.edges(leaf, keys=True)))
-        cut.add(name)
-        graph.remove_node(leaf)
-        if graph.degree(neighbour) == 1:
-            leaves.append(neighbour)
-    kept = tuple(j for j in mechanism.joints if j.name not in cut)
-    left_out = tuple(j for j in mechanism.joints if j.name in cut)
+    kept, left_out = _looped(mechanism.joints)
     if not kept:
         return LoopStructure(mechanism, groups, mechanism.ground, (), (), left_out, ())
     looped = {b for j in kept for b in j.bodies}
-    distance = networkx.single_source_shortest_path_length(mechanism.graph, mechanism.ground)
+    distance = _distances(mechanism)
     base = min((b for b in mechanism.body_names if b in looped), key=lambda b: distance[b])
     moving = tuple(b for b in mechanism.body_names if b in looped and b != base)
     return LoopStructure(mechanism, groups, base, moving, kept, left_out, _cycle_basis(kept))
@@ -131,8 +117,34 @@ def loop_bases(structure: LoopStructure) -> Iterator[tuple[Loop, ...]]:
         yield _loops_of(networkx.cycle_basis(graph, ("body", body)), structure.joints)
 
 
+def _looped(joints: Sequence[Joint]) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
+    """The joints without those of dangling trees, and these."""
+    kept = tuple(joints)
+    while True:
+        degrees = Counter(b for j in kept for b in j.bodies)
+        inner = tuple(j for j in kept if min(degrees[b] for b in j.bodies) > 1)
+        if inner == kept:
+            names = {j.name for j in kept}
+            return kept, tuple(j for j in joints if j.name not in names)
+        kept = inner
+
+
+def _distances(mechanism: Mechanism) -> dict[str, int]:
+    """How many joints away from the ground each body is."""
+    distance, frontier = {mechanism.ground: 0}, [mechanism.ground]
+    for body in frontier:
+        for joint in mechanism.joints:
+            if body in joint.bodies and joint.other(body) not in distance:
+                distance[joint.other(body)] = distance[body] + 1
+                frontier.append(joint.other(body))
+    return distance
+
+
 def _cycle_basis(joints: tuple[Joint, ...]) -> tuple[Loop, ...]:
     """Minimum cycle basis of a multigraph."""
+    if len(joints) == len({b for j in joints for b in j.bodies}):
+        # As many joints as bodies, none of them dangling: they are one loop.
+        return (_ordered(list(joints)),)
     import networkx
 
     return _loops_of(networkx.minimum_cycle_basis(_bipartite(joints)), joints)

@@ -12,6 +12,10 @@ def gruebler_kutzbach(mechanism: Mechanism) -> int:
 
     A body has 6 freedoms in space and 3 in planar and spherical mechanisms. The count is wrong
     for overconstrained mechanisms: it knows nothing of the geometry (T25, section 7).
+
+    >>> import nag
+    >>> nag.gruebler_kutzbach(nag.read_case("cases/bennett.toml").mechanism)  # and yet it moves
+    -2
     """
     space = space_of(mechanism.joints)
     freedoms = 6 if space == "spatial" else 3

@@ -16,10 +16,16 @@ from fractions import Fraction
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import in_span
-from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import Modes, all_modes, number_of_modes
 from nag.mechanism.axes import Vector, across, cross, difference, direction, dot, vanishes
-from nag.mechanism.euler import euler_system
+from nag.mechanism.euler import (
+    euler_parameters,
+    loop_closure,
+    norms,
+    prime_component,
+    slide_names,
+    slide_variables,
+)
 from nag.mechanism.graph import Joint
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import conjugate, multiply
@@ -133,26 +139,38 @@ def carries_modes(structure: LoopStructure, flip: Flip) -> bool:
     """Whether the flip carries the equations of its joints' modes into each other, exactly.
 
     Checked from the reference modes to the changed ones and back. Each equation belongs to one
-    joint or to none, so that what the other joints' modes are does not matter.
+    joint or to none, so that only the equations of these joints change, and what the other joints'
+    modes are does not matter.
     """
-    changed: Modes = tuple((name, 1) for name in sorted(flip.joints))
-    return all(
-        _carries(
-            structure, flip, euler_system(structure, modes=a), euler_system(structure, modes=b)
-        )
-        for a, b in (((), changed), (changed, ()))
-    )
-
-
-def _carries(
-    structure: LoopStructure, flip: Flip, source: PolynomialSystem, target: PolynomialSystem
-) -> bool:
-    images, moved = flip_images(structure, flip, source.n)
+    n = 4 * len(structure.moving) + len(slide_names(structure))
+    parameters = euler_parameters(structure, n)
+    joints = [j for j in structure.joints if flip.body in (*j.bodies, structure.base)]
+    common = [f for j in joints if j.name not in flip.joints for f in _equations(structure, j, n)]
+    common += norms(structure, parameters)
+    slides = slide_variables(structure, Polynomial.variables(n))
+    for loop in structure.loops:
+        if flip.body in loop.bodies or flip.body == structure.base:
+            common += loop_closure(structure, parameters, slides, loop)
+    changed = [
+        [f for j in joints if j.name in flip.joints for f in _equations(structure, j, n, mode)]
+        for mode in (0, 1)
+    ]
+    images, moved = flip_images(structure, flip, n)
     squared = dot(flip.normal, flip.normal)
-    return all(
-        in_span(unit_image(f, images, moved, squared), target.polynomials)
-        for f in source.polynomials
+
+    def carried(source: Sequence[Polynomial], target: Sequence[Polynomial]) -> bool:
+        return all(in_span(unit_image(f, images, moved, squared), target) for f in source)
+
+    # Equations of different groups do not help each other: each is carried within its own.
+    return (
+        carried(common, common)
+        and carried(changed[0], changed[1])
+        and carried(changed[1], changed[0])
     )
+
+
+def _equations(structure: LoopStructure, joint: Joint, n: int, mode: int = 0) -> list[Polynomial]:
+    return prime_component(structure, euler_parameters(structure, n), joint, mode)
 
 
 def flip_images(

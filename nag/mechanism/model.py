@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from nag.algebra.number import Number
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space, space_of
@@ -32,6 +33,7 @@ from nag.mechanism.mobility import gruebler_kutzbach
 from nag.mechanism.path_estimates import path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.projection import projected
+from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
 
 __all__ = ["Model", "ModelError", "formulations", "model"]
@@ -52,7 +54,7 @@ class Model:
             in other assembly modes.
         sign_group: size of the group of sign changes a -> -a that acts on E; 1 for H and in the
             plane, where configurations have one point each.
-        symmetries: generators of that group, as signs of the system's variables.
+        symmetries: generators of that group, as `nag.decompose` takes them.
         path_bound: number of solutions that a square system of these degrees, cut by linear
             equations, has at most (Bezout's number, multihomogeneous where there are groups).
         structure: the part of the mechanism that has loops, and what was cut off.
@@ -67,7 +69,7 @@ class Model:
     system: PolynomialSystem
     reference: tuple[Number, ...]
     sign_group: int
-    symmetries: tuple[tuple[int, ...], ...]
+    symmetries: tuple[SignedPermutation, ...]
     path_bound: int
     structure: LoopStructure
     form: Form
@@ -111,10 +113,25 @@ class Model:
         """The mobility that counting predicts for the whole mechanism."""
         return gruebler_kutzbach(self.mechanism)
 
+    def __repr__(self) -> str:
+        from nag.mechanism.shown import model_text
+
+        return model_text(self)
+
     @property
     def cut(self) -> tuple[Joint, ...]:
         """Joints of dangling trees; each adds its own freedom to every component's dimension."""
         return self.structure.cut
+
+    @property
+    def freedoms_left_out(self) -> tuple[tuple[int, str], ...]:
+        """Freedoms that every configuration has besides those of `system`, and whose they are."""
+        found = []
+        if self.structure.cut_freedoms:
+            found.append((self.structure.cut_freedoms, "the joints that were cut off"))
+        if isinstance(self.form, RodModel):
+            found.append((self.form.spins, "rods that turn about themselves"))
+        return tuple(found)
 
     @property
     def rank(self) -> tuple[int, int] | None:
@@ -129,7 +146,12 @@ class Model:
         return equations, len(self.system.polynomials)
 
 
-def model(mechanism: Mechanism, formulation: str = "auto", modes: Modes = REFERENCE) -> Model:
+def model(
+    mechanism: Mechanism,
+    formulation: str = "auto",
+    modes: Modes = REFERENCE,
+    space: Space | None = None,
+) -> Model:
     """The smallest faithful model of a mechanism, or the one that is asked for.
 
     The smallest is the one with the fewest estimated paths.
@@ -138,16 +160,31 @@ def model(mechanism: Mechanism, formulation: str = "auto", modes: Modes = REFERE
         mechanism: what is modelled.
         formulation: ``"auto"`` or a key of `nag.mechanism.formulation_names.FORMULATIONS`.
         modes: assembly modes, for joints that are not in that of the reference configuration
-            (`nag.mechanism.assembly_modes`). All modes are those of the mechanism in space.
+            (`nag.mechanism.assembly_modes`), which are those of the mechanism in space.
+        space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
+
+    Args:
+        mechanism: at least one of its joints must belong to a loop.
+        formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
+            components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
+            for half-angles, ``"auto"`` for the smaller one.
 
     Raises:
         ModelError: if the mechanism has no loop, or ``formulation`` does not cover it.
+
+    >>> import nag
+    >>> model = nag.model(nag.read_case("cases/bennett.toml").mechanism)
+    >>> model.formulation, model.system.n, model.system.degrees
+    ('H', 2, (2,))
+    >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
+    True
     """
     if formulation != "auto" and formulation not in FORMULATIONS:
         names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS))
         raise ModelError(f"formulation {formulation!r} is unknown; use one of {names}")
-    structure = _with_loops(mechanism)
-    space: Space = "spatial" if modes else space_of(structure.joints)
+    structure = with_loops(mechanism)
+    if space is None:
+        space = "spatial" if modes else space_of(structure.joints)
     if formulation == "auto":
         chosen = smallest(structure, space, modes)
     else:
@@ -165,7 +202,7 @@ def model(mechanism: Mechanism, formulation: str = "auto", modes: Modes = REFERE
         system=form.system,
         reference=form.reference,
         sign_group=2 ** len(symmetries),
-        symmetries=symmetries,
+        symmetries=tuple(map(SignedPermutation.of_signs, symmetries)),
         path_bound=path_bound(form.system),
         structure=structure,
         form=form,
@@ -179,12 +216,17 @@ def formulations(mechanism: Mechanism) -> tuple[str, ...]:
     Raises:
         ModelError: if the mechanism has no loop.
     """
-    structure = _with_loops(mechanism)
+    structure = with_loops(mechanism)
     found = alternatives(structure, space_of(structure.joints))
     return tuple(a.formulation for a in found if a.form is not None)
 
 
-def _with_loops(mechanism: Mechanism) -> LoopStructure:
+def with_loops(mechanism: Mechanism) -> LoopStructure:
+    """The part of a mechanism that has loops.
+
+    Raises:
+        ModelError: if there is none.
+    """
     structure = loop_structure(mechanism)
     if structure.groups.is_one_body:
         raise ModelError("all bodies are tied together by rigid joints: nothing moves")

@@ -56,7 +56,7 @@ def _mobility_rows(
     rows = []
     label, counted, free = "dimension", "", 0
     if model is not None:
-        label, free = "mobility", model.structure.cut_freedoms
+        label, free = "mobility", sum(count for count, _ in model.freedoms_left_out)
         counted = f" (Gruebler-Kutzbach counts {model.gruebler_kutzbach})"
     everything = expanded(decomposition).components
     for point in points:
@@ -68,8 +68,9 @@ def _mobility_rows(
         else:
             largest = max(c.dimension for c in components) + free
             text = f"{largest} at {point.name}{counted}: on {in_words(kinds(components))}"
-            if free:
-                text += f", and {free} by the joints that were cut off"
+            if model is not None:
+                for count, whose in model.freedoms_left_out:
+                    text += f", and {count} by {whose}"
             if any(c.status is not Status.IRREDUCIBLE for c in components):
                 text += ", not all of them decided"
         rows.append((label, printable(text)))
