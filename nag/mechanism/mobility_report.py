@@ -16,7 +16,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.through import through_points
 from nag.mechanism.axes import space_of
-from nag.mechanism.graph import JOINT_FREEDOMS, Mechanism
+from nag.mechanism.graph import Mechanism
+from nag.mechanism.joint_types import JOINT_FREEDOMS
 from nag.mechanism.mobility import gruebler_kutzbach
 from nag.mechanism.model import Formulation, Model, model
 from nag.numerics.local_dimension import LocalDimension, local_dimension
