@@ -108,13 +108,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
             from nag.cli.all_modes import run_all_modes
 
             return run_all_modes(arguments, case, started, progress)
-        decomposition = _decomposed(arguments, case, model, progress)
-        if arguments.coordinates == "euler" and model is not None and model.formulation != "E":
-            from nag.mechanism.coordinates import euler_decomposition
-
-            model, decomposition = euler_decomposition(
-                model, decomposition, threads=arguments.threads
-            )
+        model, decomposition = _decomposed(arguments, case, model, progress)
         if arguments.expand:
             decomposition = expanded(decomposition)
         points = through_points(decomposition, points_of(case, model), arguments.threads)
@@ -151,10 +145,17 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
                     f"{arguments.case}: is a polynomial system; --{option} is for mechanisms"
                 )
         return None
-    if arguments.modes == "all" and (arguments.expand or arguments.method == "sampling"):
-        option = "--expand" if arguments.expand else "--method sampling"
+    others = {
+        "--expand": arguments.expand,
+        "--method sampling": arguments.method == "sampling",
+        "--certify": arguments.certify,
+    }
+    if arguments.modes == "all" and any(others.values()):
+        option = next(name for name, given in others.items() if given)
         raise UsageError(f"{option}: is not for --modes all")
-    if arguments.coordinates != "joint" or model.formulation == "H":
+    if arguments.coordinates == "euler" and others["--method sampling"]:
+        raise UsageError("--coordinates euler: --method sampling finds no other; use --formulation")
+    if arguments.coordinates != "joint" or model.formulation != "E":
         return model
     if arguments.formulation is not None:
         raise UsageError(
@@ -166,7 +167,8 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
 
 def _decomposed(
     arguments: argparse.Namespace, case: Case, model: Model | None, progress: Progress
-) -> Decomposition:
+) -> tuple[Model | None, Decomposition]:
+    """The components, and the model in whose coordinates they are."""
     from nag.decomposition import by_sampling, decompose
     from nag.files.problem import symmetries_of, system_of
 
@@ -179,5 +181,10 @@ def _decomposed(
     }
     if arguments.method == "sampling":
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
-        return by_sampling(system_of(case, model), **options, **starts)
-    return decompose(system_of(case, model), **options)
+        return model, by_sampling(system_of(case, model), **options, **starts)
+    decomposition = decompose(system_of(case, model), **options)
+    if model is None or arguments.coordinates != "euler" or model.formulation == "E":
+        return model, decomposition
+    from nag.mechanism.coordinates import euler_decomposition
+
+    return euler_decomposition(model, decomposition, threads=arguments.threads)
