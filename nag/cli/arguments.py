@@ -7,6 +7,8 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
+from nag.mechanism.formulation_names import FORMULATIONS
+
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.model import Model
@@ -62,18 +64,39 @@ def _available_threads() -> int:
     return min(os.cpu_count() or 1, MOST_THREADS)
 
 
+def _setting(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name.strip() and equals and value.strip()):
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not of the form NAME=VALUE")
+    return name.strip(), value.strip()
+
+
 def add_case(parser: argparse.ArgumentParser) -> None:
     """The case file and the formulation of its model."""
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     add_formulation(parser)
+    add_parameters(parser)
+
+
+def add_parameters(parser: argparse.ArgumentParser) -> None:
+    """Other values of the case's parameters."""
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        type=_setting,
+        metavar="NAME=VALUE",
+        help="another value of a parameter of the case, a number or an expression; may be repeated",
+    )
 
 
 def add_formulation(parser: argparse.ArgumentParser) -> None:
     """The formulation of a mechanism's model."""
     parser.add_argument(
         "--formulation",
-        choices=("E", "H"),
-        help="model of a mechanism: E Euler parameters, H half angles (default: the smaller one)",
+        choices=tuple(FORMULATIONS),
+        help="model of a mechanism (default: the one with the fewest paths): "
+        + "; ".join(f"{name} {text}" for name, text in FORMULATIONS.items()),
     )
 
 
@@ -103,21 +126,21 @@ def add_tracking(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
-def read_case_file(path: str) -> Case:
-    """The case in a file."""
+def read_case_file(arguments: argparse.Namespace) -> Case:
+    """The case, with the parameters that are set."""
     from nag.files.cases import CaseError, read_case
 
     try:
-        return read_case(path)
+        return read_case(arguments.case, dict(getattr(arguments, "set", ())))
     except CaseError as error:
         raise UsageError(str(error)) from None
     except OSError as error:
-        raise UsageError(f"{path}: {error.strerror or error}") from None
+        raise UsageError(f"{arguments.case}: {error.strerror or error}") from None
 
 
 def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
     """The case, and its model if it is a mechanism."""
-    case = read_case_file(arguments.case)
+    case = read_case_file(arguments)
     if case.mechanism is None:
         if arguments.formulation is not None:
             raise UsageError(

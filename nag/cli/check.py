@@ -7,7 +7,7 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_tracking, read_case_file
+from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
 
 if TYPE_CHECKING:
     from nag.check.statement import Statement
@@ -19,6 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "case", metavar="CASE", nargs="?", help="case file (TOML) of a mechanism of the papers"
     )
     parser.add_argument("--all", action="store_true", help="all statements of both papers")
+    add_parameters(parser)
     add_tracking(parser)
 
 
@@ -33,7 +34,9 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     started = time.perf_counter()
     if options.all == (options.case is not None):
         raise UsageError("give either a case file or --all, and not both")
-    case = None if options.all else read_case_file(options.case)
+    if options.all and options.set:
+        raise UsageError("--set: is for a case file")
+    case = None if options.all else read_case_file(options)
     with compilation_notice(sys.stderr, options.quiet):
         sections = _sections(case, options)
         decided = [(title, _decided(title, statements, options)) for title, statements in sections]
