@@ -128,7 +128,9 @@ class RationalFunction:
             return NotImplemented
         return not self - other
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        # Quotients are unique up to a common sign.
+        return hash((self.field.names, str(self.numerator**2), str(self.denominator**2)))
 
     def __bool__(self) -> bool:
         return self.numerator != 0

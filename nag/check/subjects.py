@@ -223,7 +223,7 @@ def same_mechanism(left: Mechanism, right: Mechanism) -> bool:
             if names.setdefault(x, y) != y:
                 return False
         same = not vanishes(a.axis) and vanishes(cross(a.axis, b.axis)) and dot(a.axis, b.axis) > 0
-        if a.point != b.point or not same:
+        if a.type != b.type or a.point != b.point or not same:
             return False
     return len(set(names.values())) == len(names)
 

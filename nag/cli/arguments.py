@@ -126,21 +126,21 @@ def add_tracking(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
-def read_case_file(arguments: argparse.Namespace) -> Case:
-    """The case, with the parameters that are set."""
+def read_case_file(path: str, values: Sequence[tuple[str, str]] = ()) -> Case:
+    """The case in a file, ``values`` given to its parameters."""
     from nag.files.cases import CaseError, read_case
 
     try:
-        return read_case(arguments.case, dict(getattr(arguments, "set", ())))
+        return read_case(path, dict(values))
     except CaseError as error:
         raise UsageError(str(error)) from None
     except OSError as error:
-        raise UsageError(f"{arguments.case}: {error.strerror or error}") from None
+        raise UsageError(f"{path}: {error.strerror or error}") from None
 
 
 def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
     """The case, and its model if it is a mechanism."""
-    case = read_case_file(arguments)
+    case = read_case_file(arguments.case, getattr(arguments, "set", ()))
     if case.mechanism is None:
         if arguments.formulation is not None:
             raise UsageError(

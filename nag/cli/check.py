@@ -36,7 +36,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         raise UsageError("give either a case file or --all, and not both")
     if options.all and options.set:
         raise UsageError("--set: is for a case file")
-    case = None if options.all else read_case_file(options)
+    case = None if options.all else read_case_file(options.case, options.set)
     with compilation_notice(sys.stderr, options.quiet):
         sections = _sections(case, options)
         decided = [(title, _decided(title, statements, options)) for title, statements in sections]

@@ -15,7 +15,22 @@ from collections.abc import Sequence
 from types import ModuleType
 
 import nag
-from nag.cli import bench, check, decompose, intersect, member, model, sample, solve
+from nag.cli import (
+    bench,
+    certify,
+    chart,
+    check,
+    decompose,
+    eliminate,
+    intersect,
+    local,
+    member,
+    mobility,
+    model,
+    sample,
+    singular,
+    solve,
+)
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 
 FROM_COMPONENTS = (
@@ -39,16 +54,44 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         f"Say which components a point lies on. {FROM_COMPONENTS}",
     ),
     (
+        "local",
+        local,
+        "say what dimension the solutions have at a point",
+        "Say what dimension the solution set has at a point: isolated, of which multiplicity, or "
+        "on a component of which dimension, singular or not. Nothing is decomposed for it.",
+    ),
+    (
+        "mobility",
+        mobility,
+        "say how a mechanism moves at a configuration",
+        "Say how a mechanism moves at a configuration: what counting predicts, the tangent and the "
+        "local dimension, the components through it, and what that means.",
+    ),
+    (
         "sample",
         sample,
         "find random points of a component",
         f"Find random points of a component. {FROM_COMPONENTS}",
     ),
     (
+        "singular",
+        singular,
+        "find singular points of components, and where components meet",
+        f"Find singular points of components, and where components meet. {FROM_COMPONENTS}",
+    ),
+    (
         "intersect",
         intersect,
         "find the intersection of two components",
         f"Find the intersection of two components. {FROM_COMPONENTS}",
+    ),
+    (
+        "eliminate",
+        eliminate,
+        "find exact equations of a component in some variables",
+        "Find the exact equations that a component's points satisfy in some of the variables, and "
+        "the maps from there to the other variables, by interpolation; prove them where possible. "
+        f"{FROM_COMPONENTS}",
     ),
     (
         "solve",
@@ -66,11 +109,25 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         "decomposition of a case with the papers' prime components.",
     ),
     (
+        "certify",
+        certify,
+        "prove the points of an export",
+        "Prove that there is exactly one zero in a box about each solution of `nag solve --json`, "
+        "or witness point of `nag decompose --json`, that they are distinct, and which are real.",
+    ),
+    (
         "bench",
         bench,
         "solve the benchmark systems and measure how fast",
         "Solve the benchmark systems, check their numbers of solutions and measure the time, "
         "beside other programs if they are installed.",
+    ),
+    (
+        "chart",
+        chart,
+        "chart where methods fail, and speed against accuracy",
+        "Run families of systems that are hard in one way each, or solve cases in many settings "
+        "and arithmetics, and draw what comes of it.",
     ),
     (
         "model",
