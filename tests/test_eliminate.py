@@ -9,13 +9,13 @@ from typing import Any
 
 import jsonschema
 import pytest
-from tests.tuomela import bennetts_ideal, bricard_10, essential_to_all
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.groebner import Ideal, ideal_of
 from nag.algebra.polynomial import Polynomial
 from nag.cli import main
 from nag.cli.witness_input import schema
+from nag.symbolic import bennett, bricard
 from tests.linkages import CASES, exact
 
 OWN = exact("7/4", "5/6", "1/3")
@@ -86,7 +86,7 @@ def test_bricards_ideal_and_the_map_of_equation_10(tmp_path) -> None:
     }
     check_maps(content, expected)
     point = exact("1/2", "1/2", "1/2")
-    values = named(bricard_10(*point), "abcde", names)
+    values = named(bricard.essential_to_all(*point), "abcde", names)
     assert values == {
         k: (n(point) if isinstance(n, Polynomial) else n)
         / (d(point) if isinstance(d, Polynomial) else Fraction(d))
@@ -98,14 +98,15 @@ def test_bennetts_ideal_and_the_maps_of_equations_16_to_19(tmp_path) -> None:
     names = ["a0", "a2", "c0", "c2"]
     content = eliminated(tmp_path, str(CASES / "bennett.toml"), "--onto", ",".join(names))
     a0, a2, c0, c2 = Polynomial.variables(4)
-    g0, g1, g3, g4 = bennetts_ideal(OWN, (a0, None, a2), (c0, None, c2))
+    g0, g1, g3 = bennett.variety(OWN, a0, a2, c0, c2)
+    g4, _ = bennett.g_4(OWN, a0, c0)
     assert equations_of(content) == ideal_of([g0, g1, g3], names)
     assert ideal_of([g0, g1, g3], names) == ideal_of([g0, g1, g3, g4], names)
     assert len(content["equations"]) == 3 and content["defines"] is True
     assert content["zeros"] == {"dimension": 1, "degree": 8}
     assert proofs_of(content) == {"substitution"}
     # The reference configuration lies on I_{3,1}, where b has the other sign.
-    a, b, c = essential_to_all(OWN, a0, a2, c0, c2)
+    a, b, c = bennett.essential_to_all(OWN, a0, a2, c0, c2)
     expected = named([a, tuple(-x for x in b), c], "abc", names)
     check_maps(content, {k: (v, 1) for k, v in expected.items()})
     assert all("*a" not in m["denominator"] for m in content["maps"])
