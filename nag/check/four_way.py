@@ -163,8 +163,8 @@ def reduction(compared: Compared) -> Verdict:
     for part, component in zip(compared.ideals, compared.known.components, strict=True):
         if not part.contains(equations):
             return decided(False, "", f"{component.place}: an equation leaves a remainder")
-    count = f"{len(equations)} equations, {len(compared.ideals)} bases"
-    return holds(f"division: {count} by FLINT from the papers' generators")
+    bases = "one basis" if len(compared.ideals) == 1 else f"{len(compared.ideals)} bases"
+    return holds(f"division: {len(equations)} equations, {bases} by FLINT from the generators")
 
 
 WAYS = (

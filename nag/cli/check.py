@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
 
 if TYPE_CHECKING:
-    from nag.check.statement import Statement
+    from nag.check.statement import Statement, Verdict
+    from nag.cli.progress import Progress
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -29,7 +30,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or a case that the papers say nothing of.
     """
-    from nag.cli.progress import compilation_notice
+    from nag.cli.progress import compilation_notice, progress_line
 
     started = time.perf_counter()
     if options.all == (options.case is not None):
@@ -37,9 +38,12 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if options.all and options.set:
         raise UsageError("--set: is for a case file")
     case = None if options.all else read_case_file(options.case, options.set)
-    with compilation_notice(sys.stderr, options.quiet):
+    with (
+        compilation_notice(sys.stderr, options.quiet),
+        progress_line(sys.stderr, options.quiet) as progress,
+    ):
         sections = _sections(case, options)
-        decided = [(title, _decided(title, statements, options)) for title, statements in sections]
+        decided = [(title, _decided(title, rows, progress)) for title, rows in sections]
 
     from nag.report.statements import section, settled, summary
     from nag.report.table import labelled
@@ -76,8 +80,11 @@ def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[S
 
 
 def _decided(
-    title: str, statements: tuple[Statement, ...], options: argparse.Namespace
-) -> list[tuple[Statement, Any]]:
-    if not options.quiet:
-        print(f"{title} ...", file=sys.stderr, flush=True)
-    return [(statement, statement.verdict()) for statement in statements]
+    title: str, statements: tuple[Statement, ...], progress: Progress | None
+) -> list[tuple[Statement, Verdict]]:
+    decided = []
+    for i, statement in enumerate(statements):
+        if progress is not None:
+            progress(title, i, len(statements))
+        decided.append((statement, statement.verdict()))
+    return decided
