@@ -22,6 +22,7 @@ from nag.check.mechanisms import (
     known_bennett,
     known_bricard,
 )
+from nag.check.mechanisms import four_ways as mechanism_ways
 from nag.check.planar_mechanism import equal_sides
 from nag.check.statement import Kind, Statement, Verdict, statement
 from nag.check.subjects import BENNETT, SUBJECTS, recognised
@@ -196,6 +197,13 @@ def test_cases_of_other_mechanisms_are_not_taken_for_known_ones(tmp_path) -> Non
     renamed = tmp_path / "renamed.toml"
     renamed.write_text(text.replace("B2", "coupler").replace("J1", "hinge"), "utf-8")
     assert recognised(read_case(renamed), decomposed) is not None
+
+
+def test_parameters_may_be_too_large_for_doubles() -> None:
+    known = known_bennett((Fraction(3**200, 7**100), Fraction(5, 6), Fraction(1, 3)))
+    assert len(known.name) < 100
+    kinds = [s.verdict().kind for s in mechanism_ways(known, decomposed)]
+    assert kinds == [Kind.NUMERICAL, Kind.EXACT, Kind.EXACT, Kind.EXACT]
 
 
 def test_half_angles_of_bricards_cube_have_degree_8_exactly() -> None:
