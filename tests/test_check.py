@@ -194,6 +194,11 @@ def test_cases_of_other_mechanisms_are_not_taken_for_known_ones(tmp_path) -> Non
     moved = tmp_path / "other.toml"
     moved.write_text(text.replace("point = [1, 0, 0]", "point = [1, 0, 1]"), "utf-8")
     assert recognised(read_case(moved), decomposed) is None
+    ball = tmp_path / "ball.toml"
+    head, name, joint = text.partition('name = "J1"')
+    joint = re.sub('"revolute"', '"spherical"', re.sub(r"axis = .*\n", "", joint, count=1), count=1)
+    ball.write_text(head + name + joint, "utf-8")
+    assert recognised(read_case(ball), decomposed) is None
     renamed = tmp_path / "renamed.toml"
     renamed.write_text(text.replace("B2", "coupler").replace("J1", "hinge"), "utf-8")
     assert recognised(read_case(renamed), decomposed) is not None

@@ -222,8 +222,9 @@ def same_mechanism(left: Mechanism, right: Mechanism) -> bool:
         for x, y in zip(a.bodies, b.bodies, strict=True):
             if names.setdefault(x, y) != y:
                 return False
-        same = not vanishes(a.axis) and vanishes(cross(a.axis, b.axis)) and dot(a.axis, b.axis) > 0
-        if a.type != b.type or a.point != b.point or not same:
+        if a.type != b.type or a.point != b.point:
+            return False
+        if not vanishes(cross(a.axis, b.axis)) or not dot(a.axis, b.axis) > 0:
             return False
     return len(set(names.values())) == len(names)
 
