@@ -11,6 +11,7 @@ NAG = Path(__file__).parents[1] / "nag"
 ORDER = (
     "text",
     "machine_code",
+    "symbolic",
     "algebra",
     "numerics",
     "tracking",
@@ -20,6 +21,7 @@ ORDER = (
     "decomposition",
     "mechanism",
     "files",
+    "check",
     "report",
     "interface",
     "bench",

@@ -266,10 +266,9 @@ def _components(
     made: Model, at: Sequence[Number], seed: int, threads: int, settings: str
 ) -> tuple[tuple[tuple[int, int], ...] | None, str]:
     """Dimension and degree of the components through a point, or why they are not known."""
-    from nag.algebra.symmetry import SignedPermutation
 
     system: PolynomialSystem = made.system
-    symmetries = tuple(SignedPermutation.of_signs(signs) for signs in made.symmetries)
+    symmetries = made.symmetries
     found = decompose(system, seed=seed, threads=threads, settings=settings, symmetries=symmetries)
     if not found.complete:
         return None, f"the decomposition is incomplete: {'; '.join(found.notes)}"
