@@ -29,8 +29,6 @@ from nag.numerics.krawczyk import boxes_of
 from nag.solving.solve import solve
 
 
-
-
 def test_families_have_names_of_their_own() -> None:
     names = [f.name for f in FAMILIES]
     assert len(set(names)) == len(names)
