@@ -7,6 +7,8 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
+from nag.mechanism.formulation_names import FORMULATIONS
+
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.model import Model
@@ -62,22 +64,44 @@ def _available_threads() -> int:
     return min(os.cpu_count() or 1, MOST_THREADS)
 
 
+def _setting(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name.strip() and equals and value.strip()):
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not of the form NAME=VALUE")
+    return name.strip(), value.strip()
+
+
 def add_case(parser: argparse.ArgumentParser) -> None:
     """The case file and the formulation of its model."""
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     add_formulation(parser)
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        type=_setting,
+        metavar="NAME=VALUE",
+        help="another value of a parameter of the case, a number or an expression; may be repeated",
+    )
 
 
 def add_formulation(parser: argparse.ArgumentParser) -> None:
     """The formulation of a mechanism's model."""
     parser.add_argument(
         "--formulation",
-        choices=("E", "H"),
-        help="model of a mechanism: E Euler parameters, H half angles (default: the smaller one)",
+        choices=tuple(FORMULATIONS),
+        help="model of a mechanism (default: the one with the fewest paths): "
+        + "; ".join(f"{name} {text}" for name, text in FORMULATIONS.items()),
     )
 
 
 def add_running(parser: argparse.ArgumentParser) -> None:
+    """The options of every command that tracks paths and exports its answer."""
+    add_tracking(parser)
+    parser.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
+
+
+def add_tracking(parser: argparse.ArgumentParser) -> None:
     """The options of every command that tracks paths."""
     parser.add_argument(
         "--seed", type=_seed, default=0, help="seed of the random numbers (default: 0)"
@@ -88,7 +112,6 @@ def add_running(parser: argparse.ArgumentParser) -> None:
         default=_available_threads(),
         help="threads; the answer is the same for any number (default: one a processor)",
     )
-    parser.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
     parser.add_argument(
         "--settings",
         choices=SETTINGS,
@@ -98,16 +121,21 @@ def add_running(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
-def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
-    """The case, and its model if it is a mechanism."""
+def read_case_file(path: str, values: Sequence[tuple[str, str]] = ()) -> Case:
+    """The case in a file, ``values`` given to its parameters."""
     from nag.files.cases import CaseError, read_case
 
     try:
-        case = read_case(arguments.case)
+        return read_case(path, dict(values))
     except CaseError as error:
         raise UsageError(str(error)) from None
     except OSError as error:
-        raise UsageError(f"{arguments.case}: {error.strerror or error}") from None
+        raise UsageError(f"{path}: {error.strerror or error}") from None
+
+
+def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
+    """The case, and its model if it is a mechanism."""
+    case = read_case_file(arguments.case, getattr(arguments, "set", ()))
     if case.mechanism is None:
         if arguments.formulation is not None:
             raise UsageError(

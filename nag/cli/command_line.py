@@ -15,7 +15,22 @@ from collections.abc import Sequence
 from types import ModuleType
 
 import nag
-from nag.cli import bench, certify, chart, decompose, intersect, member, model, sample, solve
+from nag.cli import (
+    bench,
+    certify,
+    chart,
+    check,
+    decompose,
+    eliminate,
+    intersect,
+    local,
+    member,
+    mobility,
+    model,
+    sample,
+    singular,
+    solve,
+)
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 
 FROM_COMPONENTS = (
@@ -39,10 +54,30 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         f"Say which components a point lies on. {FROM_COMPONENTS}",
     ),
     (
+        "local",
+        local,
+        "say what dimension the solutions have at a point",
+        "Say what dimension the solution set has at a point: isolated, of which multiplicity, or "
+        "on a component of which dimension, singular or not. Nothing is decomposed for it.",
+    ),
+    (
+        "mobility",
+        mobility,
+        "say how a mechanism moves at a configuration",
+        "Say how a mechanism moves at a configuration: what counting predicts, the tangent and the "
+        "local dimension, the components through it, and what that means.",
+    ),
+    (
         "sample",
         sample,
         "find random points of a component",
         f"Find random points of a component. {FROM_COMPONENTS}",
+    ),
+    (
+        "singular",
+        singular,
+        "find singular points of components, and where components meet",
+        f"Find singular points of components, and where components meet. {FROM_COMPONENTS}",
     ),
     (
         "intersect",
@@ -51,11 +86,27 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         f"Find the intersection of two components. {FROM_COMPONENTS}",
     ),
     (
+        "eliminate",
+        eliminate,
+        "find exact equations of a component in some variables",
+        "Find the exact equations that a component's points satisfy in some of the variables, and "
+        "the maps from there to the other variables, by interpolation; prove them where possible. "
+        f"{FROM_COMPONENTS}",
+    ),
+    (
         "solve",
         solve,
         "find the isolated solutions of a case",
         "Find all isolated solutions of a polynomial system, with multiplicities, by tracking "
         "paths from a solved system.",
+    ),
+    (
+        "check",
+        check,
+        "test the statements of the founding papers, on a case or all",
+        "Test what the founding papers state, one by one: exactly where exact algebra decides, "
+        "else numerically, with a counterexample where a statement fails; and compare the "
+        "decomposition of a case with the papers' prime components.",
     ),
     (
         "certify",
