@@ -190,9 +190,9 @@ def test_a_point_that_deflation_does_not_reach_is_not_passed_over() -> None:
     lines = system("x y", "x*y")
     first = next(c for c in decompose(lines).components if abs(c.points[0, 0]) < 1e-12)
     found = intersect_equations(lines, first, system("x y", "y"))
-    # The line x = 0 meets y = 0 in a point; the two systems together cannot tell it from the line
-    # y = 0, so either it is found or the answer is incomplete.
-    assert [c.dimension for c in found.components] == [0] or not found.complete
+    # The two systems together cannot tell the point in which x = 0 meets y = 0 from that line.
+    assert [c.dimension for c in found.components] == [0] and found.complete
+    assert np.abs(found.components[0].points).max() < 1e-12
 
 
 def test_different_variables_are_refused() -> None:
