@@ -15,7 +15,18 @@ from collections.abc import Sequence
 from types import ModuleType
 
 import nag
-from nag.cli import bench, decompose, intersect, member, model, sample, solve
+from nag.cli import (
+    bench,
+    decompose,
+    intersect,
+    local,
+    member,
+    mobility,
+    model,
+    sample,
+    singular,
+    solve,
+)
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 
 FROM_COMPONENTS = (
@@ -39,10 +50,30 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         f"Say which components a point lies on. {FROM_COMPONENTS}",
     ),
     (
+        "local",
+        local,
+        "say what dimension the solutions have at a point",
+        "Say what dimension the solution set has at a point: isolated, of which multiplicity, or "
+        "on a component of which dimension, singular or not. Nothing is decomposed for it.",
+    ),
+    (
+        "mobility",
+        mobility,
+        "say how a mechanism moves at a configuration",
+        "Say how a mechanism moves at a configuration: what counting predicts, the tangent and the "
+        "local dimension, the components through it, and what that means.",
+    ),
+    (
         "sample",
         sample,
         "find random points of a component",
         f"Find random points of a component. {FROM_COMPONENTS}",
+    ),
+    (
+        "singular",
+        singular,
+        "find singular points of components, and where components meet",
+        f"Find singular points of components, and where components meet. {FROM_COMPONENTS}",
     ),
     (
         "intersect",

@@ -13,7 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import assembled
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
-from nag.decomposition.isolated import contains, solved_at_once
+from nag.decomposition.isolated import contains, is_finite, solved_at_once
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
@@ -82,6 +82,11 @@ def _decompose_whole(
 ) -> Decomposition:
     """The components of a system as it is, by attempts with different random numbers."""
     tracker = Tracker(settings, threads)
+    rng = np.random.default_rng([seed, ATTEMPTS])
+    if is_finite(Reduction.of(system, scaled=True).reduced, rng, tracker):
+        points = solved_at_once(system, rng, tracker, symmetries)
+        if points is not None:
+            return replace(points, seed=seed, settings=settings)
     answers: list[Decomposition] = []
     tracked = 0
     for attempt in range(ATTEMPTS):

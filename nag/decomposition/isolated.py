@@ -7,17 +7,19 @@ the whole solution set is finite, solving the system as a whole is another way t
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.symmetric_images import in_orbits
 from nag.solving.solutions import Solution
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError
-from nag.witness.cutting import numerical_corank
+from nag.witness.cutting import dyadic, numerical_corank
 from nag.witness.fibres import Tracker
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
@@ -25,6 +27,34 @@ from nag.witness.witness import Decomposition, PathCounts, Slice, Status, Witnes
 SAME = 1e-8
 # Singular values of a Jacobian, relative to its size, that count as zero at a multiple point.
 ZERO = 1e-9
+# Values of an equation, beside their terms, that are certainly not zero.
+NONZERO = 1e-6
+
+
+def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker) -> bool:
+    """Whether the zero set of as many equations as variables is seen to be finite.
+
+    A set of positive dimension meets a generic hyperplane. What all equations but one leave there
+    must be finite too, and the last equation must vanish nowhere on it.
+    """
+    n = system.n
+    if n < 2 or len(system.polynomials) != n:
+        return False
+    hardest = max(range(n), key=lambda i: (system.polynomials[i].degree, -i))
+    others = [f for i, f in enumerate(system.polynomials) if i != hardest]
+    plane = Polynomial.constant(n, Fraction(float(dyadic(rng, (1,))[0])))
+    for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
+        plane = plane + x * Fraction(float(weight))
+    cut = PolynomialSystem(system.variables, (*others, plane))
+    seed = int(rng.integers(2**31))
+    try:
+        found = solve(cut, seed=seed, threads=tracker.threads, settings=tracker.settings)
+    except StartError:
+        return False
+    if not found.complete or found.positive_dimensional:
+        return False
+    last = Evaluator.of([system.polynomials[hardest]], n)
+    return bool((last.residuals(found.points) > NONZERO).all())
 
 
 def solved_at_once(

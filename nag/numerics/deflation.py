@@ -203,9 +203,10 @@ def lowest_order(ring: SeriesRing, series: Sequence[Series], reach: float) -> in
     return None
 
 
-def _pivots(
+def regular_block(
     rows: Sequence[Terms], centre: Point, reach: float, rng: np.random.Generator
-) -> tuple[tuple[int, ...], tuple[int, ...]]:
+) -> Round:
+    """The largest block of the Jacobian that is regular at all points within ``reach``."""
     n = len(centre)
     size = flint.arb(10) ** flint.arb(reach)
     shifts = np.exp(2j * np.pi * rng.random((2, n)))
@@ -218,7 +219,7 @@ def _pivots(
         return jacobian(rows, point)
 
     solved, columns = pivots(at, n, len(shifts), ZERO)
-    return tuple(solved), tuple(columns)
+    return Round(tuple(solved), tuple(columns))
 
 
 def deflate(
@@ -243,7 +244,7 @@ def deflate(
         rows: Sequence[Terms] = system.at(DIGITS)
         point, centre = list(x), list(x)
         while True:
-            rounds.append(Round(*_pivots(rows, centre, reach, rng)))
+            rounds.append(regular_block(rows, centre, reach, rng))
             left = len(centre) - len(rounds[-1].columns)
             if len(rounds) > 1 and left == len(centre):
                 raise NotDeflated("its error is too large to see which derivatives vanish there")

@@ -224,7 +224,7 @@ def _end(
     dimension: int = 0,
 ) -> SingularEnd:
     x = _unscaled(system, found.point)
-    digits = tuple((_decimal(c.real), _decimal(c.imag)) for c in x)
+    digits = tuple((decimal(c.real), decimal(c.imag)) for c in x)
     exact = rational_point(x, DIGITS) if system.rational and not found.free else None
     condition = 10.0 ** max(found.inverse, 0.0)
     return SingularEnd(
@@ -240,7 +240,8 @@ def _end(
     )
 
 
-def _decimal(a: flint.arb) -> str:
+def decimal(a: flint.arb) -> str:
+    """A number as text, to `WRITTEN` digits."""
     return a.mid().str(WRITTEN, radius=False)
 
 

@@ -1,0 +1,216 @@
+"""The command ``nag local``: the local dimension of the solution set at a point."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from nag.cli.arguments import UsageError, add_case, add_running, check_json, read_problem
+from nag.cli.witness_input import Points, point_at, write_document
+
+if TYPE_CHECKING:
+    from nag.algebra.number import Number
+    from nag.algebra.system import PolynomialSystem
+    from nag.files.cases import Case
+    from nag.mechanism.model import Model
+    from nag.numerics.local_dimension import LocalDimension
+
+FORMAT = "nag-local-dimension"
+# Relative residual of a point that is taken for a rounded solution.
+MOST_ROUNDED = 1e-8
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments that ``nag local`` has besides those of every command that runs a case."""
+    add_case(parser)
+    add_running(parser)
+    parser.add_argument(
+        "point",
+        metavar="POINT",
+        nargs="?",
+        help="name of a point of the case; of a mechanism, 'reference' (default: all points)",
+    )
+    parser.add_argument(
+        "--at", metavar="VALUES", help="the point itself: 'x = 1/2, y = sqrt(3)/2', all variables"
+    )
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="decompose the case as well, and compare with the components through the point",
+    )
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Judge points and write the export; returns the lines to print and whether all is known.
+
+    Raises:
+        UsageError: for bad input, or an export that cannot be written.
+    """
+    started = time.perf_counter()
+    if options.json is not None:
+        check_json(options.json, options.case)
+    case, model = read_problem(options)
+    from nag.files.problem import system_of
+    from nag.report.local import local_rows
+    from nag.report.table import labelled, printable
+
+    system = system_of(case, model)
+    chosen = chosen_points(options, case, model)
+    found = {name: judged(system, at, options) for name, at in chosen.items()}
+    through = _through(system, chosen, case, model, options) if options.check else {}
+    complete = all(one.decided for one in found.values())
+    lines = [printable(case.title)]
+    for name, one in found.items():
+        rows = [("point", _point_text(name, chosen[name], system)), *local_rows(one)]
+        if name in through:
+            text, agrees = through[name](one)
+            rows.append(("components", text))
+            complete &= agrees
+        lines += ["", *labelled([(label, printable(text)) for label, text in rows], 10)]
+    if options.json is not None:
+        write_document(_document(found, chosen, system, case, options, complete), options.json)
+    seconds = time.perf_counter() - started
+    run_line = ("run", f"seed {options.seed}, {seconds:.1f} s")
+    return [*lines, "", *labelled([run_line], 10)], complete
+
+
+def chosen_points(
+    options: argparse.Namespace, case: Case, model: Model | None
+) -> Mapping[str, tuple[Number, ...]]:
+    """The points that the command line asks for, by name; all named ones if it names none.
+
+    Raises:
+        UsageError: if there are none, or the asked one does not exist.
+    """
+    from nag.algebra.tokens import nearest, quote
+    from nag.files.problem import points_of, system_of
+
+    if options.at is not None:
+        if options.point is not None:
+            raise UsageError("give either the name of a point of the case or --at, and not both")
+        return {"": point_at(options.at, system_of(case, model).variables)}
+    points: Points = dict(points_of(case, model))
+    if model is not None:
+        points = {"reference": tuple(model.reference)}
+    if not points:
+        raise UsageError(f"{options.case}: has no named points; use --at")
+    if options.point is None:
+        return points
+    if options.point not in points:
+        raise UsageError(
+            f"{options.case}: has no point {quote(options.point)}"
+            f"{nearest(options.point, points)}; it has {', '.join(map(quote, points))}"
+        )
+    return {options.point: points[options.point]}
+
+
+def judged(
+    system: PolynomialSystem, at: tuple[Number, ...], options: argparse.Namespace
+) -> LocalDimension:
+    """The local dimension at a point, which may be a rounded one.
+
+    Raises:
+        UsageError: if it is not near a solution.
+    """
+    import numpy as np
+
+    from nag.algebra.evaluation import Evaluator
+    from nag.numerics.local_dimension import ROUNDED, NoSolution, local_dimension
+
+    try:
+        return local_dimension(system, at, seed=options.seed)
+    except NoSolution as reason:
+        rounded = np.array([complex(float(x)) for x in at])
+        evaluator = Evaluator.of(system.polynomials, system.n)
+        residual = float(evaluator.residuals(rounded[None]).max(initial=0.0))
+        if not residual < MOST_ROUNDED:
+            raise UsageError(
+                f"{options.case}: {reason}; its relative residual is {residual:.1e}, give a "
+                "solution of the equations"
+            ) from None
+        # The error of a double zero is the square root of what is left of the equations.
+        error = max(ROUNDED, residual**0.5)
+        return local_dimension(system, rounded, accuracy=error, seed=options.seed)
+
+
+def _point_text(name: str, at: tuple[Number, ...], system: PolynomialSystem) -> str:
+    from nag.algebra.number import number_text
+
+    pairs = zip(system.variables, at, strict=True)
+    values = ", ".join(f"{v} = {number_text(x)}" for v, x in pairs)
+    return f"{name}: {values}" if name else values
+
+
+def _through(
+    system: PolynomialSystem,
+    chosen: Mapping[str, tuple[Number, ...]],
+    case: Case,
+    model: Model | None,
+    options: argparse.Namespace,
+) -> dict[str, Any]:
+    """For each point what the components through it say, beside a local dimension."""
+    from nag.cli.progress import compilation_notice, progress_line
+
+    with compilation_notice(sys.stderr, options.quiet):
+        from nag.decomposition.components import decompose
+        from nag.decomposition.through import through_points
+        from nag.files.problem import symmetries_of
+        from nag.witness.expansion import expanded
+
+        with progress_line(sys.stderr, options.quiet) as progress:
+            decomposition = decompose(
+                system,
+                seed=options.seed,
+                threads=options.threads,
+                settings=options.settings,
+                progress=progress,
+                symmetries=symmetries_of(case, model),
+            )
+        components = expanded(decomposition).components
+        known = through_points(decomposition, list(chosen.items()), options.threads)
+
+    def compared(name: str) -> Any:
+        through = next(one for one in known if one.name == name)
+
+        def text(found: LocalDimension) -> tuple[str, bool]:
+            if not through.solution or through.doubt:
+                return f"not known: {through.doubt or 'the point is a rounded one'}", False
+            largest = max(components[i].dimension for i in through.components)
+            agrees = found.lower <= largest <= found.upper
+            count = len(through.components)
+            said = f"{count} through the point, the largest of dimension {largest}: "
+            return said + ("agrees" if agrees else "DISAGREES"), agrees
+
+        return text
+
+    return {name: compared(name) for name in chosen}
+
+
+def _document(
+    found: Mapping[str, LocalDimension],
+    chosen: Mapping[str, tuple[Number, ...]],
+    system: PolynomialSystem,
+    case: Case,
+    options: argparse.Namespace,
+    complete: bool,
+) -> dict[str, Any]:
+    from pathlib import Path
+
+    from nag.algebra.number import number_text
+    from nag.files.local_document import local_document
+
+    return {
+        "format": FORMAT,
+        "version": 1,
+        "case": {"title": case.title, "file": Path(case.path).name},
+        "seed": options.seed,
+        "complete": complete,
+        "variables": list(system.variables),
+        "points": [
+            {"name": name, "at": [number_text(x) for x in chosen[name]], **local_document(one)}
+            for name, one in found.items()
+        ],
+    }

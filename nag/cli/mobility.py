@@ -1,0 +1,174 @@
+"""The command ``nag mobility``: how a mechanism moves at a configuration."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from nag.cli.arguments import UsageError, add_case, add_running, check_json, read_problem
+from nag.cli.witness_input import point_at, write_document
+
+if TYPE_CHECKING:
+    from nag.algebra.number import Number
+    from nag.files.cases import Case
+    from nag.mechanism.mobility_report import MobilityReport
+    from nag.mechanism.model import Model
+
+FORMAT = "nag-mobility"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments that ``nag mobility`` has besides those of every command that runs a case."""
+    add_case(parser)
+    add_running(parser)
+    parser.add_argument(
+        "--at",
+        metavar="VALUES",
+        help="a configuration in the variables of `nag model`: 'c1 = 3/5, s1 = 4/5', all of them "
+        "(default: the reference configuration)",
+    )
+    parser.add_argument(
+        "--local",
+        action="store_true",
+        help="do not decompose: counting, tangent and local dimension only",
+    )
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="do it all again in another formulation of the mechanism, and compare",
+    )
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Work out the mobility and write the export; returns the lines to print and whether all is
+    known.
+
+    Raises:
+        UsageError: for bad input, or an export that cannot be written.
+    """
+    started = time.perf_counter()
+    if options.json is not None:
+        check_json(options.json, options.case)
+    case, made = _mechanism(options)
+    at = None if options.at is None or made is None else point_at(options.at, made.system.variables)
+    if options.check and options.at is not None:
+        raise UsageError("--check: the formulations have different variables; leave --at out")
+    from nag.cli.progress import compilation_notice
+    from nag.mechanism.mobility_report import MobilityStatus
+    from nag.report.table import labelled, printable
+
+    with compilation_notice(sys.stderr, options.quiet):
+        report = _report(options, case, made.formulation if made else "auto", at)
+        rows = report.rows()
+        complete = report.status is not MobilityStatus.UNDECIDED and not report.open
+        compared: dict[str, Any] | None = None
+        if options.check:
+            text, agree, compared = _compared(options, case, report)
+            rows.append(("check", text))
+            complete &= agree
+    if options.json is not None:
+        write_document(_document(case, options, made, at, report, compared, complete), options.json)
+    seconds = time.perf_counter() - started
+    rows.append(("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"))
+    body = labelled([(label, printable(text)) for label, text in rows])
+    return [printable(case.title), "", *body], complete
+
+
+def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
+    """The case and its model; None if it has no loops."""
+    from nag.files.cases import CaseError, read_case
+
+    try:
+        case = read_case(options.case)
+    except (CaseError, OSError):
+        read_problem(options)
+        raise
+    if case.mechanism is None:
+        raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
+    if len(case.mechanism.graph.edges) < len(case.mechanism.graph):
+        if options.at is not None:
+            raise UsageError(f"--at: {options.case} has no loop, so that it has no equations")
+        return case, None
+    return read_problem(options)
+
+
+def _report(
+    options: argparse.Namespace, case: Case, formulation: str, at: tuple[Number, ...] | None
+) -> MobilityReport:
+    from nag.mechanism.mobility_report import mobility
+    from nag.numerics.local_dimension import NoSolution
+
+    assert case.mechanism is not None
+    try:
+        return mobility(
+            case.mechanism,
+            at,
+            formulation=formulation,  # type: ignore[arg-type]
+            components=not options.local,
+            seed=options.seed,
+            threads=options.threads,
+            settings=options.settings,
+        )
+    except NoSolution as reason:
+        raise UsageError(f"--at: {reason}; it is no configuration of the mechanism") from None
+
+
+def _compared(
+    options: argparse.Namespace, case: Case, report: MobilityReport
+) -> tuple[str, bool, dict[str, Any] | None]:
+    """What another formulation says, whether it agrees, and that as a JSON object."""
+    from nag.mechanism.model import ModelError
+
+    for formulation in ("E", "H"):
+        if formulation == report.formulation:
+            continue
+        try:
+            other = _report(options, case, formulation, None)
+        except ModelError:
+            continue
+        agree = other.same_motion(report)
+        text = (
+            f"formulation {formulation}, {other.equations} equations in {other.variables} "
+            f"unknowns, {'agrees' if agree else 'DISAGREES'}: local dimension "
+            f"{other.local_dimension}, tangent dimension {other.tangent_dimension}"
+        )
+        if other.open:
+            text += f"; its components are not known: {other.open}"
+        found = {
+            "formulation": formulation,
+            "tangent_dimension": other.tangent_dimension,
+            "local_dimension": other.local_dimension,
+            "agrees": agree,
+        }
+        return text, agree and not other.open, found
+    return "no other formulation covers this mechanism", True, None
+
+
+def _document(
+    case: Case,
+    options: argparse.Namespace,
+    made: Model | None,
+    at: tuple[Number, ...] | None,
+    report: MobilityReport,
+    compared: dict[str, Any] | None,
+    complete: bool,
+) -> dict[str, Any]:
+    from pathlib import Path
+
+    from nag.algebra.number import number_text
+    from nag.files.mobility_document import mobility_document
+
+    point = made.reference if at is None and made is not None else at or ()
+    return {
+        "format": FORMAT,
+        "version": 1,
+        "case": {"title": case.title, "file": Path(case.path).name},
+        "seed": options.seed,
+        "settings": options.settings,
+        "complete": complete,
+        "configuration": [number_text(x) for x in point],
+        **mobility_document(report),
+        "check": compared,
+    }

@@ -1,0 +1,264 @@
+"""Singular points of a zero set: essential ones of each component, and where components meet.
+
+Sigma(V) is the union of the singular sets of the components (essential singular points) and of
+their pairwise intersections (intersection singular points); PT13, definition 7.2. Candidates are
+where the Jacobian's rank drops on a component, and the components' intersections; each is judged at
+a generic point of it by the multiplicities of the components there: a component is smooth at a
+point exactly if its multiplicity is 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.factor import IntersectionError
+from nag.decomposition.intersection import intersect_components
+from nag.decomposition.rank_drop import rank_drop
+from nag.numerics.local_dimension import LocalDimension, local_dimension
+from nag.numerics.tangent_cone import TangentCone, tangent_cone
+from nag.witness.expansion import expanded
+from nag.witness.fibres import Tracker
+from nag.witness.membership import component_fibres, component_system
+from nag.witness.point_multiplicity import multiplicity_at
+from nag.witness.witness import Decomposition, PathCounts, WitnessSet
+
+# More pairs of components are not intersected.
+MOST_PAIRS = 150
+# Isolated points nearer to each other than this, relative to their size, are one.
+SAME = 1e-6
+ACCURACY = 1e-8
+
+
+@dataclass(frozen=True, eq=False)
+class SingularSet:
+    """An irreducible set of singular points, or an isolated one.
+
+    Attributes:
+        dimension, degree: of the set.
+        points: complex, shape ``(degree, n)``, on a generic slice.
+        multiplicities: for each component through it, by its index, the component's multiplicity
+            at a generic point of the set.
+        local: tangent and local dimension of the whole zero set at a generic point.
+        cone: the tangent cone of the whole zero set at an isolated point; None where it was not
+            found, or the set is not isolated.
+    """
+
+    dimension: int
+    degree: int
+    points: np.ndarray
+    multiplicities: dict[int, int]
+    local: LocalDimension
+    cone: TangentCone | None
+
+    @property
+    def essential(self) -> tuple[int, ...]:
+        """Indices of the components that are singular there themselves."""
+        return tuple(i for i, m in self.multiplicities.items() if m > 1)
+
+    @property
+    def intersection(self) -> bool:
+        """Whether several components meet there."""
+        return len(self.multiplicities) > 1
+
+
+@dataclass(frozen=True, eq=False)
+class SingularLocus:
+    """The singular points of a zero set.
+
+    Attributes:
+        sets: by falling dimension.
+        examined: indices of the components whose own singular points are all in ``sets``.
+        paths: what the tracker did.
+        complete: whether nothing was left open.
+        notes: what was.
+    """
+
+    sets: tuple[SingularSet, ...]
+    examined: tuple[int, ...]
+    paths: PathCounts
+    complete: bool
+    notes: tuple[str, ...]
+
+    @property
+    def smooth(self) -> tuple[int, ...]:
+        """Indices of the components that have no singular points of their own."""
+        singular = {i for one in self.sets for i in one.essential}
+        return tuple(i for i in self.examined if i not in singular)
+
+
+@dataclass(frozen=True, eq=False)
+class _Candidate:
+    """Points where something may be singular, and the component or pair that it was found from."""
+
+    dimension: int
+    degree: int
+    points: np.ndarray
+    source: tuple[int, ...]
+
+
+@dataclass(eq=False)
+class _Search:
+    """Candidates, and what was left open on the way to them."""
+
+    whole: Decomposition
+    options: dict[str, Any]
+    candidates: list[_Candidate] = field(default_factory=list)
+    examined: list[int] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    counts: PathCounts = field(default=PathCounts())
+
+    def on_component(self, i: int) -> None:
+        """Points of a component where the rank of its own equations drops."""
+        component, name = self.whole.components[i], f"component {i + 1}"
+        if component.multiplicity != 1 and self._own(i) is self.whole.system:
+            self.notes.append(f"{name} is not reduced; its own singular points are not known")
+            return
+        try:
+            found = rank_drop(self.whole.system, component, **self.options)
+        except (IntersectionError, ValueError) as reason:
+            self.notes.append(f"{name}: {reason}")
+            return
+        self.counts += found.paths
+        self.notes += [f"{name}: {note}" for note in found.notes]
+        if not found.notes:
+            self.examined.append(i)
+        self.candidates += [_Candidate(*one, (i,)) for one in found.sets]
+
+    def of_pair(self, i: int, j: int) -> None:
+        """The intersection of two components that no common equations show."""
+        first, second = self.whole.components[i], self.whole.components[j]
+        try:
+            found = intersect_components(self.whole.system, first, second, **self.options)
+        except (IntersectionError, ValueError) as reason:
+            self.notes.append(f"components {i + 1} and {j + 1}: {reason}")
+            return
+        self.counts += found.paths
+        self.notes += [f"components {i + 1} and {j + 1}: {note}" for note in found.notes]
+        self.candidates += [
+            _Candidate(c.dimension, c.degree, c.points, (i, j)) for c in found.components
+        ]
+
+    def unseen(self, i: int, j: int) -> bool:
+        """Whether a pair's intersection may hold points where neither rank drops."""
+        first, second = self.whole.components[i], self.whole.components[j]
+        if first.dimension == 0 or second.dimension == 0:
+            return False
+        return not (
+            i in self.examined
+            and j in self.examined
+            and first.dimension == second.dimension
+            and self._own(i) == self._own(j)
+        )
+
+    def _own(self, i: int) -> PolynomialSystem:
+        return component_system(self.whole.system, self.whole.components[i])
+
+
+def singular_locus(
+    decomposition: Decomposition,
+    *,
+    only: Sequence[int] | None = None,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> SingularLocus:
+    """The singular points of the components of a decomposition, and where components meet.
+
+    Args:
+        only: indices of components of `nag.witness.expansion.expanded`; singular points of these
+            and their intersections with all others are looked for. All of them by default.
+    """
+    whole = expanded(decomposition)
+    chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
+    search = _Search(whole, {"seed": seed, "threads": threads, "settings": settings})
+    for i in chosen:
+        search.on_component(i)
+    pairs = [
+        (i, j)
+        for i, j in combinations(range(len(whole.components)), 2)
+        if (i in chosen or j in chosen) and search.unseen(i, j)
+    ]
+    if len(pairs) > MOST_PAIRS:
+        search.notes.append(f"{len(pairs) - MOST_PAIRS} pairs of components were not intersected")
+    for pair in pairs[:MOST_PAIRS]:
+        search.of_pair(*pair)
+    rng = np.random.default_rng([seed, 7])
+    sets = _judged_sets(search, rng, Tracker(settings, threads))
+    notes = tuple(dict.fromkeys(search.notes))
+    return SingularLocus(sets, tuple(search.examined), search.counts, not notes, notes)
+
+
+def _judged_sets(
+    search: _Search, rng: np.random.Generator, tracker: Tracker
+) -> tuple[SingularSet, ...]:
+    points: list[SingularSet] = []
+    known: list[np.ndarray] = []
+    others: dict[tuple[object, ...], dict[tuple[int, ...], list[SingularSet]]] = {}
+    for candidate in search.candidates:
+        x = candidate.points[0]
+        if candidate.dimension == 0 and any(_close(x, y) for y in known):
+            continue
+        judged = _judged(search, candidate, rng, tracker)
+        if judged is None:
+            continue
+        if candidate.dimension == 0:
+            known.append(x)
+            points.append(judged)
+            continue
+        key = (judged.dimension, judged.degree, tuple(judged.multiplicities.items()))
+        others.setdefault(key, {}).setdefault(candidate.source, []).append(judged)
+    # A set is found from each component through it; one of these finds all that are alike.
+    sets = [one for by_source in others.values() for one in max(by_source.values(), key=len)]
+    sets.sort(key=lambda one: (-one.dimension, one.degree))
+    return (*sets, *points)
+
+
+def _close(x: np.ndarray, y: np.ndarray) -> bool:
+    return bool(np.linalg.norm(x - y) < SAME * (1 + np.linalg.norm(x)))
+
+
+def _judged(
+    search: _Search, candidate: _Candidate, rng: np.random.Generator, tracker: Tracker
+) -> SingularSet | None:
+    """What a candidate is; None if the components are smooth there and do not meet."""
+    whole, x = search.whole, candidate.points[0]
+    local = local_dimension(whole.system, x, accuracy=ACCURACY)
+    if candidate.dimension == 0 and local.tangent_dimension is not None:
+        if local.tangent_dimension == local.dimension:
+            return None
+        if _close(x, local.point):
+            x = local.point
+    multiplicities = {}
+    for i, component in enumerate(whole.components):
+        m = _multiplicity(whole.system, component, x, rng, tracker)
+        if m is None:
+            search.notes.append(f"the multiplicity of component {i + 1} at a point is not known")
+        elif m:
+            multiplicities[i] = m
+    if len(multiplicities) < 2 and max(multiplicities.values(), default=1) == 1:
+        return None
+    cone = None
+    points = candidate.points
+    if candidate.dimension == 0:
+        cone, points = tangent_cone(whole.system, x, accuracy=ACCURACY), x[None]
+    return SingularSet(candidate.dimension, candidate.degree, points, multiplicities, local, cone)
+
+
+def _multiplicity(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    x: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> int | None:
+    try:
+        fibres = component_fibres(system, component)
+    except ValueError:
+        return None
+    return multiplicity_at(x, 1e-12, fibres, component.slice.rows, rng, tracker)

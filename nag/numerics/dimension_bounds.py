@@ -1,0 +1,273 @@
+"""Bounds of the local dimension at a point, from matrices and from zeros nearby."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import accumulate
+from typing import Any
+
+import flint
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.algebraic_point import prime_images
+from nag.numerics.curves import curve_through
+from nag.numerics.deflation import (
+    DIGITS,
+    MOST_WORK,
+    Deflated,
+    Round,
+    sharpen,
+    work,
+)
+from nag.numerics.digits import doubles, middle, number, working
+from nag.numerics.dual_space import DualSpace, dual_space
+from nag.numerics.exact_system import ExactSystem
+from nag.numerics.implicit_function import eliminate
+from nag.numerics.local_dimension import LocalDimension
+from nag.numerics.local_structure import HIGHEST, NUMBERS, decimal
+from nag.numerics.located_zero import Zero, is_exact, located_zero
+from nag.numerics.null_space import Field, PrimeField, UnclearRank
+from nag.numerics.power_series import Series, SeriesRing, Terms
+
+# Degrees of the dual space from which on sets of zeros through the point are looked for, if it has
+# not become smaller for two degrees.
+SEARCHES = (3, 8, 18, 36)
+# Images modulo primes that must agree.
+IMAGES = 2
+# Digits of a point on hyperplanes: zeros beside it are told from it in less.
+PASSING = 1200
+
+
+@dataclass(frozen=True, eq=False)
+class _Image:
+    """The equations about the zero in some arithmetic."""
+
+    field: Field
+    rows: Sequence[Terms]
+    centre: Sequence[Any]
+
+
+class _TooLarge(Exception):
+    """Series would be too long."""
+
+
+def bounds(
+    polynomials: Sequence[Polynomial],
+    point: Sequence[Any],
+    error: float | None,
+    rng: np.random.Generator,
+) -> LocalDimension:
+    """Bounds of the local dimension of the zeros of ``polynomials`` at a point.
+
+    Args:
+        error: decimal logarithm of the point's error in each coordinate; None if it is exact.
+    """
+    with working(DIGITS):
+        zero, factors, reason = located_zero(polynomials, point, error, rng)
+        if zero is None:
+            here = np.array([complex(float(c)) if is_exact(c) else complex(c) for c in point])
+            return LocalDimension(here, None, 0, len(point), 0, 0, (), "", reason)
+        answer = _at_zero(zero, rng)
+        sharpened = [c * f for c, f in zip(zero.found.point, factors, strict=True)]
+        digits = tuple((decimal(c.real), decimal(c.imag)) for c in sharpened)
+        return replace(answer, point=doubles(sharpened), digits=digits)
+
+
+def _at_zero(zero: Zero, rng: np.random.Generator) -> LocalDimension:
+    """Bounds at an exact zero, raised from below and lowered from above until they meet."""
+    tangent, system = zero.tangent, zero.system
+    missing = max(0, system.n - len(system.rows))
+    # The deflated set is smooth of this dimension, and was followed.
+    free = zero.found.free if zero.found.exact else 0
+    lower = max(missing, free)
+    why = "fewer equations than variables" if missing >= free else "a smooth set was followed"
+    answer = LocalDimension(
+        np.zeros(0), tangent, lower, tangent, 0, 0, (), "", f"the tangent dimension; {why}"
+    )
+    if lower == tangent:
+        if tangent == 0:
+            return replace(answer, multiplicity=1, reason="the Jacobian is regular")
+        return answer
+    images = _images(zero)
+    arithmetic = f"modulo {len(images)} primes" if images[0].field.modulus else f"{DIGITS} digits"
+    while True:
+        search = _Search(zero, lower, rng)
+        try:
+            space = _dual_space(zero, images, lower, search.succeeds, rng)
+        except (UnclearRank, _TooLarge) as reason:
+            return _undecided(answer, zero, images, lower, rng, str(reason))
+        coranks = tuple(accumulate(space.hilbert))
+        answer = replace(answer, hyperplanes=lower, coranks=coranks, arithmetic=arithmetic)
+        if space.finite:
+            reason = f"isolated {_on(lower)}{'; ' + why if lower else ''}"
+            multiplicity = space.dimension if lower == 0 else 0
+            return replace(
+                answer, lower=lower, upper=lower, multiplicity=multiplicity, reason=reason
+            )
+        if not search.dimension:
+            reason = "its dual space grows on, but no set of zeros through it was found"
+            return _undecided(answer, zero, images, lower, rng, reason)
+        lower += search.dimension
+        why = f"a set of dimension {lower} was followed to the point"
+        answer = replace(answer, lower=lower, reason=f"the tangent dimension; {why}")
+        if lower == tangent:
+            return answer
+
+
+def _on(k: int) -> str:
+    if k == 0:
+        return "by a finite dual space"
+    return f"on {k} random hyperplane{'' if k == 1 else 's'} by a finite dual space"
+
+
+def _undecided(
+    answer: LocalDimension,
+    zero: Zero,
+    images: list[_Image],
+    lower: int,
+    rng: np.random.Generator,
+    reason: str,
+) -> LocalDimension:
+    """The least upper bound that the matrices give above a lower bound."""
+    upper = zero.tangent
+    for k in range(lower + 1, zero.tangent):
+        try:
+            if _dual_space(zero, images, k, lambda _: False, rng).finite:
+                upper = k
+                break
+        except (UnclearRank, _TooLarge):
+            continue
+    return replace(answer, lower=lower, upper=upper, reason=reason)
+
+
+def _images(zero: Zero) -> list[_Image]:
+    """The equations modulo primes if the zero is algebraic, else in digits."""
+    if zero.exact is not None:
+        found = [
+            _Image(PrimeField(image.modulus), image.rows, image.centre)
+            for image in prime_images(zero.system, zero.exact, IMAGES)
+        ]
+        if found:
+            return found
+    return [_Image(NUMBERS, zero.system.at(DIGITS), zero.found.point)]
+
+
+def _hyperplanes(zero: Zero, k: int, rng: np.random.Generator) -> np.ndarray:
+    """Normals of random hyperplanes in the variables that the regular part leaves, integers."""
+    return rng.integers(1, 2**30, size=(k, zero.tangent)) * rng.choice((-1, 1), (k, zero.tangent))
+
+
+def _through(normals: np.ndarray, free: list[int], image: _Image, n: int) -> list[Terms]:
+    """Equations of the hyperplanes through the image of the point."""
+    rows: list[Terms] = []
+    p = image.field.modulus
+    for normal in normals.tolist():
+        weights = [a % p if p else flint.acb(a) / 2**30 for a in normal]
+        constant: Any = 0
+        for w, i in zip(weights, free, strict=True):
+            constant = constant - w * image.centre[i]
+        row = [
+            (tuple(int(i == j) for j in range(n)), w) for i, w in zip(free, weights, strict=True)
+        ]
+        rows.append([((0,) * n, constant % p if p else constant), *row])
+    return rows
+
+
+def _dual_space(
+    zero: Zero,
+    images: list[_Image],
+    k: int,
+    stop: Callable[[Sequence[int]], bool],
+    rng: np.random.Generator,
+) -> DualSpace:
+    """The dual space on ``k`` random hyperplanes through the point, the smallest of all images."""
+    normals = _hyperplanes(zero, k, rng)
+    spaces = []
+    for image in images:
+        spaces.append(_in_image(zero, image, normals, stop))
+        if not spaces[-1].finite:
+            return spaces[-1]
+    return min(spaces, key=lambda space: space.dimension)
+
+
+def _in_image(
+    zero: Zero, image: _Image, normals: np.ndarray, stop: Callable[[Sequence[int]], bool]
+) -> DualSpace:
+    """The dual space on hyperplanes in one arithmetic, where the regular part is solved first."""
+    block, n, k, field = zero.block, zero.system.n, len(normals), image.field
+    free = [i for i in range(n) if i not in block.columns]
+    rows = [*image.rows, *_through(normals, free, image, n)]
+    solved = (*block.rows, *range(len(image.rows), len(rows)))
+    columns = (*block.columns, *free[:k])
+    m, most = zero.tangent - k, MOST_WORK * (5 if field.modulus else 1)
+
+    def series(order: int) -> tuple[SeriesRing, list[Series]]:
+        if work(m, order, [Round(solved, columns)]) > most:
+            raise _TooLarge(f"its series in {m} variables are too long")
+        found = eliminate(rows, image.centre, solved, columns, order, field.modulus)
+        if found is None:
+            raise _TooLarge("the regular part is singular in this arithmetic")
+        rest = [{e: c for e, c in s.items() if not field.is_zero(c)} for s in found.rest]
+        return found.ring, rest
+
+    return dual_space(field, m, series, HIGHEST, stop)
+
+
+@dataclass
+class _Search:
+    """Looks for a set of zeros through a point when its dual space has grown for some degrees."""
+
+    zero: Zero
+    hyperplanes: int
+    rng: np.random.Generator
+    dimension: int = 0
+    times: int = 0
+
+    def succeeds(self, hilbert: Sequence[int]) -> bool:
+        growing = list(hilbert[-3:]) == sorted(hilbert[-3:])
+        if self.times < len(SEARCHES) and growing and len(hilbert) > SEARCHES[self.times]:
+            self.times += 1
+            self.dimension = self._found(4 * self.times)
+        return self.dimension > 0
+
+    def _found(self, attempts: int) -> int:
+        sliced = _sliced(self.zero, self.hyperplanes, self.rng)
+        return 0 if sliced is None else curve_through(*sliced, self.rng, attempts)
+
+
+def _sliced(zero: Zero, k: int, rng: np.random.Generator) -> tuple[ExactSystem, Deflated] | None:
+    """The zero on ``k`` random hyperplanes through it, as exact as the searches beside it need."""
+    system, block = zero.system, zero.block
+    order = max(zero.found.rounds[0].order, 2)
+    free = [i for i in range(system.n) if i not in block.columns]
+    solved = (*block.rows, *range(len(system.rows), len(system.rows) + k))
+    here = Round(solved, (*block.columns, *free[:k]), order)
+    point = _passing(zero) if k else zero.found.point
+    if point is None:
+        return None
+    units = [tuple(int(i == j) for j in range(system.n)) for i in free]
+    with working(PASSING):
+        for row in _hyperplanes(zero, k, rng).tolist():
+            weights: list[Any] = [Fraction(a, 2**30) for a in row]
+            if isinstance(point[0], flint.acb):
+                weights = [number(a) for a in weights]
+            constant = -sum(a * point[i] for a, i in zip(weights, free, strict=True))
+            if isinstance(constant, flint.acb):
+                constant = middle(constant)
+            terms = [((0,) * system.n, constant), *zip(units, weights, strict=True)]
+            system = system.with_row(terms)
+    return system, replace(zero.found, rounds=(here,))
+
+
+def _passing(zero: Zero) -> Sequence[Any] | None:
+    """The zero, exact or to so many digits that hyperplanes through it may be told from others."""
+    if zero.exact is not None and all(isinstance(c, Fraction) for c in zero.exact):
+        return zero.exact
+    with working(PASSING):
+        if zero.exact is not None:
+            return [middle(number(c)) for c in zero.exact]
+        found = sharpen(zero.system, zero.found.point, zero.found.rounds, PASSING)
+    return None if found is None else found[0]

@@ -1,0 +1,126 @@
+"""The local dimension of a solution set at a point: bounds from above and below that meet.
+
+The largest dimension of a component through the point. From above: the point is isolated on so many
+random hyperplanes through it, which the finite dual space of the local ring proves (modulo a prime
+at rational points and at those in square roots, in 150 digits else). From below: a set of zeros of
+that dimension was followed to the point, or there are so few equations. Where both meet, it is
+decided.
+
+References:
+    Bates, Hauenstein, Peterson & Sommese, A numerical local dimension test for points on the
+    solution set of a system of polynomial equations, 2009;
+    Wampler, Hauenstein & Sommese, Mechanism mobility and a local dimension test, 2011.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import log10
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from nag.algebra.number import Irrational, Number, is_zero
+
+if TYPE_CHECKING:
+    from nag.algebra.system import PolynomialSystem
+
+# Relative error that a point of doubles is taken to have.
+ROUNDED = 1e-8
+
+
+class NoSolution(ValueError):
+    """A point that does not satisfy the equations."""
+
+
+@dataclass(frozen=True, eq=False)
+class LocalDimension:
+    """What is known of a solution set at a point.
+
+    Attributes:
+        point: the sharpened point, rounded, shape ``(n,)``.
+        tangent_dimension: corank of the Jacobian there; None where the point is not decided.
+        lower, upper: bounds of the local dimension.
+        multiplicity: dimension of the local ring at an isolated point, else 0.
+        hyperplanes: number of random hyperplanes through the point that the matrices were made on.
+        coranks: coranks of the Macaulay matrices of degree 0, 1, .. on them; they end where the
+            dual space does, or where it was given up. Empty where none were needed.
+        arithmetic: what the matrices were made in.
+        reason: what the bounds rest on, or why they do not meet.
+        digits: real and imaginary parts of the point as decimals; empty if it is not decided.
+    """
+
+    point: np.ndarray
+    tangent_dimension: int | None
+    lower: int
+    upper: int
+    multiplicity: int
+    hyperplanes: int
+    coranks: tuple[int, ...]
+    arithmetic: str
+    reason: str
+    digits: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def decided(self) -> bool:
+        """Whether the bounds meet."""
+        return self.lower == self.upper
+
+    @property
+    def dimension(self) -> int | None:
+        """The local dimension; None if it is not decided."""
+        return self.lower if self.decided else None
+
+    @property
+    def isolated(self) -> bool | None:
+        """Whether the point is isolated; None if that is not decided."""
+        return True if self.upper == 0 else False if self.lower > 0 else None
+
+
+def local_dimension(
+    system: PolynomialSystem,
+    point: Sequence[Any] | np.ndarray,
+    *,
+    accuracy: float | None = None,
+    seed: int = 0,
+) -> LocalDimension:
+    """The largest dimension of a component of the zero set through a point.
+
+    A point of doubles is sharpened first, a singular one by deflation: it stands for the most
+    singular zero within its error.
+
+    Args:
+        system: exact equations; ``system.nonzero`` does not matter.
+        point: exact numbers (`int`, `Fraction`, `Irrational`), or complex doubles.
+        accuracy: how far the zero may be from the point, relative to each coordinate's size or, if
+            that is larger, to the size that the coefficients of the equations suggest for it
+            (often one); by default 0 for exact numbers, 1e-8 for doubles.
+        seed: of directions and hyperplanes.
+
+    Raises:
+        ValueError: if the point has not one coordinate for each variable.
+        NoSolution: if an exact point does not satisfy the equations.
+    """
+    from nag.numerics.dimension_bounds import bounds
+
+    if len(point) != system.n:
+        raise ValueError(f"the point has {len(point)} coordinates, the system {system.n} variables")
+    exact = exact_numbers(point)
+    if exact is not None and not accuracy:
+        wrong = [i for i, f in enumerate(system.polynomials) if not is_zero(f(exact))]
+        if wrong:
+            raise NoSolution(f"equation {wrong[0] + 1} does not vanish at the point")
+        return bounds(system.polynomials, exact, None, np.random.default_rng(seed))
+    error = ROUNDED if accuracy is None else accuracy
+    rng = np.random.default_rng(seed)
+    return bounds(system.polynomials, list(point), log10(max(error, 1e-300)), rng)
+
+
+def exact_numbers(point: Sequence[Any] | np.ndarray) -> tuple[Number, ...] | None:
+    """The coordinates as exact numbers, if all of them are."""
+    from fractions import Fraction
+
+    if not all(isinstance(x, int | Fraction | Irrational) for x in point):
+        return None
+    return tuple(Fraction(x) if isinstance(x, int) else x for x in point)

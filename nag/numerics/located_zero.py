@@ -1,0 +1,144 @@
+"""The exact zero that a point stands for: sharpened, and singular ones deflated first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import log10
+from typing import Any
+
+import flint
+import numpy as np
+
+from nag.algebra.number import Irrational, Number
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.deflation import (
+    DIGITS,
+    ZERO,
+    Deflated,
+    NotDeflated,
+    Round,
+    deflate,
+    regular_block,
+)
+from nag.numerics.digits import doubles, middle, number
+from nag.numerics.exact_system import ExactSystem
+from nag.numerics.local_structure import FURTHEST, REACHES
+from nag.numerics.rational_point import rational_point
+from nag.numerics.scaling import scaled_terms, variable_scales
+
+# An exact point is known to all digits but these.
+ROUNDING = 5.0
+
+
+@dataclass(frozen=True, eq=False)
+class Zero:
+    """An exact zero of exact equations in scaled variables.
+
+    Attributes:
+        found: the zero, and what its deflation says.
+        block: rows and columns of the largest regular block of the Jacobian.
+        exact: the coordinates as exact numbers, or None.
+    """
+
+    system: ExactSystem
+    found: Deflated
+    block: Round
+    exact: tuple[Number, ...] | None
+
+    @property
+    def tangent(self) -> int:
+        """Dimension of the tangent space, the Jacobian's corank."""
+        return self.system.n - len(self.block.columns)
+
+
+def exact_zero(
+    polynomials: Sequence[Polynomial],
+    point: Sequence[Any] | np.ndarray,
+    accuracy: float,
+    rng: np.random.Generator,
+) -> tuple[Zero | None, list[flint.arb]]:
+    """The exact zero that a point stands for, and the sizes of its variables' units.
+
+    Args:
+        point: exact numbers, or doubles known to ``accuracy``.
+    """
+    exact = all(is_exact(c) for c in point)
+    error = None if exact else log10(max(accuracy, 1e-300))
+    zero, factors, _ = located_zero(polynomials, list(point), error, rng)
+    return zero, factors
+
+
+def is_exact(c: Any) -> bool:
+    """Whether a number is an exact one."""
+    return isinstance(c, int | Fraction | Irrational)
+
+
+def located_zero(
+    polynomials: Sequence[Polynomial],
+    point: Sequence[Any],
+    error: float | None,
+    rng: np.random.Generator,
+) -> tuple[Zero | None, list[flint.arb], str]:
+    """The zero, the sizes of its variables' units, and why there is none if there is none.
+
+    Args:
+        error: decimal logarithm of the point's error in each coordinate; None if it is exact.
+    """
+    n = len(point)
+    powers = variable_scales(polynomials, n)
+    scaled = [Polynomial(n, scaled_terms(f, powers)) for f in polynomials if f]
+    x = [_over(c, int(k)) for c, k in zip(point, powers, strict=True)]
+    precise = [middle(number(c)) for c in x]
+    system = ExactSystem.of(scaled, doubles(precise))
+    known = [_over(c, k) for c, k in zip(x, system.scales, strict=True)]
+    y = [middle(number(c)) for c in known]
+    zero, reason = _exact_zero(system, y, error, known, rng)
+    factors = [flint.arb(2) ** (int(a) + b) for a, b in zip(powers, system.scales, strict=True)]
+    return zero, factors, reason
+
+
+def _over(c: Any, k: int) -> Any:
+    """``c`` over a power of two, exactly."""
+    if isinstance(c, complex | float | np.number):
+        z = complex(c)
+        return complex(np.ldexp(z.real, -k), np.ldexp(z.imag, -k))
+    return c * Fraction(2) ** -k
+
+
+def _exact_zero(
+    system: ExactSystem,
+    y: list[flint.acb],
+    error: float | None,
+    known: Sequence[Any],
+    rng: np.random.Generator,
+) -> tuple[Zero | None, str]:
+    """The exact zero that a point stands for, or why there is none."""
+    if not system.rows:
+        nothing = Deflated(y, (Round((), ()),), system.n, -np.inf, 0.0)
+        return Zero(system, nothing, nothing.rounds[0], None), ""
+    if error is None:
+        block = regular_block(system.at(DIGITS), y, ROUNDING - DIGITS, rng)
+        try:
+            found = deflate(system, y, ROUNDING - DIGITS, rng)
+            found = replace(found, point=y)
+        except NotDeflated:
+            found = Deflated(y, (replace(block, order=2),), 0, ZERO, 0.0)
+        return Zero(system, found, block, tuple(known)), ""
+    reasons = []
+    for more in REACHES:
+        reach = min(error + more, max(FURTHEST, error))
+        try:
+            found = deflate(system, y, max(reach, ROUNDING - DIGITS), rng)
+        except NotDeflated as reason:
+            reasons.append(str(reason))
+            continue
+        if found.exact:
+            block = regular_block(system.at(DIGITS), found.point, ROUNDING - DIGITS, rng)
+            exact = rational_point(found.point, DIGITS) if system.rational else None
+            if exact is not None and not system.vanishes_exactly(exact):
+                exact = None
+            return Zero(system, found, block, None if exact is None else tuple(exact)), ""
+        reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
+    return None, reasons[0]

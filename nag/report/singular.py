@@ -1,0 +1,82 @@
+"""Singular points as text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from nag.decomposition.singular_locus import SingularLocus, SingularSet
+    from nag.witness.witness import Decomposition
+
+# What is smaller than this, in a point that is known to rounding, is written as zero.
+NOTHING = 1e-13
+
+
+def coordinate_text(z: complex) -> str:
+    """A coordinate to eight digits."""
+    real = 0.0 if abs(z.real) < NOTHING else z.real
+    imaginary = 0.0 if abs(z.imag) < NOTHING else z.imag
+    if not imaginary:
+        return f"{real:.8g}"
+    return f"{real:.8g}{imaginary:+.8g}i" if real else f"{imaginary:.8g}i"
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def _numbers(indices: Sequence[int]) -> str:
+    return ", ".join(str(i + 1) for i in indices)
+
+
+def answer_rows(locus: SingularLocus, decomposition: Decomposition) -> list[tuple[str, str]]:
+    """How many singular points and sets there are, and which components are smooth."""
+    points = [one for one in locus.sets if one.dimension == 0]
+    larger = len(locus.sets) - len(points)
+    parts = [_count(len(points), "isolated singular point")] if points else []
+    if larger:
+        parts.append(_count(larger, "set") + " of singular points of positive dimension")
+    rows = [("answer", ", ".join(parts) or "no singular points")]
+    essential = sum(bool(one.essential) for one in locus.sets)
+    if locus.sets:
+        kinds = f"essential: {essential}; where components meet: "
+        rows.append(("kinds", kinds + str(sum(one.intersection for one in locus.sets))))
+    smooth, count = locus.smooth, len(decomposition.components)
+    if smooth:
+        which = "the component" if count == 1 else f"component {_numbers(smooth)} of {count}"
+        if len(smooth) > 1:
+            which = f"components {_numbers(smooth)} of {count}"
+        rows.append(("smooth", f"{which}, by itself"))
+    if not locus.complete:
+        rows.append(("", "INCOMPLETE, see below"))
+    return rows
+
+
+def set_lines(one: SingularSet, variables: Sequence[str]) -> list[tuple[str, str]]:
+    """One singular point or set, as labelled texts."""
+    values = zip(variables, one.points[0].tolist(), strict=True)
+    at = ", ".join(f"{name} = {coordinate_text(z)}" for name, z in values)
+    if one.dimension:
+        head = ("set", f"dimension {one.dimension}, degree {one.degree}, through {at}")
+    else:
+        head = ("point", at)
+    rows = [head, ("", _kind_text(one))]
+    if one.cone is not None:
+        text = f"tangent cone {one.cone.text(variables)} to lowest order, in distances from it"
+        rows.append(("", text))
+    return rows
+
+
+def _kind_text(one: SingularSet) -> str:
+    parts = []
+    if one.intersection:
+        parts.append(f"components {_numbers(tuple(one.multiplicities))} meet")
+    for i in one.essential:
+        parts.append(f"singular on component {i + 1}, multiplicity {one.multiplicities[i]}")
+    text = "; ".join(parts)
+    if one.local.tangent_dimension is not None:
+        text += f"; tangent dimension {one.local.tangent_dimension}"
+    if one.local.dimension is not None:
+        text += f", local dimension {one.local.dimension}"
+    return text

@@ -1,0 +1,65 @@
+"""The multiplicity of a variety at a point: 1 exactly where it is smooth.
+
+On a generic slice through the point, of complementary dimension, so many of the points of a
+neighbouring slice have come together there.
+
+References:
+    Mumford, Algebraic Geometry I: Complex Projective Varieties, 1976, chapter 5;
+    Nagata: a variety is smooth at a point exactly if its multiplicity there is 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.membership import HIT, MISS
+from nag.witness.slices import rows_through, unit_complex
+
+ATTEMPTS = 4
+# Ends at a point of multiplicity m are known to about the m-th root of rounding.
+MULTIPLE_HIT, MULTIPLE_MISS = 1e-5, 1e-3
+
+
+def multiplicity_at(
+    point: np.ndarray,
+    accuracy: float,
+    fibres: Sequence[Fibre],
+    rows: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> int | None:
+    """The multiplicity of the set that ``fibres`` stand for at a point; 0 if it is not on it.
+
+    Args:
+        point: complex, affine, shape ``(n,)``.
+        accuracy: relative error of the point.
+        fibres: the set's points on the slice ``rows``.
+
+    Returns:
+        None if it could not be decided.
+    """
+    fibres = [fibre for fibre in fibres if len(fibre)]
+    dimension, scale = len(rows), 1 + float(np.linalg.norm(point))
+    for _ in range(ATTEMPTS):
+        target = rows_through(rng, dimension, point)
+        gamma = complex(unit_complex(rng))
+        count, unclear = 0, False
+        for fibre in fibres:
+            if dimension == 0:
+                ends, regular = fibre.x, np.ones(len(fibre), dtype=bool)
+            else:
+                moved = move(fibre, rows, target, gamma, tracker, endgame=True)
+                unclear |= bool(moved.failed.any())
+                ends = moved.points[moved.finite, : fibre.cut.n]
+                regular = moved.regular[moved.finite]
+            distance = np.linalg.norm(ends - point, axis=1) / scale
+            hit = np.where(regular, max(HIT, 1e2 * accuracy), MULTIPLE_HIT)
+            miss = np.where(regular, max(MISS, 1e4 * accuracy), MULTIPLE_MISS)
+            count += int((distance < hit).sum())
+            unclear |= bool(((distance >= hit) & (distance < miss)).any())
+        if not unclear:
+            return count
+    return None

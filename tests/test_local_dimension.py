@@ -1,0 +1,152 @@
+"""The local dimension of zero sets at points: tangent and local dimension, multiplicity, bounds."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+
+import jsonschema
+import numpy as np
+import pytest
+from local_dimension_changes import judged, right
+from local_points import ALL, MECHANISMS, SETS, ZEROS, Known, known, plain
+from singular_zeros import polynomials
+
+import nag
+from nag.algebra.expression import parse_number
+from nag.cli import main
+from nag.cli.witness_input import schema
+from nag.numerics.local_dimension import NoSolution
+
+LARGE = {"DZ1", "two curves of order 40"}
+SLOW = LARGE | {"Bricard's cube, E", "Sarrus, H"}
+# To deflate it takes series of order 24 in two variables, which are too long.
+NOT_SHARPENED = {"a line that touches a surface to order 12"}
+
+
+def as_known(found: nag.LocalDimension) -> tuple[int | None, int | None, int]:
+    return found.tangent_dimension, found.dimension, found.multiplicity
+
+
+@pytest.mark.parametrize("name", sorted(ALL))
+def test_tangent_and_local_dimension_at_given_points(name: str) -> None:
+    point = ALL[name]
+    found = nag.local_dimension(point.system, point.point)
+    assert as_known(found) == (point.tangent, point.dimension, point.multiplicity), found.reason
+
+
+@pytest.mark.parametrize("name", sorted(set(ALL) - SLOW - NOT_SHARPENED))
+def test_they_are_the_same_in_other_coordinates_beside_the_point(name: str) -> None:
+    found = judged(ALL[name], seed=7)
+    assert right(ALL[name], found) and found.decided, found.reason
+
+
+@pytest.mark.parametrize("name", sorted(set(MECHANISMS | SETS) - NOT_SHARPENED))
+def test_a_rounded_point_is_sharpened_to_the_exact_one(name: str) -> None:
+    point = (MECHANISMS | SETS)[name]
+    rounded = np.array([float(x) for x in point.point]) + 1e-10
+    found = nag.local_dimension(point.system, rounded)
+    assert found.dimension == point.dimension
+    if found.tangent_dimension == point.tangent > point.dimension and point.multiplicity:
+        assert np.abs(found.point - [float(x) for x in point.point]).max() < 1e-15
+
+
+@pytest.mark.parametrize("size", [Fraction(1, 1000), Fraction(1000), Fraction(1, 10**6)])
+@pytest.mark.parametrize("name", ["rhombus, folded", "a prism of parallel bars", "cbms2", "DZ2"])
+def test_the_unit_of_length_does_not_matter(name: str, size: Fraction) -> None:
+    point = ALL[name]
+    images = [x * (1 / size) for x in nag.Polynomial.variables(point.system.n)]
+    system = plain([f.compose(images) for f in point.system.polynomials])
+    at = np.array([complex(x) * float(size) for x in point.point])
+    for offset in (0.0, 1e-9 * float(size)):
+        found = nag.local_dimension(system, at + offset)
+        assert as_known(found) == (point.tangent, point.dimension, point.multiplicity)
+
+
+@pytest.mark.parametrize(
+    "point", [["sqrt(2)", "sqrt(3)", "sqrt(6)"], ["sqrt(2+sqrt(3))", "1", "sqrt(2+sqrt(3))"]]
+)
+def test_points_in_square_roots_are_judged_modulo_primes(point: list[str]) -> None:
+    x, y, z = nag.Polynomial.variables(3)
+    at = [parse_number(text) for text in point]
+    squares = [a * a for a in at]
+    equations = [x**2 - squares[0], (y**2 - squares[1]) * (z - x * y), (z - x * y) ** 2]
+    found = nag.local_dimension(plain([*equations, (y**2 - squares[1]) ** 2]), at)
+    assert (found.dimension, found.multiplicity) == (0, 3)
+    assert found.arithmetic == "modulo 2 primes"
+
+
+def test_the_corank_sequence_is_that_of_the_macaulay_matrices() -> None:
+    assert nag.local_dimension(ZEROS["cbms1"].system, [0, 0, 0]).coranks == (1, 4, 7, 10, 11)
+    crossing = nag.local_dimension(*_known(MECHANISMS["rhombus, folded"]))
+    assert (crossing.hyperplanes, crossing.coranks) == (1, (1, 2))
+
+
+def _known(point: Known) -> tuple[nag.PolynomialSystem, tuple]:
+    return point.system, point.point
+
+
+def test_a_cluster_of_zeros_is_left_undecided() -> None:
+    system = plain(polynomials("x y", "x^3 + 1/10^20*x^2", "y - x"))
+    found = nag.local_dimension(system, np.array([1e-9, 0]))
+    assert not found.decided and found.tangent_dimension is None
+    exact = nag.local_dimension(system, [0, 0])
+    assert as_known(exact) == (1, 0, 2)
+
+
+def test_a_multiplicity_beyond_what_is_worked_out_leaves_both_bounds(monkeypatch) -> None:
+    monkeypatch.setattr("nag.numerics.dual_space.MOST_FUNCTIONALS", 20)
+    found = nag.local_dimension(plain(polynomials("x y", "x^6", "y^6")), [0, 0])
+    assert (found.lower, found.upper, found.isolated) == (0, 1, None)
+    assert not found.decided and "grows" in found.reason
+
+
+def test_a_point_that_is_no_solution_is_refused() -> None:
+    circle = known("x y", "x^2 + y^2 - 1", [1, 0], 1, 1).system
+    with pytest.raises(NoSolution, match="equation 1"):
+        nag.local_dimension(circle, [1, 1])
+    with pytest.raises(ValueError, match="2 variables"):
+        nag.local_dimension(circle, [1, 0, 0])
+
+
+CROSS = """
+title = "A circle, a line, and a double point"
+kind = "system"
+variables = ["x", "y"]
+equations = ["(x^2 + y^2 - 1)*(x - y)*(x - 3)^2", "(x^2 + y^2 - 1)*(x - y)*(y - 5)"]
+[[point]]
+name = "crossing"
+at = { x = "sqrt(2)/2", y = "sqrt(2)/2" }
+[[point]]
+name = "double"
+at = { x = 3, y = 5 }
+"""
+
+
+@pytest.fixture
+def case(tmp_path) -> str:
+    file = tmp_path / "cross.toml"
+    file.write_text(CROSS)
+    return str(file)
+
+
+def test_the_command_says_what_the_decomposition_says(case, tmp_path, capsys) -> None:
+    file = tmp_path / "local.json"
+    assert main(["local", case, "--quiet", "--check", "--json", str(file)]) == 0
+    text = capsys.readouterr().out
+    assert "local dimension 1, tangent dimension 2: a singular point" in text
+    assert "isolated, of multiplicity 2" in text
+    assert text.count(": agrees") == 2 and "DISAGREES" not in text
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-local-dimension"))
+    kinds = {p["name"]: (p["local_dimension"], p["multiplicity"]) for p in document["points"]}
+    assert kinds == {"crossing": (1, 0), "double": (0, 2)}
+
+
+def test_the_command_takes_rounded_points_and_refuses_others(case, capsys) -> None:
+    assert main(["local", case, "--at", "x = 0.70710678, y = 0.70710677"]) == 0
+    assert "local dimension 1, tangent dimension 2" in capsys.readouterr().out
+    assert main(["local", case, "--at", "x = 1, y = 2"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert main(["local", case, "other"]) == 2
+    assert "has no point 'other'" in capsys.readouterr().err

@@ -1,0 +1,105 @@
+"""nag.mobility and nag mobility: counted, tangent and local mobility, and what they mean."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+
+import jsonschema
+import pytest
+from linkages import CASES, case, four_bar, general_loop, loop, spherical_four_bar
+from local_points import sarrus
+
+import nag
+from nag.cli import main
+from nag.cli.witness_input import schema
+from nag.mechanism.graph import Joint, Mechanism
+from nag.numerics.local_dimension import NoSolution
+
+Z = (0, 0, 1)
+
+
+def bars(*points: tuple) -> Mechanism:
+    """A planar loop of bars from point to point."""
+    return loop([(*p, 0) for p in points], [Z] * len(points))
+
+
+# counted, tangent dimension, local dimension, dimensions of the components, status
+REPORTS = {
+    "Bennett": (case("bennett"), -2, 1, 1, {1}, "overconstrained"),
+    "Bricard": (case("bricard-cube"), 0, 1, 1, {1}, "overconstrained"),
+    "Sarrus": (sarrus(), 0, 1, 1, {1}, "overconstrained"),
+    "parallelogram": (four_bar(), 1, 1, 1, {1}, "mobile"),
+    "spherical": (spherical_four_bar(), 1, 1, 1, {1}, "mobile"),
+    "flat parallelogram": (
+        bars((0, 0), (1, 0), (3, 0), (2, 0)),
+        *(1, 2, 1, {1}, "at a crossing of components"),
+    ),
+    "five axes": (general_loop(5, 1), -1, 0, 0, {0}, "rigid"),
+    "a triangle": (bars((0, 0), (2, 0), (1, 1)), 0, 0, 0, {0}, "rigid"),
+    "a flat triangle": (bars((0, 0), (3, 0), (2, 0)), 0, 1, 0, {0}, "shaky"),
+}
+
+
+@pytest.mark.parametrize("name", sorted(REPORTS))
+def test_what_a_mechanism_does_at_its_reference_configuration(name: str) -> None:
+    mechanism, *numbers, dimensions, status = REPORTS[name]
+    report = nag.mobility(mechanism)
+    found = [report.gruebler_kutzbach, report.tangent_dimension, report.local_dimension]
+    assert found == numbers
+    assert report.status == status, report
+    assert report.components is not None and {d for d, _ in report.components} == dimensions
+    assert len(str(report).splitlines()) == 5
+
+
+def test_a_shaky_structure_has_its_multiplicity() -> None:
+    report = nag.mobility(REPORTS["a flat triangle"][0])
+    assert report.multiplicity == 2
+    assert "isolated solution of multiplicity 2" in report.sentence
+
+
+def test_joints_outside_loops_add_their_freedoms() -> None:
+    arm = Joint("arm", "revolute", ("B1", "hand"), (Fraction(9), Fraction(0), Fraction(0)), Z)
+    base = four_bar()
+    report = nag.mobility(Mechanism(base.ground, (*base.joints, arm), base.bodies))
+    assert (report.local_dimension, report.tangent_dimension, report.free) == (2, 2, 1)
+    assert {d for d, _ in report.components} == {2}
+    chain = nag.mobility(Mechanism("B1", (arm,)))
+    assert (chain.local_dimension, chain.status, chain.components) == (1, "mobile", None)
+
+
+def test_another_configuration_may_be_given() -> None:
+    mechanism = REPORTS["flat parallelogram"][0]
+    tilted = nag.mobility(mechanism, [1, 0, Fraction(3, 5), Fraction(4, 5)])
+    assert (tilted.tangent_dimension, tilted.local_dimension, tilted.status) == (1, 1, "mobile")
+    rounded = nag.mobility(mechanism, [1.0, 1e-12, 1.0, 0.0], components=False)
+    assert (rounded.tangent_dimension, rounded.local_dimension) == (2, 1)
+    with pytest.raises(NoSolution):
+        nag.mobility(mechanism, [2, 0, 1, 0], components=False)
+
+
+def test_the_command_writes_what_its_schema_says(tmp_path, capsys) -> None:
+    file = tmp_path / "mobility.json"
+    arguments = ["mobility", "--quiet", "--json", str(file)]
+    assert main([*arguments, str(CASES / "bennett.toml")]) == 0
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-mobility"))
+    assert document["local_dimension"] == document["tangent_dimension"] == 1
+    assert (document["gruebler_kutzbach"], document["check"]) == (-2, None)
+    capsys.readouterr()
+    assert main([*arguments, "--check", str(CASES / "planar-four-bar.toml")]) == 0
+    assert "unknowns, agrees" in capsys.readouterr().out
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-mobility"))
+    assert document["check"]["agrees"] is True
+
+
+def test_bad_input_is_one_line(tmp_path, capsys) -> None:
+    for arguments in (
+        [str(CASES / "slider-crank.toml")],
+        [str(tmp_path / "none.toml")],
+        [str(CASES / "bennett.toml"), "--at", "x_J1 = 0, x_J2 = 0"],
+        [str(CASES / "bennett.toml"), "--at", "x_J1 = 0"],
+    ):
+        assert main(["mobility", *arguments]) == 2
+        assert capsys.readouterr().err.count("\n") == 1

@@ -1,0 +1,155 @@
+"""Singular points of components, intersections, tangent cones, parameters with singular points."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from fractions import Fraction
+
+import jsonschema
+import numpy as np
+import pytest
+from linkages import CASES
+from local_points import plain
+from singular_zeros import polynomials
+
+import nag
+from nag.algebra.expression import parse_number
+from nag.cli import main
+from nag.cli.witness_input import schema
+from nag.decomposition.singular_locus import SingularLocus, singular_locus
+from nag.numerics.tangent_cone import tangent_cone
+
+
+def locus_of(name: str) -> tuple[nag.PolynomialSystem, SingularLocus]:
+    system = nag.read_case(CASES / f"{name}.toml").system
+    assert system is not None
+    return system, singular_locus(nag.decompose(system))
+
+
+def places(locus: SingularLocus) -> set[tuple[int, ...]]:
+    """The isolated singular points, which have integer coordinates here."""
+    points = np.array([one.points[0] for one in locus.sets if one.dimension == 0])
+    assert np.abs(points - np.rint(points.real)).max() < 1e-14
+    return {tuple(np.rint(x.real).astype(int).tolist()) for x in points}
+
+
+def test_the_slider_crank_has_two_cones() -> None:
+    system, locus = locus_of("slider-crank")
+    assert locus.complete and locus.smooth == ()
+    assert places(locus) == {(0, 1, 0, -1, 0, -1), (0, -1, 0, 1, 0, 1)}
+    for one in locus.sets:
+        assert (one.essential, one.intersection, one.multiplicities) == ((0,), False, {0: 2})
+        assert (one.local.tangent_dimension, one.local.dimension) == (3, 2)
+        assert one.cone is not None and one.cone.dimension == 2
+        assert one.cone.text(system.variables) == "2*c1^2 - c2^2 - c3^2 = 0"
+
+
+def test_the_curves_of_the_rhombus_are_smooth_and_meet_in_pairs() -> None:
+    _, locus = locus_of("rhombus")
+    assert locus.complete and locus.smooth == (0, 1, 2)
+    assert places(locus) == {(1, 0, 1, 0, 1, 0), (-1, 0, 1, 0, -1, 0), (1, 0, -1, 0, -1, 0)}
+    assert all(one.intersection and not one.essential for one in locus.sets)
+    assert {tuple(one.multiplicities) for one in locus.sets} == {(0, 1), (0, 2), (1, 2)}
+
+
+@pytest.mark.parametrize("name", ["bricard-variety", "bennett-variety"])
+def test_varieties_of_single_loops_are_smooth(name: str) -> None:
+    _, locus = locus_of(name)
+    assert (locus.complete, locus.sets, locus.smooth) == (True, (), (0,))
+
+
+@pytest.mark.parametrize("name", ["whitney-umbrella", "cuspidal-edge"])
+def test_a_double_line_of_a_surface_is_essential(name: str) -> None:
+    _, locus = locus_of(f"literature/{name}")
+    (one,) = locus.sets
+    assert (one.dimension, one.degree, one.multiplicities, one.intersection) == (
+        1,
+        1,
+        {0: 2},
+        False,
+    )
+    assert np.abs(one.points[0, :2]).max() < 1e-14
+    assert locus.complete and locus.smooth == ()
+
+
+# Singular points, and the multiplicities of the components there.
+KINDS = {
+    "a node and a line through it": (
+        ("x y", "(y^2 - x^3 - x^2)*(y - 2*x)"),
+        {(((0, 0)), frozenset({1, 2})), (((3, 6)), frozenset({1}))},
+    ),
+    "a cusp": (("x y", "y^2 - x^3"), {((0, 0), frozenset({2}))}),
+    "a triple point": (("x y", "x^3 - x^2*y + y^3 + x^4"), {((0, 0), frozenset({3}))}),
+    "a line that meets a plane": (("x y z", "x*y, x*z"), {((0, 0, 0), frozenset({1}))}),
+    "lines that do not meet": (("x y z", "x*(x - 1), y*x + z*(x - 1), (x - 1)*y"), set()),
+    "a smooth conic": (("x y", "x^2 + y^2 - 1"), set()),
+}
+
+
+@pytest.mark.parametrize("name", sorted(KINDS))
+def test_multiplicities_tell_essential_singular_points_from_intersections(name: str) -> None:
+    (variables, equations), expected = KINDS[name]
+    system = plain(polynomials(variables, *equations.split(", ")))
+    locus = singular_locus(nag.decompose(system))
+    found = {
+        (tuple(np.rint(one.points[0].real).astype(int).tolist()), _values(one.multiplicities))
+        for one in locus.sets
+    }
+    assert locus.complete, locus.notes
+    assert found == expected and len(locus.sets) == len(expected)
+
+
+def _values(multiplicities: dict[int, int]) -> frozenset[int]:
+    return frozenset(multiplicities.values())
+
+
+def test_tangent_cones_are_the_terms_of_lowest_order() -> None:
+    def cone(equations: Iterable[str], point: list, variables: str = "x y z") -> str:
+        system = plain(polynomials(variables, *equations))
+        found = tangent_cone(system, [parse_number(str(c)) for c in point])
+        assert found is not None
+        return found.text(variables.split())
+
+    assert cone(["x^2 + y^2 - z^2 + x^3"], [0, 0, 0]) == "x^2 + y^2 - z^2 = 0"
+    assert cone(["y^2 - x^2*(x + 1)", "z - x*y"], [0, 0, 0]) == "x^2 - y^2 = 0"
+    assert cone(["y^2 - x^3"], [0, 0], "x y") == "y^2 = 0"
+    moved = "(x - sqrt(2))^3 + (x - sqrt(2))*(y - 1) + 3*(y - 1)^3"
+    assert cone([moved], ["sqrt(2)", 1], "x y") == "x*y = 0"
+
+
+def test_a_rounded_singular_point_has_the_same_cone() -> None:
+    system = plain(polynomials("x y", "(x - 1/3)^2 - 5*(y - 2)^2 + (y - 2)^5"))
+    found = tangent_cone(system, np.array([1 / 3 + 1e-10, 2]))
+    assert found is not None and found.text(["x", "y"]) == "x^2 - 5*y^2 = 0"
+    assert found.forms[0].terms[(2, 0)] == Fraction(1)
+
+
+def test_the_lengths_with_singular_slider_cranks_are_found(tmp_path, capsys) -> None:
+    file = tmp_path / "lengths.json"
+    case = str(CASES / "slider-crank.toml")
+    assert main(["singular", case, "--free", "L1, L2, L3", "--quiet", "--json", str(file)]) == 0
+    assert "singular  L1 - L2 - L3 = 0" in capsys.readouterr().out
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-singular-parameters"))
+    # PT13 7.2 leaves out the sum, which is zero for no lengths.
+    assert {c[0] for c in document["conditions"] if len(c) == 1} == {
+        "L1 + L2 + L3",
+        "L1 - L2 - L3",
+        "L1 + L2 - L3",
+        "L1 - L2 + L3",
+    }
+    assert all(len(c) == 1 for c in document["conditions"])
+
+
+def test_the_command_writes_what_its_schema_says(tmp_path, capsys) -> None:
+    file = tmp_path / "singular.json"
+    case = str(CASES / "rhombus.toml")
+    assert main(["singular", case, "--quiet", "--component", "1", "--json", str(file)]) == 0
+    assert "2 isolated singular points" in capsys.readouterr().out
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-singular"))
+    assert document["examined"] == document["smooth"] == [1]
+    for arguments in (["--component", "4"], ["--free", "c"], ["--free", "a,a"]):
+        assert main(["singular", case, "--quiet", *arguments]) == 2
+        assert capsys.readouterr().err.count("\n") == 1
