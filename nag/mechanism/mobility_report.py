@@ -16,7 +16,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.through import through_points
 from nag.mechanism.axes import space_of
-from nag.mechanism.graph import JOINT_FREEDOMS, Mechanism
+from nag.mechanism.graph import Mechanism
+from nag.mechanism.joint_types import freedoms_in
 from nag.mechanism.mobility import gruebler_kutzbach
 from nag.mechanism.model import Formulation, Model, model
 from nag.numerics.local_dimension import LocalDimension, local_dimension
@@ -255,9 +256,9 @@ def report_of(
 
 
 def _without_loops(mechanism: Mechanism) -> MobilityReport:
-    free = sum(JOINT_FREEDOMS[j.type] for j in mechanism.joints)
-    counted = gruebler_kutzbach(mechanism)
     space = space_of(mechanism.joints)
+    free = sum(freedoms_in(j.type, space) for j in mechanism.joints)
+    counted = gruebler_kutzbach(mechanism)
     return MobilityReport(space, counted, "", 0, 0, free, free, free, free, None, "", None)
 
 
