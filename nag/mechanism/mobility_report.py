@@ -19,7 +19,7 @@ from nag.mechanism.axes import space_of
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.joint_types import freedoms_in
 from nag.mechanism.mobility import gruebler_kutzbach
-from nag.mechanism.model import Formulation, Model, model
+from nag.mechanism.model import Model, model
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.witness.expansion import expanded
 
@@ -199,7 +199,7 @@ def mobility(
     mechanism: Mechanism,
     point: Sequence[Number] | None = None,
     *,
-    formulation: Formulation = "auto",
+    formulation: str = "auto",
     components: bool = True,
     seed: int = 0,
     threads: int = 1,
