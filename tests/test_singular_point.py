@@ -27,6 +27,7 @@ def test_an_isolated_zero_has_the_dimension_of_its_local_ring(name: str, error: 
     assert np.abs(end.point - zero.point).max() < 1e-15 * max(1, np.abs(zero.point).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(LARGE))
 def test_a_local_ring_of_large_dimension_is_told_from_a_curve(name: str) -> None:
     end = judged(ISOLATED[name], 1e-10, seed=0)
