@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
-from systems import system
+from systems import kinds, system
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition import decompose
@@ -17,10 +17,6 @@ CONIC, LINE, POINT = (1, 2, 1), (1, 1, 1), (0, 1, 1)
 
 def decomposed(variables: str, equations: list[str], seed: int) -> Decomposition:
     return decompose(system(variables, *equations), seed=seed)
-
-
-def kinds(answer: Decomposition) -> Counter[tuple[int, int, int]]:
-    return Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components)
 
 
 @pytest.mark.parametrize(
