@@ -81,10 +81,15 @@ def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
     from nag.files.cases import CaseError, read_case
 
     try:
-        case = read_case(options.case)
+        case = read_case(options.case, dict(options.set))
     except (CaseError, OSError):
         read_problem(options)
         raise
+    if case.assembly is not None:
+        raise UsageError(
+            f"{options.case}: gives parts, not how they are assembled; `nag decompose` says how each "
+            "assembly moves, and `nag local` how a placement does"
+        )
     if case.mechanism is None:
         raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
     if len(case.mechanism.graph.edges) < len(case.mechanism.graph):

@@ -7,10 +7,12 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
+from nag.algebra.from_python import coordinates
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
@@ -21,6 +23,7 @@ from nag.mechanism.joint_types import freedoms_in
 from nag.mechanism.mobility import gruebler_kutzbach
 from nag.mechanism.model import Model, model
 from nag.numerics.local_dimension import LocalDimension, local_dimension
+from nag.text.table import html_table
 from nag.witness.expansion import expanded
 
 
@@ -118,6 +121,12 @@ class MobilityReport:
         """What the numbers mean."""
         return _sentence(self)
 
+    def __repr__(self) -> str:
+        return str(self)
+
+    def _repr_html_(self) -> str:
+        return html_table("MobilityReport", [["", ""], *map(list, self.rows())])
+
     def __str__(self) -> str:
         return "\n".join(f"{label.ljust(10)}  {text}" for label, text in self.rows())
 
@@ -197,7 +206,7 @@ def _freedoms(number: int | None) -> str:
 
 def mobility(
     mechanism: Mechanism,
-    point: Sequence[Number] | None = None,
+    point: Sequence[Any] | Mapping[str, Any] | None = None,
     *,
     formulation: str = "auto",
     components: bool = True,
@@ -208,7 +217,8 @@ def mobility(
     """The mobility of a mechanism at its reference configuration, or at another one.
 
     Args:
-        point: in the model's variables (`nag.model(mechanism).system.variables`), exact or doubles.
+        point: in the model's variables (`nag.model(mechanism).system.variables`), in order or by
+            name; exact numbers as `nag.Joint` takes them, or doubles.
         formulation: of the model, as for `nag.model`.
         components: whether to decompose the configuration space as well, to know the components
             through the configuration; it takes longer.
@@ -217,11 +227,19 @@ def mobility(
     Raises:
         nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
         nag.numerics.local_dimension.NoSolution: if an exact point is no configuration.
+
+    >>> import nag
+    >>> print(nag.mobility(nag.read_case("cases/bennett.toml").mechanism))
+    counted     -2 by Gruebler-Kutzbach (spatial)
+    model       1 equation in 2 unknowns, formulation H
+    local       tangent dimension 1, local dimension 1
+    components  1 through the configuration: dimension 1, degree 2
+    mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
     """
     if len(mechanism.graph.edges) < len(mechanism.graph):
         return _without_loops(mechanism)
     made = model(mechanism, formulation)
-    at = tuple(made.reference) if point is None else tuple(point)
+    at = made.reference if point is None else coordinates(point, made.system.variables)
     found = local_dimension(made.system, at, seed=seed)
     through: tuple[tuple[int, int], ...] | None = None
     doubt = ""
@@ -266,10 +284,9 @@ def _components(
     made: Model, at: Sequence[Number], seed: int, threads: int, settings: str
 ) -> tuple[tuple[tuple[int, int], ...] | None, str]:
     """Dimension and degree of the components through a point, or why they are not known."""
-    from nag.algebra.symmetry import SignedPermutation
 
     system: PolynomialSystem = made.system
-    symmetries = tuple(SignedPermutation.of_signs(signs) for signs in made.symmetries)
+    symmetries = made.symmetries
     found = decompose(system, seed=seed, threads=threads, settings=settings, symmetries=symmetries)
     if not found.complete:
         return None, f"the decomposition is incomplete: {'; '.join(found.notes)}"
