@@ -1,4 +1,28 @@
-"""Numerical algebraic geometry for mechanisms."""
+"""Numerical algebraic geometry for mechanisms.
+
+From a graph to the curve of a mechanism's configurations, and from equations to their solutions:
+
+>>> import nag, networkx
+>>> G = networkx.MultiGraph()
+>>> G.add_edge("base", "left", "A", type="revolute", axis=(0, 0, 1), point=(0, 0, 0))
+'A'
+>>> G.add_edge("left", "top", "B", type="revolute", axis=(0, 0, 1), point=(0, 1, 0))
+'B'
+>>> G.add_edge("top", "right", "C", type="revolute", axis=(0, 0, 1), point=(2, 1, 0))
+'C'
+>>> G.add_edge("right", "base", "D", type="revolute", axis=(0, 0, 1), point=(2, 0, 0))
+'D'
+>>> answer = nag.decompose(nag.Mechanism.from_graph(G, ground="base"))
+>>> [(c.dimension, c.degree) for c in answer.components]
+[(1, 2), (1, 4)]
+>>> curve = answer.components[0]
+>>> curve.contains(curve.sample(0, 1)[0])
+True
+>>> len(nag.solve(["x^2 + y^2 - 1", "x - y"]).real)
+2
+
+Each name says more: ``help(nag.decompose)``. `nag.decomposition` has more to do with components.
+"""
 
 from importlib import import_module
 from typing import Any
@@ -11,17 +35,21 @@ _HOME = {
     "Case": "nag.files.cases",
     "CaseError": "nag.files.cases",
     "Decomposition": "nag.witness.witness",
+    "Body": "nag.mechanism.graph",
+    "Joint": "nag.mechanism.graph",
     "LocalDimension": "nag.numerics.local_dimension",
     "Mechanism": "nag.mechanism.graph",
+    "MechanismError": "nag.mechanism.graph",
     "MobilityReport": "nag.mechanism.mobility_report",
     "Polynomial": "nag.algebra.polynomial",
     "PolynomialSystem": "nag.algebra.system",
+    "SignedPermutation": "nag.algebra.symmetry",
     "Slice": "nag.witness.witness",
     "SolveResult": "nag.solving.solutions",
     "Solution": "nag.solving.solutions",
     "Status": "nag.witness.witness",
     "WitnessSet": "nag.witness.witness",
-    "decompose": "nag.decomposition",
+    "decompose": "nag.interface.decompose",
     "local_dimension": "nag.numerics.local_dimension",
     "gruebler_kutzbach": "nag.mechanism.mobility",
     "mobility": "nag.mechanism.mobility_report",
@@ -29,7 +57,8 @@ _HOME = {
     "read_case": "nag.files.cases",
     "read_decomposition": "nag.files.export",
     "read_solutions": "nag.files.solutions_export",
-    "solve": "nag.solving.solve",
+    "solve": "nag.interface.solve",
+    "system": "nag.algebra.from_python",
     "write_decomposition": "nag.files.export",
     "write_solutions": "nag.files.solutions_export",
 }

@@ -91,3 +91,56 @@ def residual(system: PolynomialSystem, point: Sequence[complex]) -> float:
         )
         worst = max(worst, abs(f(list(point))) / max(terms, 1.0))
     return worst
+
+
+def closed_chain(*joints: tuple) -> Mechanism:
+    """A single loop of joints (type, point) or (type, point, axis, ...), as `loop` names them."""
+    n = len(joints)
+    return Mechanism(
+        "B0",
+        tuple(
+            Joint(f"J{i}", kind, (f"B{(i - 1) % n}", f"B{i}"), *(exact(*v) for v in vectors))
+            for i, (kind, *vectors) in enumerate(joints)
+        ),
+    )
+
+
+def loops_of_all_joints() -> dict[str, Mechanism]:
+    """Single loops in which every type of joint occurs, in general position."""
+    z = (0, 0, 1)
+    revolutes = (
+        ("revolute", (1, 0, 0), (0, 1, 2)),
+        ("revolute", (1, 2, 0), (1, 1, 1)),
+        ("revolute", (0, 3, 1), (2, -1, 0)),
+    )
+    return {
+        "slider-crank": closed_chain(
+            *(("revolute", p, z) for p in ((0, 0, 0), (1, 1, 0), (3, 0, 0))),
+            ("prismatic", (0, 0, 0), (1, 0, 0)),
+        ),
+        "PPPP": closed_chain(
+            *(("prismatic", (0, 0, 0), a) for a in ((1, 0, 0), (0, 1, 0), (1, 1, 0), (1, 2, 0)))
+        ),
+        "RUR": closed_chain(
+            ("revolute", (0, 0, 0), z),
+            ("universal", (0, 0, 0), (0, 1, 0), (1, 0, 0)),
+            ("revolute", (0, 0, 0), (2, 3, 1)),
+        ),
+        "RCCC": closed_chain(
+            ("revolute", (0, 0, 0), z), *(("cylindrical", *r[1:]) for r in revolutes)
+        ),
+        "RSSR": closed_chain(
+            ("revolute", (0, 0, 0), z),
+            ("spherical", (1, 0, 0)),
+            ("spherical", (1, 2, 1)),
+            revolutes[2],
+        ),
+        "ECRR": closed_chain(
+            ("planar", (0, 0, 0), z), ("cylindrical", *revolutes[0][1:]), *revolutes[1:]
+        ),
+        "four-bar": closed_chain(
+            ("revolute", (0, 0, 0), z),
+            ("rigid", (0, 0, 0)),
+            *(("revolute", p, z) for p in ((0, 1, 0), (2, 1, 0), (2, 0, 0))),
+        ),
+    }

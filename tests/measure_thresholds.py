@@ -22,6 +22,7 @@ import numpy as np
 
 import nag
 from nag.files.cases import read_case
+from nag.solving import judged_ends
 from nag.solving import solve as solving
 from nag.tracking import track as tracking
 from nag.tracking.ends import follow, limits
@@ -115,7 +116,7 @@ def watched(measured: Measured) -> ExitStack:
         measured.add("WHOLE", limits.WHOLE, off[: found - least + 1] if found else off)
 
     def values(found: np.ndarray, *_: Any) -> None:
-        measured.add("ON", solving.ON, found)
+        measured.add("ON", judged_ends.ON, found)
 
     def judged(paths: Any, *_: Any) -> None:
         regular = paths.status == PathStatus.REGULAR
@@ -128,7 +129,7 @@ def watched(measured: Measured) -> ExitStack:
         (follow._States, "known", known),
         (limits.Limits, "of", initial_forms),
         (limits, "_denominator", denominator),
-        (solving, "_residuals", values),
+        (judged_ends, "_residuals", values),
     ]:
         stack.enter_context(patch.object(owner, name, around(getattr(owner, name), note)))
     return stack

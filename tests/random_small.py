@@ -145,7 +145,7 @@ def missing_constants(
     equations: Equations, degrees: Sequence[int], spread: int, rng: Generator
 ) -> list[Polynomial]:
     """The origin is a zero."""
-    return [f - f.constant_value for f in equations]
+    return [f - f((0,) * f.n) for f in equations]
 
 
 def dependent_leading_forms(

@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
+from linkages import case
 
 from nag.bench.decomposition import (
     Decomposed,
@@ -16,7 +17,9 @@ from nag.bench.decomposition import (
     measure_decomposition,
     rhombus_chain,
 )
+from nag.bench.models import measure_models
 from nag.bench.table import decomposition_table as table
+from nag.bench.table import models_table
 from nag.cli import main
 from nag.files.cases import read_case
 
@@ -95,3 +98,17 @@ def test_bad_input_gets_one_line(arguments: list[str], message: str, capsys) -> 
     assert main(["bench", *arguments]) == 2
     error = capsys.readouterr().err
     assert message in error and error.count("\n") == 1
+
+
+def test_models_are_measured_in_every_formulation_that_can_be_tracked():
+    """Bennett: the unreduced constraints ask for a million paths, half-angles for next to none."""
+    rows = measure_models("bennett", case("bennett"), 120, ("H",))
+    assert [r.formulation for r in rows] == ["unreduced", "H"]
+    assert [r.taken for r in rows] == [False, True]
+    unreduced, half = rows
+    assert (unreduced.variables, unreduced.equations) == (21, 23)
+    assert unreduced.paths is unreduced.seconds is None
+    assert (half.variables, half.equations, half.bezout) == (2, 1, 2)
+    assert half.components == ((1, 2, 1),)
+    assert half.complete and half.paths < 10
+    assert any("bennett" in line and "unreduced" in line for line in models_table(rows))

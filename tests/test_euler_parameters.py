@@ -7,11 +7,12 @@ from linkages import case, exact, four_bar, general_loop, loop, spherical_four_b
 
 from nag.algebra.number import is_zero, square_root
 from nag.algebra.polynomial import Polynomial
-from nag.mechanism.euler import euler_parameters, orthogonality, prime_component
+from nag.mechanism.euler import euler_parameters, prime_component
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.loops import loop_structure
 from nag.mechanism.model import ModelError, model
 from nag.mechanism.quaternion import multiply
+from nag.mechanism.unreduced import Placement, joint_constraints
 
 
 def test_bricards_cube_is_16_quadrics_in_16_unknowns():
@@ -54,10 +55,12 @@ def test_prime_component_holds_for_turns_about_the_joint_and_not_for_the_other_m
     structure = loop_structure(case("bennett"))
     mechanism = structure.mechanism
     n = 4 * len(structure.moving)
-    parameters = euler_parameters(structure)
+    parameters = euler_parameters(structure, n)
     joint = next(j for j in structure.joints if j.name == "J2")
     component = prime_component(structure, parameters, joint)
-    both = orthogonality(structure, parameters, joint)
+    origin = (Polynomial(n, {}),) * 3
+    places = [Placement(parameters[b], origin, mechanism.orientation(b)) for b in joint.bodies]
+    both = joint_constraints(joint, *places)[3:]
     assert (len(component), len(both)) == (2, 2)
     assert [f.degree for f in component] == [2, 2]
     assert [f.degree for f in both] == [4, 4]
@@ -82,13 +85,13 @@ def test_sign_changes_are_symmetries_of_the_reduced_system():
         variables = Polynomial.variables(m.system.n)
         for choice in product((False, True), repeat=2):
             images = variables
-            for signs, used in zip(m.symmetries, choice, strict=False):
+            for symmetry, used in zip(m.symmetries, choice, strict=False):
                 if used:
-                    images = [x * s for x, s in zip(images, signs, strict=True)]
+                    images = symmetry.of_point(images)
             for f in m.system.polynomials:
                 assert f.compose(images) in (f, -f)
         # Every variable belongs to one body.
-        assert np.all(np.sum(np.array(m.symmetries) < 0, axis=0) == 1)
+        assert np.all(np.sum(np.array([g.signs for g in m.symmetries]) < 0, axis=0) == 1)
 
 
 def test_half_angles_and_the_plane_have_no_sign_group():
@@ -97,7 +100,7 @@ def test_half_angles_and_the_plane_have_no_sign_group():
 
 
 def test_spherical_loops_close_by_themselves():
-    m = model(spherical_four_bar())
+    m = model(spherical_four_bar(), "E")
     assert (m.space, m.formulation) == ("spherical", "E")
     # 12 Euler parameters, 4 of them solved for; 3 norms and 2 joints of two moving bodies.
     assert (m.system.n, len(m.system.polynomials)) == (8, 7)
@@ -113,7 +116,7 @@ def test_two_loops_in_space():
         for i, j in enumerate(second.joints)
         if set(j.bodies) != {"B4", "B0"}
     ]
-    m = model(Mechanism("B0", (*first.joints, *chain)))
+    m = model(Mechanism("B0", (*first.joints, *chain)), "E")
     assert (m.formulation, len(m.structure.loops)) == ("E", 2)
     # 9 moving bodies; two equations for each of 3 joints at the ground are solved for.
     assert len(m.structure.moving) == 9

@@ -22,7 +22,9 @@ CURVES = {
     "a double cover of the line": ("x y", "y^2 - x^5 - x - 1", 2),
     "two quadrics": ("x y z", "x^2 + y^2 + z^2 - 1, x*y - z", 1),
     "a twisted cubic": ("x y z", "y - x^2, z - x^3", 0),
-    "a space curve on a cubic and a quadric": ("x y z", "x*y - z^2 - 1, x^3 + y^3 + z^3 - 2", 4),
+    # A quadric and a cubic meet in a curve of genus 4, less one for each point where they touch.
+    "a quadric and a cubic": ("x y z", "x*y - z^2 - 1, x^3 + y^3 + z^3 - 5", 4),
+    "a quadric and a cubic that touch": ("x y z", "x*y - z^2 - 1, x^3 + y^3 + z^3 - 2", 1),
 }
 
 

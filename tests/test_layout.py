@@ -1,4 +1,4 @@
-"""The packages' imports run one way."""
+"""The packages' imports run one way, and files and functions are of a size to be read."""
 
 import ast
 from collections.abc import Iterator
@@ -9,6 +9,7 @@ import pytest
 NAG = Path(__file__).parents[1] / "nag"
 # Each package imports those before it and itself alone.
 ORDER = (
+    "text",
     "machine_code",
     "algebra",
     "numerics",
@@ -19,6 +20,7 @@ ORDER = (
     "mechanism",
     "files",
     "report",
+    "interface",
     "bench",
     "cli",
 )
@@ -48,3 +50,56 @@ def test_packages_import_only_what_is_before_them(package: str) -> None:
         if ".".join(module.split(".")[:2]) in later
     ]
     assert backwards == []
+
+
+# Lines of a file, lines of a function with its docstring, arguments of a function without self.
+MOST_LINES, MOST_FUNCTION_LINES, MOST_ARGUMENTS = 400, 60, 7
+# What is larger still, with its size: each entry may only shrink, and goes when it fits.
+LARGER = {
+    "cli/decompose.py: lines of run": 66,
+    "decomposition/assembly.py: arguments of assembled": 8,
+    "decomposition/diagonal.py: arguments of _take": 9,
+    "decomposition/discovery.py: lines of by_sampling": 110,
+    "decomposition/discovery.py: arguments of _found": 9,
+    "decomposition/final_checks.py: lines of checked_witness_set": 62,
+    "decomposition/intersection.py: arguments of intersect_components": 8,
+    "decomposition/intersection.py: lines of intersect_equations": 62,
+    "decomposition/superset.py: lines of witness_superset": 67,
+    "decomposition/superset.py: arguments of witness_superset": 9,
+    "tracking/ends/end_run.py: lines": 464,
+    "tracking/ends/follow.py: arguments of follow": 8,
+    "tracking/ends/follow.py: lines of _run": 65,
+    "tracking/newton_kernel.py: lines of newton_batch": 71,
+    "tracking/taylor.py: lines": 512,
+    "tracking/taylor.py: arguments of _block": 9,
+    "witness/cutting.py: arguments of _regular_subset": 8,
+    "witness/moving.py: lines of witness_at": 61,
+    "witness/real_points.py: lines of real_points_near": 64,
+    "witness/real_points.py: arguments of real_points_near": 8,
+}
+
+
+def sizes() -> Iterator[tuple[str, int, int]]:
+    """Each file and function: what is measured, its size, the most it may be."""
+    for file in sorted(NAG.rglob("*.py")):
+        where, text = file.relative_to(NAG).as_posix(), file.read_text("utf-8")
+        yield f"{where}: lines", len(text.splitlines()), MOST_LINES
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                lines = node.end_lineno - node.lineno + 1
+                given = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+                arguments = sum(a.arg not in ("self", "cls") for a in given)
+                yield f"{where}: lines of {node.name}", lines, MOST_FUNCTION_LINES
+                yield f"{where}: arguments of {node.name}", arguments, MOST_ARGUMENTS
+
+
+def test_files_and_functions_are_of_a_size_to_be_read() -> None:
+    grown = [
+        f"{what}: {size}" for what, size, most in sizes() if size > max(most, LARGER.get(what, 0))
+    ]
+    assert grown == []
+
+
+def test_what_was_too_large_and_fits_now_is_no_longer_excepted() -> None:
+    too_large = {what for what, size, most in sizes() if size > most}
+    assert sorted(set(LARGER) - too_large) == []

@@ -68,7 +68,7 @@ def test_multiplicities_are_those_of_the_monomial_ideal(of, point, codimension, 
 def test_gradients_that_depend_on_each_other_show_no_multiplicity() -> None:
     of = system("x y", "x^2 - y^3", "y^2 - x^3")
     origin = np.zeros(2, dtype=complex)
-    ideal = local_ideal([factored(f) for f in of.polynomials], lambda f: f.constant_value == 0)
+    ideal = local_ideal([factored(f) for f in of.polynomials], lambda f: f((0, 0)) == 0)
 
     def independent(polynomials) -> bool:
         return independent_gradients(polynomials, origin, 1e-12)

@@ -54,7 +54,7 @@ def test_the_first_axis_of_each_frame_lies_along_its_link(name):
     [
         ("bennett", "spatial", "H"),
         ("bricard-cube", "spatial", "H"),
-        ("planar-four-bar", "planar", "E"),
+        ("planar-four-bar", "planar", "H"),
     ],
 )
 def test_the_model_that_is_chosen(name, space, formulation):

@@ -40,24 +40,45 @@ def test_unknown_names_are_attribute_errors() -> None:
         "nag.algebra",
         "nag.decomposition",
         "nag.files",
+        "nag.interface",
         "nag.machine_code",
         "nag.mechanism",
         "nag.numerics",
         "nag.report",
         "nag.solving",
+        "nag.text",
         "nag.tracking",
         "nag.witness",
     ],
 )
 def test_packages_load_nothing_heavy(package: str) -> None:
-    code = (
-        f"import sys, {package}; "
-        "print(*sorted({'llvmlite', 'scipy', 'networkx', 'matplotlib'} & set(sys.modules)))"
-    )
+    heavy = {"llvmlite", "scipy", "networkx", "matplotlib", "sympy"}
+    code = f"import sys, {package}; print(*sorted({heavy} & set(sys.modules)))"
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True
     )
     assert done.stdout == "\n"
+
+
+RUN = """
+import sys
+from nag.cli import main
+assert main([*sys.argv[1:], "--quiet"]) == 0
+unused = {"jsonschema", "matplotlib", "mpmath", "networkx", "scipy", "nag.machine_code.functions"}
+print("loaded:", *sorted(unused & set(sys.modules)), file=sys.stderr)
+"""
+
+
+@pytest.mark.parametrize(
+    "command", ["decompose cases/bennett.toml", "solve cases/benchmarks/katsura-8.toml"]
+)
+def test_a_warm_run_loads_no_library_that_it_does_not_use(command: str) -> None:
+    arguments = [sys.executable, "-c", RUN, *command.split()]
+    for _ in range(2):
+        done = subprocess.run(
+            arguments, cwd=ROOT, capture_output=True, text=True, timeout=120, check=True
+        )
+    assert done.stderr == "loaded:\n"
 
 
 def test_schema_is_a_schema_of_the_format_that_is_written() -> None:
@@ -132,9 +153,10 @@ def test_the_cases_of_the_readme_give_what_they_say_is_known(text: str, tmp_path
     assert re.search(r"^known +agrees with what is known: ", capsys.readouterr().out, re.MULTILINE)
 
 
-def test_the_program_of_the_readme_runs(tmp_path, monkeypatch) -> None:
-    (program,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+def test_the_programs_of_the_readme_run(tmp_path, monkeypatch) -> None:
+    programs = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
     (tmp_path / "cases").symlink_to(ROOT / "cases")
     monkeypatch.chdir(tmp_path)
-    exec(compile(program, "README.md", "exec"), {})
+    for program in programs:
+        exec(compile(program, "README.md", "exec"), {})
     assert (tmp_path / "bennett.json").is_file()

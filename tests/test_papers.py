@@ -93,12 +93,11 @@ def test_half_angles_and_euler_parameters_of_bennett_agree_signs_counted() -> No
     euler, euler_answer = decomposed("bennett", "E")
     assert len(half_answer.components) == 1
     hits = np.zeros(len(euler_answer.components), dtype=int)
-    names = euler.system.variables
     configuration = half.lift(list(half_answer.components[0].points[0]))
-    full = np.array(euler.unreduced_point(configuration), dtype=complex)
-    place = [euler.unreduced.variables.index(name) for name in names]
-    for sign in signs(3):
-        turned = (full.reshape(3, 4) * np.array(sign)[:, None]).ravel()[place]
+    point = np.array(euler.project(configuration), dtype=complex)
+    for chosen in product((False, True), repeat=3):
+        flips = [s for s, used in zip(euler.symmetries, chosen, strict=True) if used]
+        turned = point * np.prod([np.ones(len(point)), *flips], axis=0)
         for k in components_through(euler_answer, turned):
             hits[k] += 1
     assert hits.sum() == euler.sign_group == 8

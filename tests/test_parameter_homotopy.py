@@ -38,7 +38,6 @@ def test_multiple_solutions_for_special_parameters_have_their_multiplicity() -> 
 
 def test_parameters_may_enter_in_any_degree() -> None:
     solved = solve_generic(NONLINEAR, seed=3)
-    assert not NONLINEAR.linear
     (result,) = solve_family(solved, [(Fraction(2), Fraction(7))])
     assert sorted(np.rint(result.points.real.ravel())) == [4, 7]
     assert np.abs(result.points - np.rint(result.points.real)).max() < 1e-12

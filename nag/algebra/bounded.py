@@ -8,8 +8,6 @@ from fractions import Fraction
 from math import log10
 from typing import NoReturn
 
-import mpmath
-
 from nag.algebra.number import Irrational, Number, is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.tokens import ExpressionError, quote
@@ -168,6 +166,8 @@ def checked(value: Number) -> Number:
 def representable(value: Number) -> Number:
     """``value``, if a double can hold it."""
     if isinstance(value, Irrational):
+        import mpmath
+
         near = abs(value.evaluate(15))
         size = int(mpmath.log(near, 2)) if near else 0
     else:

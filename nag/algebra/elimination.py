@@ -31,11 +31,6 @@ class Elimination:
     kept: tuple[int, ...]
     images: tuple[Polynomial, ...]
 
-    @property
-    def linear(self) -> bool:
-        """Whether every image has degree at most one, so that degrees are kept."""
-        return all(image.degree <= 1 for image in self.images)
-
     def lift(self, point: Sequence[Any]) -> Any:
         """The point of the original space above ``point``.
 

@@ -40,12 +40,6 @@ class Family:
         """Number of unknowns."""
         return len(self.variables)
 
-    @property
-    def linear(self) -> bool:
-        """Whether all coefficients are polynomials of degree one in the parameters."""
-        indices = range(self.n, self.n + len(self.parameters))
-        return all(f.degree_in(indices) <= 1 for f in self.polynomials)
-
     def terms(self, values: Sequence[Number | complex]) -> tuple[Terms, ...]:
         """The equations' terms where the parameters have these values."""
         result = []

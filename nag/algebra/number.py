@@ -8,8 +8,6 @@ from fractions import Fraction
 from math import isqrt
 from typing import Any
 
-import mpmath
-
 # Two expressions are taken to be equal when they agree to this many digits; a rational identity
 # between square roots of case-file numbers that holds so far and then fails is not to be expected.
 EQUALITY_DIGITS = 60
@@ -20,10 +18,18 @@ _GUARDS = (10, 40, 40 + EQUALITY_DIGITS)
 # Square factors of radicands are looked for below this bound: sqrt(12) is 2*sqrt(3).
 _SQUARE_BOUND = 200
 
+
+def _mpmath() -> Any:
+    # Loading it takes longer than what is done with rational numbers alone.
+    import mpmath
+
+    return mpmath
+
+
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
-    "sqrt": mpmath.sqrt,
-    "sin": mpmath.sin,
-    "cos": mpmath.cos,
+    "sqrt": lambda a: _mpmath().sqrt(a),
+    "sin": lambda a: _mpmath().sin(a),
+    "cos": lambda a: _mpmath().cos(a),
     "+": lambda a, b: a + b,
     "*": lambda a, b: a * b,
     "/": lambda a, b: a / b,
@@ -56,17 +62,17 @@ class Irrational:
 
     def _evaluate(self, digits: int) -> Any:
         for guard in _GUARDS:
-            with mpmath.workdps(digits + guard + 5):
+            with _mpmath().workdps(digits + guard + 5):
                 if self.operation == "pi":
-                    return +mpmath.pi
+                    return +_mpmath().pi
                 values = [to_mpf(a, digits + guard) for a in self.arguments]
                 value = _FUNCTIONS[self.operation](*values)
                 if self.operation not in _CANCELLING:
                     return value
                 scale = max(abs(v) for v in values)
-                if abs(value) > scale * mpmath.mpf(10) ** (5 - guard):
+                if abs(value) > scale * _mpmath().mpf(10) ** (5 - guard):
                     return value
-        return mpmath.mpf(0)
+        return _mpmath().mpf(0)
 
     @property
     def size(self) -> int:
@@ -158,18 +164,19 @@ class Irrational:
 
     def __hash__(self) -> int:
         # A number that equals a fraction must hash like it.
-        with mpmath.workdps(EQUALITY_DIGITS):
+        with _mpmath().workdps(EQUALITY_DIGITS):
             value = self.evaluate(EQUALITY_DIGITS)
             if abs(value) < 10**15:
-                near = Fraction(int(mpmath.nint(value * 10**40)), 10**40).limit_denominator(10**15)
+                digits = int(_mpmath().nint(value * 10**40))
+                near = Fraction(digits, 10**40).limit_denominator(10**15)
                 if self == near:
                     return hash(near)
-            return hash(mpmath.nstr(value, 20))
+            return hash(_mpmath().nstr(value, 20))
 
     def _sign_of_difference(self, other: Number | int) -> int:
         difference = self - other
         if isinstance(difference, Irrational):
-            return int(mpmath.sign(difference.evaluate(EQUALITY_DIGITS)))
+            return int(_mpmath().sign(difference.evaluate(EQUALITY_DIGITS)))
         return (difference > 0) - (difference < 0)
 
     def __lt__(self, other: Number | int) -> bool:
@@ -252,9 +259,9 @@ def to_mpf(value: Number | int, digits: int) -> Any:
     """``value`` as an `mpmath.mpf` with at least ``digits`` digits."""
     if isinstance(value, Irrational):
         return value.evaluate(digits)
-    with mpmath.workdps(digits + 10):
+    with _mpmath().workdps(digits + 10):
         value = Fraction(value)
-        return mpmath.mpf(value.numerator) / value.denominator
+        return _mpmath().mpf(value.numerator) / value.denominator
 
 
 def is_zero(value: Number | int) -> bool:

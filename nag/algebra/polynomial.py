@@ -146,11 +146,6 @@ class Polynomial:
         """Whether every coefficient is rational."""
         return all(isinstance(c, Fraction) for c in self.terms.values())
 
-    @property
-    def constant_value(self) -> Number:
-        """The coefficient of the constant term."""
-        return self.terms.get((0,) * self.n, Fraction(0))
-
     def derivative(self, index: int) -> Polynomial:
         terms = {}
         for e, c in self.terms.items():

@@ -150,7 +150,7 @@ def check_symmetry(system: PolynomialSystem, g: SignedPermutation) -> None:
         raise SymmetryError(f"it moves {g.n} variables, the system has {system.n}")
     for i, f in enumerate(system.polynomials):
         image = g.of_polynomial(f)
-        if not _in_span(image, system.polynomials):
+        if not in_span(image, system.polynomials):
             place = "it" if len(system.polynomials) == 1 else f"equation {i + 1}"
             raise SymmetryError(f"{place} does not become a combination of the equations")
     for f in system.nonzero:
@@ -173,7 +173,7 @@ def _proportional(f: Polynomial, g: Polynomial) -> bool:
     return all(is_zero(f.terms[e] * q - g.terms[e] * p) for e in f.terms)
 
 
-def _in_span(f: Polynomial, equations: Sequence[Polynomial]) -> bool:
+def in_span(f: Polynomial, equations: Sequence[Polynomial]) -> bool:
     if any(_proportional(f, g) for g in equations):
         return True
     if not f.exact:

@@ -70,3 +70,13 @@ class PolynomialSystem:
     def text(self) -> list[str]:
         """The polynomials as text."""
         return [f.text(self.variables) for f in self.polynomials]
+
+    def __repr__(self) -> str:
+        from nag.algebra.shown import system_text
+
+        return system_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.algebra.shown import system_html
+
+        return system_html(self)

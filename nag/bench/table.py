@@ -9,6 +9,7 @@ from nag.report.table import align
 if TYPE_CHECKING:
     from nag.bench.decomposition import Decomposed, PeerDecomposed
     from nag.bench.measure import Measured
+    from nag.bench.models import Formulated
     from nag.bench.peers import Peer
 
 
@@ -80,6 +81,31 @@ def decomposition_table(rows: list[Decomposed], peers: dict[str, PeerDecomposed]
             "x: how many times as long numericalIrreducibleDecomposition of M2 takes, once."
         )
     return text
+
+
+def models_table(rows: list[Formulated]) -> list[str]:
+    """Mechanisms in all formulations as aligned lines, times in seconds of the processor."""
+    from nag.report.formulations import large
+
+    head = ["mechanism", "formulation", "variables", "equations", "Bezout", "at most", "paths"]
+    lines = [[*head, "seconds", "dimension x degree: count", ""]]
+    previous = ""
+    for row in rows:
+        numbers = [row.variables, row.equations, row.bezout, row.estimate]
+        cells = [row.case if row.case != previous else "", row.formulation]
+        cells += [large(number) for number in numbers]
+        cells.append("-" if row.paths is None else str(row.paths))
+        cells.append("-" if row.seconds is None else f"{row.seconds:.3f}")
+        cells.append(", ".join(f"{d} x {degree}: {count}" for d, degree, count in row.components))
+        cells.append("taken" if row.taken else "")
+        lines.append(cells)
+        previous = row.case
+    return [
+        *align(lines, {0, 1, 8, 9}),
+        "",
+        "at most: paths that equation by equation are tracked, if no witness point is lost; -: not",
+        "tracked, or not in time; seconds: processor time, warm, one thread, model included.",
+    ]
 
 
 def growth_table(rows: list[Decomposed]) -> list[str]:

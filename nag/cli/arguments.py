@@ -7,6 +7,8 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
+from nag.mechanism.formulation_names import FORMULATIONS
+
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.model import Model
@@ -62,18 +64,34 @@ def _available_threads() -> int:
     return min(os.cpu_count() or 1, MOST_THREADS)
 
 
+def _setting(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name.strip() and equals and value.strip()):
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not of the form NAME=VALUE")
+    return name.strip(), value.strip()
+
+
 def add_case(parser: argparse.ArgumentParser) -> None:
     """The case file and the formulation of its model."""
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     add_formulation(parser)
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        type=_setting,
+        metavar="NAME=VALUE",
+        help="another value of a parameter of the case, a number or an expression; may be repeated",
+    )
 
 
 def add_formulation(parser: argparse.ArgumentParser) -> None:
     """The formulation of a mechanism's model."""
     parser.add_argument(
         "--formulation",
-        choices=("E", "H"),
-        help="model of a mechanism: E Euler parameters, H half angles (default: the smaller one)",
+        choices=tuple(FORMULATIONS),
+        help="model of a mechanism (default: the one with the fewest paths): "
+        + "; ".join(f"{name} {text}" for name, text in FORMULATIONS.items()),
     )
 
 
@@ -103,7 +121,7 @@ def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
     from nag.files.cases import CaseError, read_case
 
     try:
-        case = read_case(arguments.case)
+        case = read_case(arguments.case, dict(getattr(arguments, "set", ())))
     except CaseError as error:
         raise UsageError(str(error)) from None
     except OSError as error:

@@ -6,8 +6,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from nag.cli import bench_decompose
-from nag.cli.arguments import UsageError, check_json
+from nag.cli import bench_decompose, bench_models
+from nag.cli.arguments import UsageError, check_json, whole
 
 FOLDER = Path("cases") / "benchmarks"
 # Another program is given up after so many seconds.
@@ -32,8 +32,26 @@ NAMES = (
 )
 
 
+def _seconds(text: str) -> int:
+    return whole(text, 1, 10**6)
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag bench``."""
+    parser.add_argument(
+        "what",
+        nargs="?",
+        choices=("systems", "models"),
+        default="systems",
+        help="the benchmark systems, or every mechanism in every formulation (default: systems)",
+    )
+    parser.add_argument(
+        "--patience",
+        type=_seconds,
+        default=bench_models.PATIENCE,
+        metavar="SECONDS",
+        help="models: time for each formulation (default: %(default)s)",
+    )
     parser.add_argument(
         "--case",
         action="append",
@@ -42,9 +60,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--folder",
-        default=str(FOLDER),
         metavar="DIR",
-        help=f"folder of the benchmarks (default: {FOLDER})",
+        help=f"folder of the benchmarks (default: {FOLDER}; of mechanisms {bench_models.FOLDER})",
     )
     parser.add_argument("--peers", action="store_true", help="run M2 and phc too, where installed")
     parser.add_argument("--json", metavar="FILE", help="write the table to FILE as JSON")
@@ -79,6 +96,10 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """
     if options.json is not None:
         check_json(options.json)
+    if options.what == "models":
+        return bench_models.run(options)
+    if options.folder is None:
+        options.folder = str(FOLDER)
     if options.decompose or options.growth is not None or options.chart is not None:
         return bench_decompose.run(options)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from typing import TYPE_CHECKING
 
 from nag.cli.arguments import (
     UsageError,
@@ -14,6 +15,14 @@ from nag.cli.arguments import (
     read_problem,
     whole,
 )
+from nag.cli.sweep import run as run_sweep
+from nag.cli.sweep import sweep_of
+
+if TYPE_CHECKING:
+    from nag.decomposition.superset import Progress
+    from nag.files.cases import Case
+    from nag.mechanism.model import Model
+    from nag.witness.witness import Decomposition
 
 MOST_STARTS = 10**6
 
@@ -39,10 +48,31 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "systems that are too large; that is never complete (default: complete)",
     )
     parser.add_argument(
+        "--coordinates",
+        choices=("joint", "euler"),
+        help="coordinates of a mechanism's components: those of the joints, or Euler parameters of "
+        "the bodies, to which components in joint coordinates are carried over (default: those of "
+        "the formulation)",
+    )
+    parser.add_argument(
+        "--modes",
+        choices=("reference", "all"),
+        default="reference",
+        help="assembly modes of a mechanism's joints: that of the reference configuration, or "
+        "every combination, one of each class of like ones (default: reference)",
+    )
+    parser.add_argument(
         "--starts",
         type=_starts,
         metavar="N",
         help="with --method sampling: number of random points (default: 100)",
+    )
+    parser.add_argument(
+        "--sweep",
+        type=sweep_of,
+        metavar="NAME=FIRST:LAST:COUNT",
+        help="the components for so many values of a parameter: found for a general value, then "
+        "followed by parameter homotopy",
     )
 
 
@@ -52,12 +82,15 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
+    if arguments.sweep is not None:
+        return run_sweep(arguments)
     started = time.perf_counter()
     if arguments.starts is not None and arguments.method != "sampling":
         raise UsageError("--starts: is for --method sampling")
     if arguments.json is not None:
         check_json(arguments.json, arguments.case)
     case, model = read_problem(arguments)
+    model = _in_coordinates(arguments, case, model)
 
     from nag.cli.progress import compilation_notice, progress_line
 
@@ -65,31 +98,20 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         compilation_notice(sys.stderr, arguments.quiet),
         progress_line(sys.stderr, arguments.quiet) as progress,
     ):
-        from nag.decomposition import decompose
         from nag.decomposition.through import accounted, through_points
-        from nag.files.problem import points_of, symmetries_of, system_of
+        from nag.files.problem import points_of
         from nag.witness.expansion import expanded
 
-        if arguments.method == "sampling":
-            from nag.decomposition import by_sampling
+        if arguments.modes == "all":
+            from nag.cli.all_modes import run_all_modes
 
-            decomposition = by_sampling(
-                system_of(case, model),
-                seed=arguments.seed,
-                threads=arguments.threads,
-                settings=arguments.settings,
-                progress=progress,
-                symmetries=symmetries_of(case, model),
-                **({} if arguments.starts is None else {"starts": arguments.starts}),
-            )
-        else:
-            decomposition = decompose(
-                system_of(case, model),
-                seed=arguments.seed,
-                threads=arguments.threads,
-                settings=arguments.settings,
-                progress=progress,
-                symmetries=symmetries_of(case, model),
+            return run_all_modes(arguments, case, started, progress)
+        decomposition = _decomposed(arguments, case, model, progress)
+        if arguments.coordinates == "euler" and model is not None and model.formulation != "E":
+            from nag.mechanism.coordinates import euler_decomposition
+
+            model, decomposition = euler_decomposition(
+                model, decomposition, threads=arguments.threads
             )
         if arguments.expand:
             decomposition = expanded(decomposition)
@@ -112,3 +134,44 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     if failure is not None:
         raise UsageError(failure, lines)
     return lines, decomposition.complete
+
+
+def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:
+    """The model that is decomposed, in the coordinates that were asked for."""
+    if model is None:
+        for option, value in (("coordinates", None), ("modes", "reference")):
+            if getattr(arguments, option) != value:
+                raise UsageError(
+                    f"{arguments.case}: is a polynomial system; --{option} is for mechanisms"
+                )
+        return None
+    if arguments.modes == "all" and (arguments.expand or arguments.method == "sampling"):
+        option = "--expand" if arguments.expand else "--method sampling"
+        raise UsageError(f"{option}: is not for --modes all")
+    if arguments.coordinates != "joint" or model.formulation == "H":
+        return model
+    if arguments.formulation is not None:
+        raise UsageError(
+            f"--coordinates joint: formulation {model.formulation} has none; use --formulation H"
+        )
+    arguments.formulation = "H"
+    return read_problem(arguments)[1]
+
+
+def _decomposed(
+    arguments: argparse.Namespace, case: Case, model: Model | None, progress: Progress
+) -> Decomposition:
+    from nag.decomposition import by_sampling, decompose
+    from nag.files.problem import symmetries_of, system_of
+
+    options = {
+        "seed": arguments.seed,
+        "threads": arguments.threads,
+        "settings": arguments.settings,
+        "progress": progress,
+        "symmetries": symmetries_of(case, model),
+    }
+    if arguments.method == "sampling":
+        starts = {} if arguments.starts is None else {"starts": arguments.starts}
+        return by_sampling(system_of(case, model), **options, **starts)
+    return decompose(system_of(case, model), **options)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running, check_json
 from nag.cli.witness_input import (
@@ -16,6 +18,9 @@ from nag.cli.witness_input import (
     like,
     write_document,
 )
+
+if TYPE_CHECKING:
+    from nag.witness.witness import Decomposition, WitnessSet
 
 FORMAT = "nag-intersection"
 
@@ -41,14 +46,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         UsageError: for bad input, or an export that cannot be written.
     """
     from nag.cli.progress import compilation_notice, progress_line
-    from nag.report.table import (
-        component_table,
-        labelled,
-        paths_line,
-        printable,
-        remarks,
-        title_line,
-    )
 
     started = time.perf_counter()
     if options.json is not None:
@@ -70,29 +67,51 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
                 )
         except IntersectionError as error:
             raise UsageError(f"{options.case}: {error}") from None
-    undecided = [n for n, c in zip(options.components, pair, strict=True) if c.note]
-    complete = result.complete and not undecided
+    complete = result.complete and not any(component.note for component in pair)
     if options.json is not None:
-        from nag.files.export import component_document
-
-        document = head(found, FORMAT, options) | {
-            "complete": complete,
-            "notes": list(result.notes),
-            "of": [{"number": n, **like(c)} for n, c in zip(options.components, pair, strict=True)],
-            "paths": {
-                "tracked": result.paths.tracked,
-                "failed": result.paths.failed,
-                "at_infinity": result.paths.at_infinity,
-            },
-            "system": {
-                "variables": list(result.system.variables),
-                "polynomials": result.system.text(),
-            },
-            "components": [
-                component_document(c, result.system.variables) for c in result.components
-            ],
-        }
+        document = head(found, FORMAT, options) | _document(options, pair, result, complete)
         write_document(document, options.json)
+    seconds = time.perf_counter() - started
+    top, tail = _rows(options, pair, result, complete, seconds)
+    return _lines(found.title, top, result, tail), complete
+
+
+def _document(
+    options: argparse.Namespace,
+    pair: Sequence[WitnessSet],
+    result: Decomposition,
+    complete: bool,
+) -> dict[str, Any]:
+    from nag.files.export import component_document
+
+    numbered = zip(options.components, pair, strict=True)
+    return {
+        "complete": complete,
+        "notes": list(result.notes),
+        "of": [{"number": n, **like(c)} for n, c in numbered],
+        "paths": {
+            "tracked": result.paths.tracked,
+            "failed": result.paths.failed,
+            "at_infinity": result.paths.at_infinity,
+        },
+        "system": {
+            "variables": list(result.system.variables),
+            "polynomials": result.system.text(),
+        },
+        "components": [component_document(c, result.system.variables) for c in result.components],
+    }
+
+
+def _rows(
+    options: argparse.Namespace,
+    pair: Sequence[WitnessSet],
+    result: Decomposition,
+    complete: bool,
+    seconds: float,
+) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
+    """What is written above the table, and below it."""
+    from nag.report.table import paths_line, remarks, title_line
+
     top = []
     for number, component in zip(options.components, pair, strict=True):
         kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
@@ -100,14 +119,25 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     top.append(("answer", title_line(result) if result.components else "they do not meet"))
     if not complete:
         top.append(("", "INCOMPLETE, see below"))
-    seconds = time.perf_counter() - started
+    undecided = [n for n, c in zip(options.components, pair, strict=True) if c.note]
     tail = [("open", line) for line in remarks(result)]
     tail += [("open", f"component {number} is undecided") for number in undecided]
     tail += [
         ("paths", paths_line(result)),
         ("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"),
     ]
+    return top, tail
+
+
+def _lines(
+    title: str,
+    top: list[tuple[str, str]],
+    result: Decomposition,
+    tail: list[tuple[str, str]],
+) -> list[str]:
+    from nag.report.table import component_table, labelled, printable
+
     width = max(len(label) for label, _ in top + tail)
     table = component_table(result)
-    lines = [printable(found.title), "", *labelled(top, width), ""]
-    return [*lines, *([*table, ""] if table else []), *labelled(tail, width)], complete
+    lines = [printable(title), "", *labelled(top, width), ""]
+    return [*lines, *([*table, ""] if table else []), *labelled(tail, width)]

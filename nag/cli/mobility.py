@@ -87,7 +87,9 @@ def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
         raise
     if case.mechanism is None:
         raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
-    if len(case.mechanism.graph.edges) < len(case.mechanism.graph):
+    from nag.mechanism.loops import loop_structure
+
+    if not loop_structure(case.mechanism).loops:
         if options.at is not None:
             raise UsageError(f"--at: {options.case} has no loop, so that it has no equations")
         return case, None
@@ -105,7 +107,7 @@ def _report(
         return mobility(
             case.mechanism,
             at,
-            formulation=formulation,  # type: ignore[arg-type]
+            formulation=formulation,
             components=not options.local,
             seed=options.seed,
             threads=options.threads,
@@ -119,9 +121,10 @@ def _compared(
     options: argparse.Namespace, case: Case, report: MobilityReport
 ) -> tuple[str, bool, dict[str, Any] | None]:
     """What another formulation says, whether it agrees, and that as a JSON object."""
+    from nag.mechanism.formulation_names import FORMULATIONS
     from nag.mechanism.model import ModelError
 
-    for formulation in ("E", "H"):
+    for formulation in FORMULATIONS:
         if formulation == report.formulation:
             continue
         try:

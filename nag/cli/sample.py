@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from typing import TYPE_CHECKING
 
 from nag.cli.arguments import add_running, check_json
 from nag.cli.witness_input import (
+    Given,
     add_input,
     component_number,
     component_of,
@@ -17,6 +19,10 @@ from nag.cli.witness_input import (
     like,
     write_document,
 )
+
+if TYPE_CHECKING:
+    from nag.witness.sampling import Samples
+    from nag.witness.witness import WitnessSet
 
 FORMAT = "nag-samples"
 MOST_SAMPLES = 1_000_000
@@ -56,7 +62,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         UsageError: for bad input, or an export that cannot be written.
     """
     from nag.cli.progress import compilation_notice
-    from nag.report.table import align, labelled, magnitude, printable
 
     started = time.perf_counter()
     if options.json is not None:
@@ -94,11 +99,25 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         }
         write_document(document, options.json)
     seconds = time.perf_counter() - started
-    wide = system.n > MOST_COLUMNS
-    rows = [["point", *system.variables[:MOST_COLUMNS], *(["..."] if wide else [])]]
+    return _lines(options, found, component, samples, doubt, seconds), complete
+
+
+def _lines(
+    options: argparse.Namespace,
+    found: Given,
+    component: WitnessSet,
+    samples: Samples,
+    doubt: str,
+    seconds: float,
+) -> list[str]:
+    from nag.report.table import align, labelled, magnitude, printable
+
+    variables = found.decomposition.system.variables
+    dots = ["..."] if len(variables) > MOST_COLUMNS else []
+    rows = [["point", *variables[:MOST_COLUMNS], *dots]]
     for i, point in enumerate(samples.points[:MOST_ROWS]):
         cells = [f"{z.real:.6f}{z.imag:+.6f}i" for z in point[:MOST_COLUMNS]]
-        rows.append([str(i + 1), *cells, *(["..."] if wide else [])])
+        rows.append([str(i + 1), *cells, *dots])
     kind = f"{options.component}: dimension {component.dimension}, degree {component.degree}"
     top = [("component", f"{kind}, {component.status}")]
     tail = [
@@ -111,4 +130,4 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         tail.insert(0, ("points", f"{len(samples.points)}, the first {MOST_ROWS} are shown"))
     width = max(len(label) for label, _ in top + tail)
     lines = [printable(found.title), "", *labelled(top, width), "", *align(rows), ""]
-    return [*lines, *labelled(tail, width)], complete
+    return [*lines, *labelled(tail, width)]

@@ -4,6 +4,33 @@ Read in this order: `superset` (equation by equation) on `hypersurface` (one ste
 `irreducible` on `monodromy` and `trace` (splitting), `orbits` (the same up to symmetry);
 `final_checks`; `components`, which puts the answer together. `discovery` and `intersection` begin
 elsewhere and end alike. `branch_components` follows what exact factoring decides.
+
+What can be done with components, beside what they can do themselves (`nag.WitnessSet`):
+
+>>> import nag
+>>> import numpy as np
+>>> from nag.decomposition import (
+...     by_sampling, components_through, intersect_components, intersect_equations,
+...     real_points_near, witness_at,
+... )
+>>> surface = nag.decompose("(x^2 + y^2 - z)*(x - y)")
+>>> system, (plane, bowl) = surface.system, surface.components
+>>> parabola = intersect_components(system, plane, bowl)
+>>> [(c.dimension, c.degree) for c in parabola.components]
+[(1, 2)]
+>>> circle = intersect_equations(system, bowl, nag.system("z = 1", "x y z"))
+>>> [(c.dimension, c.degree) for c in circle.components]
+[(1, 2)]
+>>> [components_through(surface, np.array(p)) for p in ([1, 1, 2], [1, 0, 1])]
+[[0, 1], [1]]
+>>> target = nag.Slice(np.array([[1, 0, 0], [0, 0, 1]]), np.array([1, 3]))  # x = 1, z = 3
+>>> sorted(round(float(y), 6) for y in witness_at(system, bowl, target).points[:, 1].real)
+[-1.414214, 1.414214]
+>>> near = real_points_near(system, bowl, np.array([0.0, 0.0, 2.0]))
+>>> bool(abs(near.distances[0] - np.sqrt(7) / 2) < 1e-6)
+True
+>>> by_sampling(system, starts=10).complete  # others might be missing
+False
 """
 
 from importlib import import_module

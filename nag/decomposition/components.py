@@ -13,7 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import assembled
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
-from nag.decomposition.isolated import contains, isolated_superset
+from nag.decomposition.isolated import contains, is_finite, solved_at_once
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
@@ -41,9 +41,9 @@ def decompose(
     Where equations factor over the rationals, the parts that the system falls into are decomposed
     apart; zeros of polynomials in one variable, and of two equations in two, are isolated exactly
     where they are few. Otherwise linear equations are solved exactly first, and then equations are
-    intersected one by one. Where doubts are left, slices and constants are drawn anew, and the
-    least doubtful answer is given; a finite set of simple points may be found by solving the
-    equations all at once. The same seed gives the same answer, byte for byte, whatever the number
+    intersected one by one. Where doubts are left and only points were found, the equations are
+    solved all at once; else slices and constants are drawn anew, and the least doubtful answer is
+    given. The same seed gives the same answer, byte for byte, whatever the number
     of threads.
 
     Args:
@@ -82,6 +82,11 @@ def _decompose_whole(
 ) -> Decomposition:
     """The components of a system as it is, by attempts with different random numbers."""
     tracker = Tracker(settings, threads)
+    rng = np.random.default_rng([seed, ATTEMPTS])
+    if is_finite(Reduction.of(system, scaled=True).reduced, rng, tracker):
+        points = solved_at_once(system, rng, tracker, symmetries)
+        if points is not None:
+            return replace(points, seed=seed, settings=settings)
     answers: list[Decomposition] = []
     tracked = 0
     for attempt in range(ATTEMPTS):
@@ -91,12 +96,12 @@ def _decompose_whole(
         answers.append(answer)
         if answer.complete or tracked > MOST_PATHS:
             break
-    if not any(a.complete or a.dimension > 0 for a in answers) and tracked <= MOST_PATHS:
-        rng = np.random.default_rng([seed, ATTEMPTS])
-        answer = _decompose_once(system, rng, tracker, progress, symmetries, scheme, isolated=True)
-        tracked += answer.paths.tracked
-        if answer.complete and all(contains(answer, other) for other in answers):
-            answers.append(answer)
+        if not attempt and answer.dimension <= 0:
+            points = solved_at_once(system, rng, tracker, symmetries)
+            if points is not None and contains(points, answer):
+                tracked += points.paths.tracked
+                answers.append(points)
+                break
     best = min(answers, key=lambda a: (not a.complete, _undecided(a), len(a.notes)))
     paths = replace(best.paths, tracked=tracked)
     return replace(best, paths=paths, seed=seed, settings=settings)
@@ -113,20 +118,14 @@ def _decompose_once(
     progress: Progress | None,
     symmetries: Sequence[SignedPermutation],
     scheme: bool,
-    isolated: bool = False,
 ) -> Decomposition:
-    """One attempt; ``isolated``: at a finite set of simple points, all found at once."""
+    """One attempt."""
     reduction = Reduction.of(system, scaled=True)
     reduced = reduction.reduced
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
     flag = random_rows(rng, reduced.n, reduced.n, NEARER)
-    if isolated:
-        superset = isolated_superset(reduced, rng, tracker)
-    else:
-        superset = witness_superset(
-            equations, reduced.n, reduced.nonzero, flag, rng, tracker, progress
-        )
+    superset = witness_superset(equations, reduced.n, reduced.nonzero, flag, rng, tracker, progress)
     notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")

@@ -199,7 +199,9 @@ def _simple_point(
     zero = polish(equations.evaluator, x)
     if not zero.converged:
         return None, PathCounts()
-    return _found(zero.x, [zero.corank], 1e-12, False, pools, equations, flag, rng, tracker)
+    return regular_on_flag(
+        zero.x, [zero.corank], 1e-12, False, pools, equations, flag, rng, tracker
+    )
 
 
 def _multiple_point(
@@ -217,10 +219,10 @@ def _multiple_point(
     s = np.linalg.svd(equations.evaluator.balanced_jacobian(near), compute_uv=False)
     rank = int(np.sum(s > NEARLY_SINGULAR * max(1.0, s.max(initial=0.0))))
     below = range(len(near) - rank - 1, -1, -1)
-    return _found(near, below, 1e-7, True, pools, equations, flag, rng, tracker)
+    return regular_on_flag(near, below, 1e-7, True, pools, equations, flag, rng, tracker)
 
 
-def _found(
+def regular_on_flag(
     x: np.ndarray,
     dimensions: Iterable[int],
     accuracy: float,
@@ -231,6 +233,16 @@ def _found(
     rng: np.random.Generator,
     tracker: Tracker,
 ) -> tuple[tuple[int, Cut, np.ndarray] | None, PathCounts]:
+    """Dimension, cut and point on the common slice of a component through ``x``.
+
+    Args:
+        x: a solution.
+        dimensions: those that the component may have; the first fits in which ``x`` is regular.
+        accuracy: relative error of ``x``.
+        deflate: whether deflation may make it regular.
+        pools: points found so far, by dimension.
+        flag: the common slices, one row for each dimension.
+    """
     local = _local(x, dimensions, accuracy, deflate, pools, equations, rng)
     if local is None:
         return None, PathCounts()

@@ -1,53 +1,108 @@
-"""Sets of simple isolated points, found all at once by the paths of a start system.
+"""Finite solution sets, found all at once by the paths of a start system.
 
 Equation by equation, one badly conditioned point on the way may spoil what comes after it. Where
-the whole solution set is finite and reduced, solving the system as a whole is another way to it.
+the whole solution set is finite, solving the system as a whole is another way to it.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
+
 import numpy as np
 
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.superset import Superset
+from nag.decomposition.symmetric_images import in_orbits
+from nag.solving.solutions import Solution
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError
-from nag.witness.cutting import Equations
-from nag.witness.fibres import Fibre, Tracker, admit
-from nag.witness.witness import Decomposition, PathCounts, Status
+from nag.witness.cutting import dyadic, numerical_corank
+from nag.witness.fibres import Tracker
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 # Solutions that are the same, found by two ways: relative distance.
 SAME = 1e-8
+# Singular values of a Jacobian, relative to its size, that count as zero at a multiple point.
+ZERO = 1e-9
+# Values of an equation, beside their terms, that are certainly not zero.
+NONZERO = 1e-6
 
 
-def isolated_superset(
-    system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker
-) -> Superset:
-    """All points of a solution set, if it is finite and every one of them is simple.
+def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker) -> bool:
+    """Whether the zero set of as many equations as variables is seen to be finite.
 
-    Where this is not so, or the solver has doubts, there are no points but a note that says it.
+    A set of positive dimension meets a generic hyperplane. What all equations but one leave there
+    must be finite too, and the last equation must vanish nowhere on it.
     """
-    rows = np.zeros((0, 1 + system.n), dtype=complex)
-    nothing = Superset({}, rows, PathCounts(), ("no finite set of simple points was found",))
+    n = system.n
+    if n < 2 or len(system.polynomials) != n:
+        return False
+    hardest = max(range(n), key=lambda i: (system.polynomials[i].degree, -i))
+    others = [f for i, f in enumerate(system.polynomials) if i != hardest]
+    plane = Polynomial.constant(n, Fraction(float(dyadic(rng, (1,))[0])))
+    for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
+        plane = plane + x * Fraction(float(weight))
+    cut = PolynomialSystem(system.variables, (*others, plane))
+    seed = int(rng.integers(2**31))
+    try:
+        found = solve(cut, seed=seed, threads=tracker.threads, settings=tracker.settings)
+    except StartError:
+        return False
+    if not found.complete or found.positive_dimensional:
+        return False
+    last = Evaluator.of([system.polynomials[hardest]], n)
+    return bool((last.residuals(found.points) > NONZERO).all())
+
+
+def solved_at_once(
+    system: PolynomialSystem,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    symmetries: Sequence[SignedPermutation],
+) -> Decomposition | None:
+    """The points of a solution set, if it is finite and the solver has no doubts."""
     if len(system.polynomials) < system.n:
-        return nothing
+        return None
     seed = int(rng.integers(2**31))
     try:
         found = solve(system, seed=seed, threads=tracker.threads, settings=tracker.settings)
     except StartError:
-        return nothing
-    counts = PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
-    simple = all(s.multiplicity == 1 for s in found.solutions)
-    if not found.complete or found.positive_dimensional or not simple:
-        return nothing
-    fibres: list[Fibre] = []
-    equations = Equations(system.polynomials, system.n)
-    for s in found.solutions:
-        if not admit(s.point, s.accuracy, fibres, equations, rows, rng, deflate=False):
-            return nothing
-    if sum(map(len, fibres)) != len(found.solutions):
-        return nothing
-    return Superset({0: fibres}, rows, counts, ())
+        return None
+    if not found.complete or found.positive_dimensional:
+        return None
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    components = [_component(s, evaluator, system) for s in found.solutions]
+    if symmetries:
+        components = in_orbits(system, components, symmetries)
+    return Decomposition(
+        system=system,
+        components=tuple(components),
+        paths=PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity),
+        seed=0,
+        settings=tracker.settings,
+        order=(),
+        complete=True,
+    )
+
+
+def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSystem) -> WitnessSet:
+    n, corank = system.n, 0
+    if solution.multiplicity > 1:
+        s = np.linalg.svd(evaluator.balanced_jacobian(solution.point), compute_uv=False)
+        corank = max(numerical_corank(s, n, ZERO), 1)
+    return WitnessSet(
+        slice=Slice(np.zeros((0, n)), np.zeros(0)),
+        points=solution.point[None],
+        multiplicity=solution.multiplicity,
+        status=Status.IRREDUCIBLE,
+        residual=solution.residual,
+        accuracy=solution.accuracy,
+        corank=corank,
+        multidegree=np.array(1) if system.groups else None,
+    )
 
 
 def contains(answer: Decomposition, other: Decomposition) -> bool:

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from nag.witness.fibres import Tracker
 from nag.witness.points import Points, moved_points
@@ -17,6 +16,8 @@ from nag.witness.witness import PathCounts
 # farther; it is none of them when it is farther than the second bound from all.
 NEAR = 1e-6
 FAR = 1e-4
+# Above so many distances a tree is searched.
+MOST_DISTANCES = 100_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,14 +42,28 @@ def located(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
     """
     if len(ends) == 0 or points.shape[1] == 0:
         return np.zeros(len(ends), dtype=int)
-    tree = cKDTree(np.hstack([points.real, points.imag]))
-    distances, indices = tree.query(np.hstack([ends.real, ends.imag]), k=[1, 2])
-    nearest, closest = indices[:, 0], distances[:, 0]
+    nearest, closest, next_one = _two_nearest(ends, points)
     scale = 1 + np.linalg.norm(points[nearest], axis=1)
-    hit = (closest < NEAR * scale) & (closest < 1e-3 * distances[:, 1])
+    hit = (closest < NEAR * scale) & (closest < 1e-3 * next_one)
     if not (hit | (closest > FAR * scale)).all():
         return None
     return np.where(hit, nearest, -1)
+
+
+def _two_nearest(ends: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The nearest point of each end, its distance, and that of the next one."""
+    if len(ends) * len(points) <= MOST_DISTANCES:
+        distances = np.linalg.norm(ends[:, None] - points[None], axis=2)
+        nearest = distances.argmin(axis=1)
+        rows = np.arange(len(ends))
+        closest = distances[rows, nearest]
+        distances[rows, nearest] = np.inf
+        return nearest, closest, distances.min(axis=1)
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(np.hstack([points.real, points.imag]))
+    distances, indices = tree.query(np.hstack([ends.real, ends.imag]), k=[1, 2])
+    return indices[:, 0], distances[:, 0], distances[:, 1]
 
 
 def loop(

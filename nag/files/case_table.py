@@ -14,6 +14,8 @@ from typing import Any, NoReturn
 from nag.algebra.number import Number
 from nag.algebra.tokens import ExpressionError, is_name, nearest, quote
 
+ReadNumber = Callable[[Any], Number]
+
 MAX_BYTES = 500_000
 MAX_ENTRIES = 500
 # The TOML reader takes quadratic time over the parts of a dotted key.

@@ -9,11 +9,8 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from decimal import Decimal
 from fractions import Fraction
-from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 from nag.algebra.expression import Budget, parse_number, parse_polynomial
@@ -22,16 +19,22 @@ from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.tokens import is_name, names_in, nearest, quote
-from nag.files.case_table import CaseError, Table, kind_of, read_toml, shown
+from nag.algebra.tokens import is_name, nearest, quote
+from nag.files.assembly_case import KEYS as ASSEMBLY_KEYS
+from nag.files.assembly_case import read_assembly
+from nag.files.case_table import CaseError, Table, kind_of, read_toml
+from nag.files.parameters import read_parameters, with_values
+from nag.mechanism.formulation_names import FORMULATIONS
 
 if TYPE_CHECKING:
     from nag.files.case_family import CaseFamily
+    from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.graph import Mechanism
 
 __all__ = ["Case", "CaseError", "NamedPoint", "Truth", "read_case"]
 
-_KINDS = ("system", "mechanism")
+Kind = Literal["system", "mechanism", "dh", "framework", "linkage"]
+
 _KEYS = {
     "system": (
         "title",
@@ -46,6 +49,7 @@ _KEYS = {
         "truth",
     ),
     "mechanism": ("title", "kind", "ground", "parameters", "joint", "body", "truth"),
+    **ASSEMBLY_KEYS,
 }
 _TRUTH_KEYS = (
     "dimension",
@@ -91,14 +95,16 @@ class Truth:
 
 @dataclass(frozen=True)
 class Case:
-    """A case file, read and checked. Either `system` or `mechanism` is there, as `kind` says.
+    """A case file, read and checked. Either `system` or `mechanism` is there.
 
     `symmetries` are those that the file declares; each was verified exactly on the equations.
-    `family` is the one that the file declares the system to belong to.
+    `family` is the one that the file declares the system to belong to. Where the file gives the
+    parts of a mechanism but not how they are assembled, `system` is that of `assembly`. What the
+    file says is known is left out where parameters were given other values.
     """
 
     title: str
-    kind: Literal["system", "mechanism"]
+    kind: Kind
     path: Path
     parameters: Mapping[str, Number]
     system: PolynomialSystem | None = None
@@ -107,31 +113,53 @@ class Case:
     truth: tuple[Truth, ...] = ()
     symmetries: tuple[SignedPermutation, ...] = ()
     family: CaseFamily | None = None
+    assembly: AssemblyModel | None = None
 
 
-def read_case(path: str | os.PathLike[str]) -> Case:
+def read_case(
+    path: str | os.PathLike[str], values: Mapping[str, str | Number] | None = None
+) -> Case:
     """Read the case file at ``path``.
 
+    Args:
+        values: numbers or expressions for some of the parameters, in place of the file's.
+
     Raises:
-        CaseError: if it cannot be read or makes no sense.
+        CaseError: if it cannot be read or makes no sense; one line says where and what would be
+            right.
+
+    >>> import nag
+    >>> case = nag.read_case("cases/slider-crank.toml")
+    >>> case.kind, case.system.n, [point.name for point in case.points]
+    ('system', 6, ['singular, s1 = -1', 'singular, s1 = 1'])
     """
     path = Path(path)
     top = Table(str(path), "", read_toml(path))
     top.allow(sorted({key for keys in _KEYS.values() for key in keys}))
     kind = top.text("kind")
-    if kind not in _KINDS:
-        top.fail("kind", f"{quote(kind)} is no kind of case; write 'system' or 'mechanism'")
+    if kind not in _KEYS:
+        top.fail("kind", f"{quote(kind)} is no kind of case; write one of {', '.join(_KEYS)}")
     for key in sorted(top.values.keys() - set(_KEYS[kind])):
-        other = next(k for k in _KINDS if k != kind)
+        other = next(k for k, keys in _KEYS.items() if key in keys)
         top.fail(key, f"belongs to a case of kind {other!r}; leave it out")
     title = top.text("title")
     budget = Budget()
-    parameters = _read_parameters(top.table("parameters"), budget)
-    numbers = _Numbers(parameters, budget)
+    table = top.table("parameters")
+    parameters = read_parameters(table, budget)
     truth = _read_truth(top, kind)
+    if values:
+        changed = read_parameters(with_values(table, values), budget)
+        truth = truth if changed == parameters else ()
+        parameters = changed
+    numbers = _Numbers(parameters, budget)
     if kind == "mechanism":
-        mechanism = _read_mechanism(top, numbers)
+        from nag.files.mechanism_case import read_mechanism
+
+        mechanism = read_mechanism(top, numbers.number)
         return Case(title, "mechanism", path, parameters, mechanism=mechanism, truth=truth)
+    if kind in ASSEMBLY_KEYS:
+        made = read_assembly(kind, top, numbers.number)
+        return _assembly_case(made, title=title, kind=kind, path=path, truth=truth, of=parameters)
     system, family = _read_system(top, numbers)
     return Case(
         title,
@@ -143,6 +171,33 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         truth=truth,
         symmetries=_read_symmetries(top, system),
         family=family,
+    )
+
+
+def _assembly_case(
+    made: AssemblyModel | Mechanism,
+    *,
+    title: str,
+    kind: Kind,
+    path: Path,
+    truth: tuple[Truth, ...],
+    of: Mapping[str, Number],
+) -> Case:
+    from nag.mechanism.graph import Mechanism
+
+    if isinstance(made, Mechanism):
+        return Case(title, kind, path, of, mechanism=made, truth=truth)
+    points = () if made.reference is None else (NamedPoint("placement", made.reference),)
+    return Case(
+        title,
+        kind,
+        path,
+        of,
+        system=made.system,
+        points=points,
+        truth=truth,
+        symmetries=made.symmetries,
+        assembly=made,
     )
 
 
@@ -159,36 +214,6 @@ class _Numbers:
     def polynomial(self, text: str, variables: Sequence[str]) -> Polynomial:
         known = {k: v for k, v in self.parameters.items() if k not in variables}
         return parse_polynomial(text, variables, known, self.budget)
-
-
-def _read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
-    """Values of the parameters, which may refer to each other in any order but not in circles."""
-    uses = {}
-    for name, value in table.values.items():
-        if not is_name(name):
-            table.fail(
-                shown(name), "cannot name a parameter; use letters, digits and _, not a function"
-            )
-        if not isinstance(value, str | int | Decimal) or isinstance(value, bool):
-            table.fail(name, f'is {kind_of(value)}; write a number or an expression like "5/6"')
-        names = names_in(value) if isinstance(value, str) else frozenset()
-        for unknown in sorted(names - table.values.keys()):
-            table.fail(
-                name,
-                f"unknown name {quote(unknown)}{nearest(unknown, table.values)}; write numbers, "
-                "other parameters, sqrt, sin, cos or pi",
-            )
-        uses[name] = sorted(names)
-    try:
-        order = list(TopologicalSorter(uses).static_order())
-    except CycleError as error:
-        circle = [str(name) for name in reversed(error.args[1])]
-        table.fail(circle[0], f"refers to itself: {' -> '.join(circle[:10])}; break the circle")
-    values: dict[str, Number] = {}
-    for name in order:
-        with table.at(name):
-            values[name] = parse_number(table.values[name], values, budget)
-    return MappingProxyType({name: values[name] for name in table.values})
 
 
 def _read_system(top: Table, numbers: _Numbers) -> tuple[PolynomialSystem, CaseFamily | None]:
@@ -317,11 +342,12 @@ def _read_component(table: Table, kind: str) -> Truth:
     table.allow(_TRUTH_KEYS)
     formulation = None
     if "formulation" in table.values:
-        if kind == "system":
+        if kind not in ("mechanism", "dh"):
             table.fail("formulation", "a system has no formulation; leave it out")
         formulation = table.text("formulation")
-        if formulation not in ("E", "H"):
-            table.fail("formulation", f"{quote(formulation)} is unknown; write 'E' or 'H'")
+        if formulation not in FORMULATIONS:
+            names = " or ".join(repr(name) for name in FORMULATIONS)
+            table.fail("formulation", f"{quote(formulation)} is unknown; write {names}")
     multidegree = None
     if "multidegree" in table.values:
         multidegree = _read_multidegree(table, table.items("multidegree", "whole numbers"))
@@ -343,46 +369,3 @@ def _read_multidegree(table: Table, values: list[Any]) -> tuple[Any, ...]:
     if not all(is_degree(v) or isinstance(v, list) for v in values):
         table.fail("multidegree", "holds something else; write whole numbers from 0 up")
     return tuple(_read_multidegree(table, v) if isinstance(v, list) else v for v in values)
-
-
-def _read_mechanism(top: Table, numbers: _Numbers) -> Mechanism:
-    from nag.mechanism.graph import Body, Joint, Mechanism, MechanismError
-
-    ground = top.text("ground")
-    if "joint" not in top.values:
-        top.fail("joint", "is missing; write a table [[joint]] for every joint")
-    joint_tables = [(t.text("name"), t) for t in top.tables("joint")]
-    body_tables = [(t.text("name"), t) for t in top.tables("body")]
-    try:
-        joints = [_read_joint(name, t.called(name), numbers, Joint) for name, t in joint_tables]
-        bodies = [_read_body(name, t.called(name), numbers, Body) for name, t in body_tables]
-        return Mechanism(ground, tuple(joints), tuple(bodies))
-    except MechanismError as error:
-        # The last table of a name, as a repeated name is the fault of the later one.
-        for culprit, tables in ((error.joint, joint_tables), (error.body, body_tables)):
-            for name, table in reversed(tables):
-                if name == culprit:
-                    table.called(name).fail(error.key, str(error))
-        top.fail(error.key, str(error))
-
-
-def _read_joint(name: str, table: Table, numbers: _Numbers, joint: Any) -> Any:
-    table.allow(("name", "type", "bodies", "point", "axis"))
-    bodies = table.texts("bodies", "names of bodies", 2)
-    if not all(b.strip() and b.isprintable() for b in bodies):
-        table.fail("bodies", "holds an empty or unprintable name; write names of bodies")
-    return joint(
-        name=name,
-        type=table.text("type"),
-        bodies=tuple(bodies),
-        point=table.vector("point", 3, numbers.number),
-        axis=table.vector("axis", 3, numbers.number),
-    )
-
-
-def _read_body(name: str, table: Table, numbers: _Numbers, body: Any) -> Any:
-    table.allow(("name", "orientation"))
-    orientation = None
-    if "orientation" in table.values:
-        orientation = table.vector("orientation", 4, numbers.number)
-    return body(name=name, orientation=orientation)

@@ -172,8 +172,18 @@ def write_decomposition(
 ) -> None:
     """Write the export to ``path`` in one step.
 
+    Args:
+        origin: the case that was decomposed, where there is one.
+
     Raises:
         nag.files.written_file.TargetError: if the file cannot be written.
+
+    >>> import json, nag, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     nag.write_decomposition(nag.decompose("x*y"), f"{folder}/lines.json")
+    ...     with open(f"{folder}/lines.json") as written:
+    ...         json.load(written)["format"]
+    'nag-decomposition'
     """
     write_target(path, export_text(decomposition, origin))
 
@@ -324,9 +334,18 @@ def read_export(path: str | os.PathLike[str]) -> Export:
 def read_decomposition(path: str | os.PathLike[str]) -> Decomposition:
     """Read a decomposition that `write_decomposition` wrote, equal to the one written.
 
-    Values that were not finite are written as null and come back as not-a-number.
+    Values that were not finite are written as null and come back as not-a-number. The components
+    know their system again, so that they can be sampled and tested.
 
     Raises:
         ExportError: if the file cannot be read or is not an export.
+
+    >>> import nag, tempfile
+    >>> circle = nag.decompose("x^2 + y^2 = 1")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     nag.write_decomposition(circle, f"{folder}/circle.json")
+    ...     again = nag.read_decomposition(f"{folder}/circle.json")
+    >>> again == circle, again.components[0].contains(["3/5", "4/5"])
+    (True, True)
     """
     return read_export(path).decomposition

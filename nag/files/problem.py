@@ -24,9 +24,7 @@ def system_of(case: Case, model: Model | None) -> PolynomialSystem:
 
 def symmetries_of(case: Case, model: Model | None) -> tuple[SignedPermutation, ...]:
     """Symmetries of the system: sign changes of Euler parameters, or what the case declares."""
-    if model is None:
-        return case.symmetries
-    return tuple(SignedPermutation.of_signs(signs) for signs in model.symmetries)
+    return case.symmetries if model is None else model.symmetries
 
 
 def points_of(case: Case, model: Model | None) -> list[tuple[str, tuple[Number, ...]]]:
@@ -43,7 +41,7 @@ def origin(case: Case, model: Model | None) -> Origin:
     return Origin(
         title=case.title,
         file=Path(case.path).name,
-        kind=case.kind,
+        kind="system" if model is None else "mechanism",
         formulation=model.formulation if model else None,
         reason=model.reason if model else None,
     )

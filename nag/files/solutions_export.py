@@ -100,8 +100,19 @@ def write_solutions(
 ) -> None:
     """Write the export to ``path`` in one step.
 
+    Args:
+        title: of the case that was solved.
+        file: name of its file.
+
     Raises:
         nag.files.written_file.TargetError: if the file cannot be written.
+
+    >>> import json, nag, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     nag.write_solutions(nag.solve("x^2 = 2"), f"{folder}/roots.json")
+    ...     with open(f"{folder}/roots.json") as written:
+    ...         json.load(written)["format"]
+    'nag-solutions'
     """
     write_target(path, export_text(result, title, file))
 
@@ -168,7 +179,18 @@ def _export(value: Any) -> SolutionsExport:
 def read_solutions(path: str | os.PathLike[str]) -> SolutionsExport:
     """Read a file that `write_solutions` wrote.
 
+    Returns:
+        The result, its points the same doubles, with the title and the file of its case.
+
     Raises:
         ExportError: if the file cannot be read or is not an export.
+
+    >>> import nag, tempfile
+    >>> roots = nag.solve("x^2 = 2")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     nag.write_solutions(roots, f"{folder}/roots.json")
+    ...     again = nag.read_solutions(f"{folder}/roots.json").result
+    >>> bool((again.points == roots.points).all())
+    True
     """
     return read_file(path, _export)

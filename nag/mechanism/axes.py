@@ -13,6 +13,9 @@ from nag.mechanism.graph import Joint
 Vector = tuple[Any, Any, Any]
 Space = Literal["planar", "spherical", "spatial"]
 
+# Squared length from which an integer direction is shortened.
+LONG = 100
+
 
 def dot(u: Sequence[Any], v: Sequence[Any]) -> Any:
     """The bilinear product <u, v>, without conjugation."""
@@ -42,7 +45,9 @@ def direction(axis: Sequence[Number]) -> Vector:
     """A multiple of ``axis``: of unit length where that is rational, else with small integers.
 
     The line stays the same; a rational unit vector keeps every norm in the models equal to 1, and
-    where there is none the models carry the squared length instead of a square root.
+    where there is none the models carry the squared length instead of a square root. Long integer
+    vectors are divided by a power of two near their length: a norm c^2 + N s^2 with a large N is so
+    small at ordinary turns that it cannot be told from zero.
     """
     if not all(isinstance(x, Fraction) for x in axis):
         return tuple(axis)
@@ -51,9 +56,12 @@ def direction(axis: Sequence[Number]) -> Vector:
         denominator = denominator * x.denominator // gcd(denominator, x.denominator)
     divisor = gcd(*(int(x * denominator) for x in axis))
     primitive = tuple(x * denominator / divisor for x in axis)
-    length = square_root(dot(primitive, primitive))
+    squared = dot(primitive, primitive)
+    length = square_root(squared)
     if isinstance(length, Fraction):
         return tuple(x / length for x in primitive)
+    if squared > LONG:
+        return tuple(x / 2 ** (int(squared).bit_length() // 2) for x in primitive)
     return primitive
 
 
@@ -87,16 +95,72 @@ def meeting_point(first: Joint, second: Joint) -> Vector | None:
     return tuple(p + t * x for p, x in zip(first.point, first.axis, strict=True))
 
 
-def space_of(joints: Sequence[Joint]) -> Space:
-    """The smallest geometry that holds all axes.
+def across(axis: Sequence[Number]) -> tuple[Vector, Vector]:
+    """Two vectors e2 and e3 = axis x e2 orthogonal to ``axis`` and to each other."""
+    units = [tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3)]
+    candidates = [cross(axis, unit) for unit in units]
+    second = direction(next(v for v in candidates if not vanishes(v)))
+    if all(isinstance(x, Fraction) for x in second):
+        size = max(abs(x) for x in second)
+        second = tuple(x / size for x in second) if size > 1 else second
+    return second, cross(axis, second)
 
-    Planar if all are parallel, spherical if all pass through one point, else spatial.
+
+def space_of(joints: Sequence[Joint]) -> Space:
+    """The smallest geometry that holds all joints.
+
+    Planar if all axes of revolute joints are parallel and all slides orthogonal to them; spherical
+    if all joints turn about one point; else spatial. Rigid joints fit everywhere.
     """
-    first = joints[0]
-    other = next((j for j in joints[1:] if not parallel(first, j)), None)
-    if other is None:
+    free = [j for j in joints if j.type != "rigid"]
+    if _planar_normal(free) is not None:
         return "planar"
-    centre = meeting_point(first, other)
-    if centre is not None and all(on_axis(centre, j) for j in joints):
-        return "spherical"
+    if all(j.type in ("revolute", "universal", "spherical") for j in free):
+        centre = _centre(free)
+        if centre is not None and all(_turns_about(centre, j) for j in free):
+            return "spherical"
     return "spatial"
+
+
+def planar_normal(joints: Sequence[Joint]) -> Vector:
+    """The normal of the plane in which a planar mechanism moves."""
+    normal = _planar_normal([j for j in joints if j.type != "rigid"])
+    if normal is None:
+        raise ValueError("the mechanism is not planar")
+    return direction(normal)
+
+
+def _planar_normal(joints: Sequence[Joint]) -> Vector | None:
+    if not all(j.type in ("revolute", "prismatic") for j in joints):
+        return None
+    turns = [j.axis for j in joints if j.type == "revolute"]
+    slides = [j.axis for j in joints if j.type == "prismatic"]
+    normal = turns[0] if turns else _normal_of(slides)
+    if not all(vanishes(cross(normal, axis)) for axis in turns):
+        return None
+    return normal if all(is_zero(dot(normal, axis)) for axis in slides) else None
+
+
+def _normal_of(slides: Sequence[Vector]) -> Vector:
+    """A vector orthogonal to the first two directions that differ, or to the only one."""
+    if not slides:
+        return Fraction(0), Fraction(0), Fraction(1)
+    products = (cross(slides[0], axis) for axis in slides[1:])
+    return next((p for p in products if not vanishes(p)), across(slides[0])[1])
+
+
+def _centre(joints: Sequence[Joint]) -> Vector | None:
+    """The point about which all joints turn, if they do."""
+    fixed = next((j for j in joints if j.type != "revolute"), None)
+    if fixed is not None:
+        return fixed.point
+    if not joints:
+        return None
+    other = next((j for j in joints[1:] if not parallel(joints[0], j)), None)
+    return None if other is None else meeting_point(joints[0], other)
+
+
+def _turns_about(centre: Vector, joint: Joint) -> bool:
+    if joint.type == "revolute":
+        return on_axis(centre, joint)
+    return vanishes(difference(centre, joint.point))

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import cmath
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
-
-import mpmath
 
 from nag.algebra.number import Irrational, Number, square_root, to_mpf
 from nag.mechanism.loops import LoopStructure
@@ -51,10 +50,18 @@ def arithmetic_of(point: Sequence[Any]) -> Arithmetic:
     """The arithmetic in which ``point`` is to be lifted: exact, `mpmath` or complex doubles."""
     if all(isinstance(x, int | Fraction | Irrational) for x in point):
         return Arithmetic(lambda c: c, square_root)
-    if any(isinstance(x, mpmath.mpf | mpmath.mpc) for x in point):
+    if any(_is_multiprecision(x) for x in point):
+        import mpmath
+
         digits = mpmath.mp.dps
         return Arithmetic(lambda c: to_mpf(c, digits), mpmath.sqrt)
     return Arithmetic(lambda c: complex(float(c)), cmath.sqrt)
+
+
+def _is_multiprecision(x: Any) -> bool:
+    """Whether it is one of `mpmath`'s numbers; there are none before that is loaded."""
+    mpmath = sys.modules.get("mpmath")
+    return mpmath is not None and isinstance(x, mpmath.mpf | mpmath.mpc)
 
 
 def as_entries(point: Sequence[Any]) -> tuple[Any, ...]:
@@ -63,19 +70,27 @@ def as_entries(point: Sequence[Any]) -> tuple[Any, ...]:
     for x in point:
         if isinstance(x, int):
             x = Fraction(x)
-        elif not isinstance(x, Fraction | Irrational | mpmath.mpf | mpmath.mpc):
+        elif not isinstance(x, Fraction | Irrational) and not _is_multiprecision(x):
             x = complex(x)
         entries.append(x)
     return tuple(entries)
 
 
 def configuration(
-    structure: LoopStructure, euler: Mapping[str, Sequence[Any]], arithmetic: Arithmetic
+    structure: LoopStructure,
+    euler: Mapping[str, Sequence[Any]],
+    arithmetic: Arithmetic,
+    slides: Mapping[str, Sequence[Any]] = MappingProxyType({}),
 ) -> Configuration:
     """Place all bodies, given the orientations of those with loops.
 
     Positions follow from the joints along a spanning tree (PT13, eq. 4). Bodies of trees that were
-    cut off keep their place relative to their neighbours.
+    cut off keep their place relative to their neighbours, and so do those that are tied rigidly.
+
+    Args:
+        slides: for joints that slide, by name, how far the joint's point on the second body is from
+            that on the first: a vector in global coordinates of the reference configuration, which
+            the first body carries.
     """
     mechanism, convert = structure.mechanism, arithmetic.convert
     reference = {
@@ -84,18 +99,44 @@ def configuration(
     placed = {structure.base: reference[structure.base]}
     zero = convert(Fraction(0))
     position: dict[str, tuple[Any, ...]] = {structure.base: (zero, zero, zero)}
+
+    def carried(body: str, vector: Sequence[Any]) -> Sequence[Any]:
+        return rotate(placed[body], rotate(conjugate(reference[body]), vector))
+
     for parent, child, joint in structure.spanning_tree():
         if child in euler:
             placed[child] = tuple(euler[child])
         else:
             placed[child] = _carried(placed[parent], reference[parent], reference[child])
         point = tuple(convert(x) for x in joint.point)
-        at = [rotate(placed[b], rotate(conjugate(reference[b]), point)) for b in (parent, child)]
+        at = [carried(b, point) for b in (parent, child)]
+        gap = carried(joint.bodies[0], slides.get(joint.name, (zero, zero, zero)))
+        sign = 1 if joint.bodies[0] == parent else -1
         position[child] = tuple(
-            r + x - y for r, x, y in zip(position[parent], at[0], at[1], strict=True)
+            r + x - y + sign * g
+            for r, x, y, g in zip(position[parent], at[0], at[1], gap, strict=True)
         )
-    order = mechanism.body_names
-    return Configuration({b: placed[b] for b in order}, {b: position[b] for b in order})
+    return _with_tied(structure, placed, position, arithmetic)
+
+
+def _with_tied(
+    structure: LoopStructure,
+    placed: Mapping[str, tuple[Any, ...]],
+    position: Mapping[str, tuple[Any, ...]],
+    arithmetic: Arithmetic,
+) -> Configuration:
+    original, leader = structure.groups.original, structure.groups.leader
+    euler = {}
+    for body in original.body_names:
+        if leader[body] == body:
+            euler[body] = placed[body]
+        else:
+            frames = [
+                tuple(arithmetic.convert(x) for x in original.orientation(b))
+                for b in (leader[body], body)
+            ]
+            euler[body] = _carried(placed[leader[body]], *frames)
+    return Configuration(euler, {b: position[leader[b]] for b in original.body_names})
 
 
 def _carried(

@@ -16,17 +16,25 @@ from string import ascii_lowercase
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
-from nag.algebra.number import Number
+from nag.algebra.number import Number, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.mechanism.axes import cross, difference, direction, dot, vanishes
-from nag.mechanism.configuration import Configuration, arithmetic_of, as_entries, configuration
+from nag.mechanism.assembly_modes import REFERENCE, Modes, mode_rotation
+from nag.mechanism.axes import Vector, across, difference, direction, dot
+from nag.mechanism.configuration import (
+    Arithmetic,
+    Configuration,
+    arithmetic_of,
+    as_entries,
+    configuration,
+)
 from nag.mechanism.graph import Joint
 from nag.mechanism.loops import Loop, LoopStructure
 from nag.mechanism.quaternion import Quaternion, conjugate, multiply, norm_squared, rotate
 from nag.mechanism.row_reduction import independent_polynomials, row_echelon
 
 Parameters = Mapping[str, Quaternion]
+Slides = Mapping[str, Sequence[Any]]
 
 
 @dataclass(frozen=True)
@@ -35,11 +43,12 @@ class EulerModel:
 
     Attributes:
         structure: the mechanism's part with loops.
-        elimination: from all Euler parameters to those of `system`.
+        elimination: from all Euler parameters and slides to the variables of `system`.
         system: norms, prime components of the joints and loop equations.
-        reference: the reference configuration.
+        reference: the reference configuration; empty in other assembly modes.
         symmetries: for each moving body whose sign a -> -a is a symmetry of `system`, the signs
             that it gives to the variables.
+        modes: the assembly modes.
     """
 
     structure: LoopStructure
@@ -47,69 +56,125 @@ class EulerModel:
     system: PolynomialSystem
     reference: tuple[Number, ...]
     symmetries: tuple[tuple[int, ...], ...]
+    modes: Modes = REFERENCE
 
     def lift(self, point: Sequence[Any]) -> Configuration:
         """All bodies' orientations and positions at a solution, exact for exact points."""
         arithmetic = arithmetic_of(point)
+        convert = arithmetic.convert
         entries = as_entries(point)
-        values = [image(entries, arithmetic.convert) for image in self.elimination.images]
-        euler = {
-            body: tuple(values[4 * i : 4 * i + 4]) for i, body in enumerate(self.structure.moving)
+        values = [image(entries, convert) for image in self.elimination.images]
+        structure = self.structure
+        euler = {body: tuple(values[4 * i : 4 * i + 4]) for i, body in enumerate(structure.moving)}
+        given = slide_variables(structure, values)
+        slides = {
+            joint.name: _slide(structure, joint, given[joint.name], euler, arithmetic)
+            for joint in structure.joints
+            if given[joint.name]
         }
-        return configuration(self.structure, euler, arithmetic)
+        return configuration(structure, euler, arithmetic, slides)
 
 
-def euler_model(structure: LoopStructure, spherical: bool = False) -> EulerModel:
+def euler_model(
+    structure: LoopStructure, spherical: bool = False, modes: Modes = REFERENCE
+) -> EulerModel:
     """The equations of a mechanism in Euler parameters.
 
     Args:
         structure: its part with loops.
-        spherical: whether all axes pass through one point, so that loops close by themselves.
+        spherical: whether all joints turn about one point, so that loops close by themselves.
+        modes: assembly modes of the joints that are not in that of the reference configuration.
     """
-    parameters = euler_parameters(structure)
-    polynomials = norms(structure, parameters)
-    for joint in structure.joints:
-        polynomials += prime_component(structure, parameters, joint)
-    if not spherical:
-        for loop in structure.loops:
-            polynomials += loop_closure(structure, parameters, loop)
-    names = variable_names(structure)
-    full = PolynomialSystem(names, tuple(f for f in polynomials if f))
-    elimination = eliminate_linear(full, graphs=False)
+    full = euler_system(structure, spherical, modes)
+    elimination = without_slides(full, 4 * len(structure.moving))
     reduced = elimination.system
     system = PolynomialSystem(
         reduced.variables, tuple(independent_polynomials(reduced.polynomials)), reduced.nonzero
     )
     start = [x for b in structure.moving for x in structure.mechanism.orientation(b)]
+    start += [Fraction(0)] * (full.n - len(start))
     symmetries = []
     for i in range(len(structure.moving)):
         signs = tuple(-1 if index // 4 == i else 1 for index in elimination.kept)
         if -1 in signs and _is_symmetry(system, signs):
             symmetries.append(signs)
-    return EulerModel(
-        structure, elimination, system, tuple(elimination.project(start)), tuple(symmetries)
+    reference = () if modes else tuple(elimination.project(start))
+    return EulerModel(structure, elimination, system, reference, tuple(symmetries), modes)
+
+
+def euler_system(
+    structure: LoopStructure, spherical: bool = False, modes: Modes = REFERENCE
+) -> PolynomialSystem:
+    """Norms, prime components and loop equations in all Euler parameters and slides."""
+    names = (*variable_names(structure), *slide_names(structure))
+    parameters = euler_parameters(structure, len(names))
+    slides = slide_variables(structure, Polynomial.variables(len(names)))
+    polynomials = norms(structure, parameters)
+    for joint in structure.joints:
+        mode = dict(modes).get(joint.name, 0)
+        polynomials += prime_component(structure, parameters, joint, mode)
+    if not spherical:
+        for loop in structure.loops:
+            polynomials += loop_closure(structure, parameters, slides, loop)
+    return PolynomialSystem(names, tuple(f for f in polynomials if f))
+
+
+def without_slides(full: PolynomialSystem, parameters: int) -> Elimination:
+    """Linear equations solved, then slides that are polynomials in the other variables.
+
+    Such slides are no coordinates: the configuration space is their graph over the rest (PT13,
+    definition 2.1). Degrees are counted in the Euler parameters and the slides that stay.
+    """
+    linear = eliminate_linear(full, graphs=False)
+    stay = [k for k, index in enumerate(linear.kept) if index < parameters]
+    graphs = eliminate_linear(linear.system, keep=stay, graphs=True)
+    return Elimination(
+        graphs.system,
+        linear.original_variables,
+        tuple(linear.kept[k] for k in graphs.kept),
+        tuple(image.compose(graphs.images) for image in linear.images),
     )
 
 
-def unreduced_system(structure: LoopStructure) -> PolynomialSystem:
-    """Every constraint in all Euler parameters of all moving bodies, nothing eliminated.
+def slide_names(structure: LoopStructure) -> tuple[str, ...]:
+    """slide1, slide2, ... for the slides of the joints, in their order."""
+    count = sum(len(slide_directions(j)) for j in structure.joints)
+    return tuple(f"slide{i + 1}" for i in range(count))
 
-    Norms, the orthogonality constraints of PT13 table 1 (quartics), the prime components of the
-    joints, and the loop equations.
-    """
-    parameters = euler_parameters(structure)
-    polynomials = norms(structure, parameters)
+
+def slide_variables(structure: LoopStructure, values: Sequence[Any]) -> dict[str, tuple[Any, ...]]:
+    """The slides of each joint, by its name, among all Euler parameters and slides."""
+    rest = list(values[4 * len(structure.moving) :])
+    slides = {}
     for joint in structure.joints:
-        polynomials += orthogonality(structure, parameters, joint)
-        polynomials += prime_component(structure, parameters, joint)
-    for loop in structure.loops:
-        polynomials += loop_closure(structure, parameters, loop)
-    return PolynomialSystem(variable_names(structure), tuple(f for f in polynomials if f))
+        count = len(slide_directions(joint))
+        slides[joint.name], rest = tuple(rest[:count]), rest[count:]
+    return slides
 
 
-def unreduced_point(structure: LoopStructure, placed: Configuration) -> tuple[Any, ...]:
-    """The point of `unreduced_system` that a configuration is."""
-    return tuple(x for body in structure.moving for x in placed.euler[body])
+def _slide(
+    structure: LoopStructure,
+    joint: Joint,
+    distances: Sequence[Any],
+    euler: Mapping[str, Sequence[Any]],
+    arithmetic: Arithmetic,
+) -> tuple[Any, ...]:
+    """The gap from the first body to the second, in the first body's reference coordinates."""
+    convert = arithmetic.convert
+    total = (convert(Fraction(0)),) * 3
+    for distance, along in zip(distances, slide_directions(joint), strict=True):
+        total = tuple(t + distance * convert(x) for t, x in zip(total, along, strict=True))
+    carrier, (first, second) = slide_carrier(structure, joint), joint.bodies
+    if carrier == first:
+        return total
+    orientation = structure.mechanism.orientation
+    relative = []
+    for body in (first, second):
+        reference = [convert(x) for x in orientation(body)]
+        placed = euler.get(body, reference)
+        relative.append(multiply(placed, conjugate(reference)))
+    turned = rotate(multiply(conjugate(relative[0]), relative[1]), total)
+    return tuple(-x for x in turned)
 
 
 def variable_names(structure: LoopStructure) -> tuple[str, ...]:
@@ -119,9 +184,8 @@ def variable_names(structure: LoopStructure) -> tuple[str, ...]:
     return tuple(f"{letter}{k}" for letter in letters[:bodies] for k in range(4))
 
 
-def euler_parameters(structure: LoopStructure) -> dict[str, Quaternion]:
+def euler_parameters(structure: LoopStructure, n: int) -> dict[str, Quaternion]:
     """Euler parameters of every body as polynomials: variables, and constants for the base."""
-    n = 4 * len(structure.moving)
     variables = Polynomial.variables(n)
     parameters: dict[str, Quaternion] = {
         body: tuple(variables[4 * i : 4 * i + 4]) for i, body in enumerate(structure.moving)
@@ -137,45 +201,94 @@ def norms(structure: LoopStructure, parameters: Parameters) -> list[Polynomial]:
 
 
 def prime_component(
-    structure: LoopStructure, parameters: Parameters, joint: Joint
+    structure: LoopStructure, parameters: Parameters, joint: Joint, mode: int = 0
 ) -> list[Polynomial]:
-    """The two equations of a revolute joint's component at the reference configuration."""
+    """The equations of one prime component of a joint's SO constraints, norms left out.
+
+    With r = conj(a) b in global coordinates of the reference configuration: r lies in the plane of
+    the turns about the axis, after the mode's constant rotation (two linear equations); r is the
+    constant rotation of a joint that slides only (b is linear in a); a universal joint has one
+    quadric in r, a spherical joint nothing.
+    """
     first, second = joint.bodies
-    relative = multiply(conjugate(parameters[first]), parameters[second])
-    zero = Fraction(0)
-    left = (zero, *_local(structure, first, direction(joint.axis)))
-    right = (zero, *_local(structure, second, direction(joint.axis)))
+    a, b = (_in_reference_frame(structure, parameters, body) for body in (first, second))
+    constant = mode_rotation(joint, mode)
+    if joint.type == "spherical":
+        return []
+    if joint.type == "universal":
+        u, v = direction(joint.axis), direction(joint.second_axis)
+        turned = dot(rotate(a, u), rotate(b, v))
+        scale = norm_squared(a) * norm_squared(b)
+        return [turned - scale * dot(u, v)]
+    if joint.type == "prismatic":
+        return list(difference(b, multiply(a, unit_multiple(constant))))
+    relative = multiply(conjugate(a), b)
+    return [dot(row, relative) for row in mode_conditions(joint, mode)]
+
+
+def mode_conditions(joint: Joint, mode: int) -> list[tuple[Number, ...]]:
+    """Rows whose products with the relative orientation r vanish in an assembly mode.
+
+    Two for a turn about an axis, three for a joint that keeps orientations, none for the others.
+    """
+    if joint.type in ("spherical", "universal"):
+        return []
+    back = conjugate(mode_rotation(joint, mode))
+    line = (Fraction(0), *direction(joint.axis))
     columns = []
     for i in range(4):
         unit = tuple(Fraction(int(i == j)) for j in range(4))
-        columns.append(difference(multiply(left, unit), multiply(unit, right)))
-    rows, _ = row_echelon([tuple(c[i] for c in columns) for i in range(4)])
-    return [dot(row, relative) for row in rows]
+        turn = multiply(unit, back)
+        if joint.type == "prismatic":
+            columns.append(turn[1:])
+        else:
+            columns.append(difference(multiply(line, turn), multiply(turn, line)))
+    return row_echelon([tuple(c[i] for c in columns) for i in range(len(columns[0]))])[0]
 
 
-def orthogonality(
-    structure: LoopStructure, parameters: Parameters, joint: Joint
+def unit_multiple(constant: Sequence[Number]) -> tuple[Number, ...]:
+    """A quaternion of length one, with a square root where there is no rational one."""
+    length = square_root(norm_squared(constant))
+    return tuple(x / length for x in constant)
+
+
+def slide_directions(joint: Joint) -> tuple[Vector, ...]:
+    """The directions in which a joint slides."""
+    if joint.type in ("prismatic", "cylindrical"):
+        return (direction(joint.axis),)
+    return across(direction(joint.axis)) if joint.type == "planar" else ()
+
+
+def slide_carrier(structure: LoopStructure, joint: Joint) -> str:
+    """The body whose axes the slides of a joint are given in: the base, where it is one."""
+    return structure.base if structure.base in joint.bodies else joint.bodies[0]
+
+
+def loop_closure(
+    structure: LoopStructure, parameters: Parameters, slides: Slides, loop: Loop
 ) -> list[Polynomial]:
-    """<R(a) eta, R(b) chi> and <R(a) xi, R(b) chi>, with eta and xi across the axis (T25 eq. 7)."""
-    first, second = joint.bodies
-    axis = direction(joint.axis)
-    across = []
-    for i in range(3):
-        candidate = cross(axis, tuple(Fraction(int(i == j)) for j in range(3)))
-        if not vanishes(candidate) and all(not vanishes(cross(candidate, v)) for v in across):
-            across.append(candidate)
-    turned = rotate(parameters[second], _local(structure, second, axis))
-    return [dot(rotate(parameters[first], _local(structure, first, v)), turned) for v in across[:2]]
+    """The sum of R(a_i) v_i over a loop's bodies, v_i from a body's one joint to its other.
 
-
-def loop_closure(structure: LoopStructure, parameters: Parameters, loop: Loop) -> list[Polynomial]:
-    """The sum of R(a_i) v_i over a loop's bodies, v_i from a body's one joint to its other."""
+    Slides add their distance along their direction in the body that carries them.
+    """
     total: Sequence[Any] = (Fraction(0),) * 3
     for i, body in enumerate(loop.bodies):
         link = difference(loop.joints[i].point, loop.joints[i - 1].point)
         turned = rotate(parameters[body], _local(structure, body, link))
         total = tuple(x + y for x, y in zip(turned, total, strict=True))
+        joint = loop.joints[i]
+        carrier = slide_carrier(structure, joint)
+        # The gap leads from the body that carries it to the other one.
+        sign = 1 if carrier == body else -1
+        for distance, along in zip(slides[joint.name], slide_directions(joint), strict=True):
+            turned = rotate(parameters[carrier], _local(structure, carrier, along))
+            total = tuple(x + distance * y * sign for x, y in zip(total, turned, strict=True))
     return list(total)
+
+
+def _in_reference_frame(structure: LoopStructure, parameters: Parameters, body: str) -> Quaternion:
+    """Euler parameters of the frame that is the global one at the reference configuration."""
+    return multiply(parameters[body], conjugate(structure.mechanism.orientation(body)))
 
 
 def _local(structure: LoopStructure, body: str, vector: Sequence[Number]) -> tuple[Number, ...]:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from nag.algebra.from_python import exact_vector
 from nag.algebra.number import Number, is_zero, number_text
+from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS
 
 if TYPE_CHECKING:
     import networkx
 
-# Degrees of freedom that a joint leaves between its two bodies (PT13, table 1: 6 minus the number
-# of its conditions).
-JOINT_FREEDOMS = {"revolute": 1}
-
-_KNOWN_BUT_UNSUPPORTED = ("prismatic", "translational", "cylindrical", "universal", "spherical")
+Vector = tuple[Number, Number, Number]
+ORIGIN: Vector = (Fraction(0), Fraction(0), Fraction(0))
 
 
 class MechanismError(ValueError):
@@ -37,9 +37,16 @@ class MechanismError(ValueError):
         key: str | None = None,
     ) -> None:
         super().__init__(message)
+        self.message = message
         self.joint = joint
         self.body = body
         self.key = key
+
+    def __str__(self) -> str:
+        owner = f"joint {self.joint!r}" if self.joint is not None else ""
+        if not owner and self.body is not None:
+            owner = f"body {self.body!r}"
+        return ": ".join([*filter(None, (owner, self.key)), self.message])
 
 
 @dataclass(frozen=True)
@@ -48,21 +55,41 @@ class Joint:
 
     Attributes:
         name: unique among the joints.
-        type: a key of `JOINT_FREEDOMS`.
+        type: a key of `nag.mechanism.joint_types.JOINT_TYPES`, or a synonym of one.
         bodies: names of the two bodies that it joins.
-        point: a point of its axis, in global coordinates.
-        axis: direction of its axis, in global coordinates, of any length but zero.
+        point: a point of its axis, in global coordinates; the centre of a spherical or universal
+            joint; any point for the others, where it may be left out.
+        axis: direction of its axis, in global coordinates, of any length but zero: of the turn of
+            a revolute or cylindrical joint, of the slide of a prismatic one, the normal of a planar
+            one, the axis in the first body of a universal one. None for the others.
+        second_axis: of a universal joint, the axis in the second body. None for the others.
+
+    Numbers may be int, Fraction, Decimal, text, NumPy's, sympy's, or float; a float is read as its
+    shortest decimal (0.1 is 1/10).
+
+    Raises:
+        MechanismError: if a vector holds something that is no number.
+
+    >>> import nag
+    >>> joint = nag.Joint("A", "revolute", ("base", "left"), (0, 0.1, "1/3"), (0, 0, 1))
+    >>> joint.point
+    (Fraction(0, 1), Fraction(1, 10), Fraction(1, 3))
     """
 
     name: str
     type: str
     bodies: tuple[str, str]
-    point: tuple[Number, Number, Number]
-    axis: tuple[Number, Number, Number]
+    point: Vector = ORIGIN
+    axis: Vector | None = None
+    second_axis: Vector | None = None
 
     def __post_init__(self) -> None:
-        for field in ("bodies", "point", "axis"):
-            object.__setattr__(self, field, tuple(getattr(self, field)))
+        object.__setattr__(self, "type", SYNONYMS.get(self.type, self.type))
+        object.__setattr__(self, "bodies", tuple(self.bodies))
+        for field in ("point", "axis", "second_axis"):
+            value = getattr(self, field)
+            if value is not None:
+                object.__setattr__(self, field, _exact(value, field, joint=self.name))
 
     def other(self, body: str) -> str:
         """The body at the other end."""
@@ -84,7 +111,8 @@ class Body:
 
     def __post_init__(self) -> None:
         if self.orientation is not None:
-            object.__setattr__(self, "orientation", tuple(self.orientation))
+            exact = _exact(self.orientation, "orientation", body=self.name)
+            object.__setattr__(self, "orientation", exact)
 
 
 @dataclass(frozen=True)
@@ -172,23 +200,86 @@ class Mechanism:
             graph.add_edge(*joint.bodies, key=joint.name, joint=joint)
         return graph
 
+    @classmethod
+    def from_graph(cls, graph: Any, ground: Any = None) -> Mechanism:
+        """The mechanism that a networkx graph describes: nodes are bodies, edges joints.
+
+        Each edge has the attributes of a `Joint`: ``type``, and what that type needs (``point``,
+        ``axis``). Its name is the attribute ``name``, else its key if that is text, else made of
+        its ends. A node may have the ``orientation`` of a `Body`. Other attributes are ignored.
+        In a directed graph an edge's first body is its source; of an undirected one
+        ``bodies=(first, second)`` says which is first, where that matters.
+
+        Args:
+            graph: a `networkx.MultiGraph`, or another of networkx' graphs.
+            ground: the node that is fixed; by default the graph's attribute ``ground``.
+
+        Raises:
+            MechanismError: if an attribute is missing or makes no sense, or the graph is not
+                connected; the message says which edge or node, and what would be right.
+
+        >>> import nag, networkx
+        >>> G = networkx.MultiGraph()
+        >>> G.add_edge("base", "left", "A", type="revolute", axis=(0, 0, 1), point=(0, 0, 0))
+        'A'
+        >>> G.add_edge("left", "top", "B", type="revolute", axis=(0, 0, 1), point=(0, 1, 0))
+        'B'
+        >>> nag.Mechanism.from_graph(G, ground="base")
+        Mechanism of 3 bodies (base, left, top), ground base
+          A  revolute, base - left, point (0, 0, 0), axis (0, 0, 1)
+          B  revolute, left - top, point (0, 1, 0), axis (0, 0, 1)
+        """
+        from nag.mechanism.networkx_graph import mechanism_from_graph
+
+        return mechanism_from_graph(graph, ground)
+
+    def to_graph(self) -> networkx.MultiGraph:
+        """The mechanism as a networkx graph, of which `from_graph` makes the same mechanism.
+
+        Edges are keyed by the joints' names and have their fields as attributes; ``ground`` and
+        the order of the ``joints`` are attributes of the graph.
+
+        >>> import nag
+        >>> graph = nag.read_case("cases/bennett.toml").mechanism.to_graph()
+        >>> graph.number_of_nodes(), graph.number_of_edges(), graph.graph["ground"]
+        (4, 4, 'B0')
+        >>> nag.Mechanism.from_graph(graph).to_graph().edges == graph.edges
+        True
+        """
+        from nag.mechanism.networkx_graph import graph_of
+
+        return graph_of(self)
+
+    def __repr__(self) -> str:
+        from nag.mechanism.shown import mechanism_text
+
+        return mechanism_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.mechanism.shown import mechanism_html
+
+        return mechanism_html(self)
+
     def orientation(self, body: str) -> tuple[Number, ...]:
         """Euler parameters of the local frame of ``body`` at the reference configuration."""
-        from fractions import Fraction
-
         for given in self.bodies:
             if given.name == body and given.orientation is not None:
                 return given.orientation
         return (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
 
 
+def _exact(values: Any, key: str, **owner: str) -> tuple[Number, ...]:
+    try:
+        return exact_vector(values, "coordinates")
+    except ValueError as error:
+        raise MechanismError(str(error), key=key, **owner) from None
+
+
 def _check_joint(joint: Joint) -> None:
-    if joint.type not in JOINT_FREEDOMS:
-        kind = "not supported yet" if joint.type in _KNOWN_BUT_UNSUPPORTED else "unknown"
+    if joint.type not in JOINT_TYPES:
+        text = f"joint type {joint.type!r} is unknown; use one of {', '.join(sorted(JOINT_TYPES))}"
         raise MechanismError(
-            f"joint type {joint.type!r} is {kind}; use one of {', '.join(sorted(JOINT_FREEDOMS))}",
-            joint=joint.name,
-            key="type",
+            HELICAL if joint.type in ("helical", "screw") else text, joint=joint.name, key="type"
         )
     if len(joint.bodies) != 2:
         raise MechanismError(
@@ -200,17 +291,43 @@ def _check_joint(joint: Joint) -> None:
             joint=joint.name,
             key="bodies",
         )
-    for key in ("point", "axis"):
-        if len(getattr(joint, key)) != 3:
-            raise MechanismError(
-                f"{key} has {len(getattr(joint, key))} coordinates; it needs 3",
-                joint=joint.name,
-                key=key,
-            )
-    if all(is_zero(x) for x in joint.axis):
+    for key in ("point", "axis", "second_axis"):
+        _check_vector(joint, key)
+    if joint.second_axis is not None and _parallel(joint.axis, joint.second_axis):
         raise MechanismError(
-            "the axis has length zero; it needs a direction", joint=joint.name, key="axis"
+            "both axes have the same direction; a universal joint needs two that cross at its "
+            "point, else it is a revolute one",
+            joint=joint.name,
+            key="second_axis",
         )
+
+
+def _check_vector(joint: Joint, key: str) -> None:
+    value, known = getattr(joint, key), JOINT_TYPES[joint.type]
+    if value is None and key in known.fields:
+        raise MechanismError(
+            f"a {joint.type} joint needs its {key.replace('_', ' ')}", joint=joint.name, key=key
+        )
+    if value is None:
+        return
+    if len(value) != 3:
+        raise MechanismError(
+            f"{key} has {len(value)} coordinates; it needs 3", joint=joint.name, key=key
+        )
+    if key != "point" and key not in known.fields + known.optional:
+        raise MechanismError(
+            f"a {joint.type} joint has no {key.replace('_', ' ')}; leave it out",
+            joint=joint.name,
+            key=key,
+        )
+    if key != "point" and all(is_zero(x) for x in value):
+        raise MechanismError(
+            "the axis has length zero; it needs a direction", joint=joint.name, key=key
+        )
+
+
+def _parallel(u: Vector, v: Vector) -> bool:
+    return all(is_zero(u[i] * v[j] - u[j] * v[i]) for i, j in ((0, 1), (1, 2), (2, 0)))
 
 
 def _check_body(body: Body, used: set[str]) -> None:

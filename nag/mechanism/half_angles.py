@@ -1,13 +1,9 @@
-"""Formulation H: a single loop in half-angles, two joints eliminated linearly.
+"""Formulation H: loops as products of joints, some of each loop eliminated linearly.
 
-A turn about the line h = axis + eps (point x axis) is the dual quaternion c + s h, with (c : s) a
-point of a projective line. The loop closes when the product over all joints is a real number. Let
-g and k be the last two lines and A the product over the other joints; the last two joints can
-close the loop exactly when conj(A) lies in span(1, g, k, gk), which is linear in A. Angles are
-relative to the reference configuration.
-
-Lines are not made unit where that would take a square root: with N the squared length of the axis,
-h^2 = -N, so c + s h has norm c^2 + N s^2, and the half-angle has tangent s sqrt(N) / c.
+Every joint is a product of factors that are linear in homogeneous coordinates (`joint_factors`): a
+half-angle for a turn. Each loop eliminates one spherical or planar joint, or two neighbouring turns
+or slides, that no other loop uses (`loop_product`); what is left is four multilinear equations a
+loop. Everything is relative to the reference configuration.
 """
 
 from __future__ import annotations
@@ -15,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm
 from typing import Any
 
 from nag.algebra.number import Number
-from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.mechanism.axes import coincident, direction, dot, parallel, skew
+from nag.mechanism.assembly_modes import REFERENCE, Modes
+from nag.mechanism.axes import difference
+from nag.mechanism.charts import Charts
 from nag.mechanism.configuration import (
     Arithmetic,
     Configuration,
@@ -29,74 +25,63 @@ from nag.mechanism.configuration import (
     as_entries,
     configuration,
 )
-from nag.mechanism.graph import Joint
-from nag.mechanism.loops import Loop, LoopStructure
-from nag.mechanism.quaternion import (
-    DualQuaternion,
-    Quaternion,
-    conjugate,
-    dual_conjugate,
-    dual_multiply,
-    line,
-    multiply,
-    norm_squared,
-    scale,
-)
-from nag.mechanism.row_reduction import independent_polynomials, left_inverse, null_space
+from nag.mechanism.euler import slide_directions
+from nag.mechanism.joint_factors import Factor
+from nag.mechanism.joint_products import displacement, joint_elements, moved, opposite
+from nag.mechanism.loop_product import Closure, Element, closures
+from nag.mechanism.loops import Loop, LoopStructure, loop_bases
+from nag.mechanism.path_estimates import intersection_number
+from nag.mechanism.quaternion import conjugate, multiply, norm_squared, scale
 
-# Tangents of the charts' turns: no two alike, none at a special angle, none large enough to spoil
-# the conditioning. The point that a chart leaves out is then no special position of its joint.
-_CHARTS = tuple(
-    Fraction(a, b)
-    for a, b in ((3, 7), (-5, 9), (7, 11), (-4, 13), (8, 17), (-9, 19), (6, 23), (-11, 29))
-)
+# An equation has at most as many terms as the product of its factors has.
+MOST_TERMS = 2**10
 
 
 @dataclass(frozen=True)
 class HalfAngleModel:
-    """A single loop as equations in one coordinate for each kept joint.
+    """Loops as equations in the coordinates of the joints that are kept.
 
     Attributes:
         structure: the mechanism's part with loops.
-        loop: the loop, read so that its last two joints are the eliminated ones.
-        charts: for each kept joint the k of its chart (c : s) = (1 - k x : k + x).
-        system: the equations; one group for each variable; norm-zero points are excluded.
-        reference: the reference configuration, x = -k.
-        coordinates: rows that give conj(A) in the basis 1, g, k, gk.
+        closures: one for each loop.
+        charts: the kept factors, in the order of their variables.
+        elements: for each joint, by name, its factors and constants in the direction from its first
+            body to its second.
+        system: the equations; one group of variables for each factor; points where a factor's norm
+            vanishes are excluded.
+        reference: the reference configuration; empty in other assembly modes.
+        modes: the assembly modes.
     """
 
     structure: LoopStructure
-    loop: Loop
-    charts: tuple[Fraction, ...]
+    closures: tuple[Closure, ...]
+    charts: Charts
+    elements: dict[str, tuple[Element, ...]]
     system: PolynomialSystem
     reference: tuple[Number, ...]
-    coordinates: tuple[tuple[Number, ...], ...]
+    modes: Modes
 
-    def angles(self, point: Sequence[Any]) -> tuple[tuple[Any, Any], ...]:
-        """(c, s) of every joint of `loop`, the eliminated ones included, up to scale each."""
+    def coordinates(self, point: Sequence[Any]) -> dict[str, tuple[tuple[Any, ...], ...]]:
+        """For each joint, by name, homogeneous coordinates of its factors at a solution.
+
+        Eliminated joints included. Of a turn they are (c, s), up to scale, in the direction in
+        which the loop runs.
+        """
         arithmetic = arithmetic_of(point)
-        return self._angles(as_entries(point), arithmetic)
+        values = self._coordinates(as_entries(point), arithmetic)
+        return {
+            name: tuple(values[e.factor] for e in elements if e.factor is not None)
+            for name, elements in self.elements.items()
+        }
 
-    def _angles(self, point: Sequence[Any], arithmetic: Arithmetic) -> tuple[tuple[Any, Any], ...]:
+    def _coordinates(
+        self, point: Sequence[Any], arithmetic: Arithmetic
+    ) -> dict[Factor, tuple[Any, ...]]:
         convert = arithmetic.convert
-        kept = tuple(
-            (1 - convert(k) * x, convert(k) + x) for k, x in zip(self.charts, point, strict=True)
-        )
-        joints = self.loop.joints[:-2]
-        product = _product(
-            [_turn(c, s, _line(j, arithmetic)) for (c, s), j in zip(kept, joints, strict=True)]
-        )
-        flat = [x for part in dual_conjugate(product) for x in part]
-        w00, w10, w01, w11 = (
-            sum((convert(y) * x for y, x in zip(row, flat, strict=True)), convert(Fraction(0)))
-            for row in self.coordinates
-        )
-        # The matrix has rank one; its largest entry is never zero, w00 is at half a turn.
-        matrix = ((w00, w01), (w10, w11))
-        row, column = max(
-            ((i, j) for i in (0, 1) for j in (0, 1)), key=lambda ij: abs(matrix[ij[0]][ij[1]])
-        )
-        return (*kept, (matrix[0][column], matrix[1][column]), matrix[row])
+        values = self.charts.at(point, convert)
+        for closure in self.closures:
+            values |= closure.recovered(values.__getitem__, convert)
+        return values
 
     def lift(self, point: Sequence[Any]) -> Configuration:
         """All bodies' orientations and positions at a solution.
@@ -108,127 +93,145 @@ class HalfAngleModel:
             ZeroDivisionError: at a point of norm zero.
         """
         arithmetic = arithmetic_of(point)
-        angles = self._angles(as_entries(point), arithmetic)
         convert = arithmetic.convert
+        values = self._coordinates(as_entries(point), arithmetic)
+        structure, mechanism = self.structure, self.structure.mechanism
+        relative = {
+            name: displacement(elements, values, convert)
+            for name, elements in self.elements.items()
+        }
+        reference = {
+            b: [convert(x) for x in mechanism.orientation(b)]
+            for b in (structure.base, *structure.moving)
+        }
+        base = structure.base
         one = convert(Fraction(1))
-        turns: list[Quaternion] = [(one, 0 * one, 0 * one, 0 * one)]
-        for (c, s), joint in zip(angles[:-1], self.loop.joints[:-1], strict=True):
-            axis = [convert(x) for x in direction(joint.axis)]
-            turns.append(multiply(turns[-1], (c, *(s * x for x in axis))))
-        base = conjugate(turns[self.loop.bodies.index(self.structure.base)])
-        mechanism = self.structure.mechanism
-        euler = {}
-        for body, turn in zip(self.loop.bodies, turns, strict=True):
-            relative = multiply(base, turn)
-            reference = [convert(x) for x in mechanism.orientation(body)]
-            unit = scale(relative, 1 / arithmetic.sqrt(norm_squared(relative)))
-            euler[body] = multiply(unit, reference)
-        return configuration(self.structure, euler, arithmetic)
+        turned = {base: (one, 0 * one, 0 * one, 0 * one)}
+        euler, slides = {}, {}
+        for parent, child, joint in structure.spanning_tree():
+            if child not in reference:
+                continue
+            turn = relative[joint.name][0]
+            turn = turn if joint.bodies[0] == parent else conjugate(turn)
+            turned[child] = multiply(turned[parent], turn)
+            unit = scale(turned[child], 1 / arithmetic.sqrt(norm_squared(turned[child])))
+            turned[child] = unit
+            euler[child] = multiply(unit, reference[child])
+        for joint in structure.joints:
+            if slide_directions(joint):
+                place = [convert(x) for x in joint.point]
+                there = moved(relative[joint.name], place)
+                slides[joint.name] = difference(there, place)
+        return configuration(structure, euler, arithmetic, slides)
 
 
-def half_angle_model(structure: LoopStructure) -> HalfAngleModel:
-    """The loop equations of a single loop in half-angles.
+def half_angle_model(structure: LoopStructure, modes: Modes = REFERENCE) -> HalfAngleModel:
+    """The loop equations in half-angles, slides and quaternions of the joints.
 
     Raises:
-        ValueError: if there is not exactly one loop, it has fewer than three joints, or all its
-            axes coincide.
+        ValueError: if a loop has nothing of its own to eliminate, or nothing is left.
     """
-    loop = _choose_eliminated(structure)
-    kept, (first, second) = loop.joints[:-2], loop.joints[-2:]
-    n = len(kept)
-    charts = tuple(
-        _CHARTS[i] if i < len(_CHARTS) else Fraction(i + 4, 2 * i + 15) for i in range(n)
+    elements, chosen = _choose_closures(structure, dict(modes))
+    lost = {f for c in chosen for f in c.lost}
+    kept = [f for f in _in_order(chosen) if f not in lost]
+    if not kept:
+        raise ValueError(_too_short(structure))
+    charts = Charts.of(kept)
+    equations = [f for c in chosen for f in c.polynomials(charts.values.__getitem__)]
+    return HalfAngleModel(
+        structure,
+        tuple(chosen),
+        charts,
+        elements,
+        charts.system(equations),
+        () if modes else charts.reference,
+        modes,
     )
-    exact = Arithmetic(lambda c: c, lambda x: x)
-    variables = Polynomial.variables(n)
-    product = _product(
-        [
-            _turn(1 - k * x, k + x, _line(joint, exact))
-            for k, x, joint in zip(charts, variables, kept, strict=True)
-        ]
+
+
+def _choose_closures(
+    structure: LoopStructure, modes: dict[str, int]
+) -> tuple[dict[str, tuple[Element, ...]], list[Closure]]:
+    """For some basis of the loops: what each of them eliminates, with the fewest paths."""
+    problem = ""
+    for loops in loop_bases(structure):
+        elements: dict[str, tuple[Element, ...]] = {}
+        products = [_loop_elements(structure, loop, modes, elements) for loop in loops]
+        users: dict[Factor, int] = {}
+        for product in products:
+            for element in product:
+                if element.factor is not None:
+                    users[element.factor] = users.get(element.factor, 0) + 1
+        chosen = []
+        for loop, product in zip(loops, products, strict=True):
+            terms = 1
+            for element in product:
+                terms *= 1 if element.factor is None else 1 + element.factor.dimension
+            own = [c for c in closures(product) if all(users[f] == 1 for f in c.lost)]
+            if not own:
+                problem = _nothing_to_eliminate(loop, len(loops))
+                break
+            best = min(own, key=_cost)
+            if terms > MOST_TERMS * 4:
+                problem = (
+                    f"a loop of {len(loop.joints)} joints has {terms // 4} terms an equation, at "
+                    f"most {MOST_TERMS} are multiplied out"
+                )
+                break
+            chosen.append(best)
+        else:
+            return elements, chosen
+    raise ValueError(problem)
+
+
+def _nothing_to_eliminate(loop: Loop, loops: int) -> str:
+    joints = ", ".join(j.name for j in loop.joints)
+    if loops == 1 and len(loop.joints) < 3:
+        return f"half-angles need a loop of at least 3 joints; this one has {len(loop.joints)}"
+    if loops == 1:
+        return "all axes of the loop coincide: every joint turns freely"
+    return (
+        f"the loop of {joints} has no two neighbouring turns or slides and no spherical or planar "
+        "joint of its own"
     )
-    flat = [x for part in dual_conjugate(product) for x in part]
-    basis = _basis(first, second)
-    equations = [_combine(row, flat) for row in null_space(basis, 8)]
-    coordinates = tuple(left_inverse(basis))
-    if not skew(first, second):
-        w00, w10, w01, w11 = (_combine(row, flat) for row in coordinates)
-        equations.append(w00 * w11 - w10 * w01)
-    system = PolynomialSystem(
-        _variable_names(kept),
-        tuple(_primitive(f) for f in independent_polynomials(equations)),
-        tuple(_norm(k, joint, x) for k, joint, x in zip(charts, kept, variables, strict=True)),
-        tuple((i,) for i in range(n)),
-    )
-    return HalfAngleModel(structure, loop, charts, system, tuple(-k for k in charts), coordinates)
 
 
-def _choose_eliminated(structure: LoopStructure) -> Loop:
-    """The loop, turned so that its last two axes are skew, or else at least not the same line."""
-    loop = structure.single
-    if loop is None:
-        raise ValueError(
-            f"half-angles need a single loop; this mechanism has {len(structure.loops)}"
-        )
-    n = len(loop.joints)
-    if n < 3:
-        raise ValueError(f"half-angles need a loop of at least 3 joints; this one has {n}")
-    readings = [loop.rotated(i) for i in range(n)]
-    for suits in (skew, lambda g, k: not parallel(g, k), lambda g, k: not coincident(g, k)):
-        for reading in readings:
-            if suits(*reading.joints[-2:]):
-                return reading
-    raise ValueError("all axes of the loop coincide: every joint turns freely")
+def _too_short(structure: LoopStructure) -> str:
+    count = len(structure.joints)
+    return f"half-angles need a loop of at least 3 joints; this one has {count}"
 
 
-def _line(joint: Joint, arithmetic: Arithmetic) -> DualQuaternion:
-    point = [arithmetic.convert(x) for x in joint.point]
-    return line(point, [arithmetic.convert(x) for x in direction(joint.axis)])
+def _cost(closure: Closure) -> tuple[int, int]:
+    """Bound of the number of paths, that of the quadric included."""
+    dimensions = [e.factor.dimension for e in closure.kept if e.factor is not None]
+    degrees = [(1,) * len(dimensions)] * (8 - len(closure.basis))
+    if closure.quadric:
+        degrees = [*degrees[:3], (2,) * len(dimensions)]
+    return intersection_number(degrees, dimensions), int(closure.quadric)
 
 
-def _turn(c: Any, s: Any, h: DualQuaternion) -> DualQuaternion:
-    """c + s h."""
-    real, dual = (tuple(s * x for x in part) for part in h)
-    return (c + real[0], *real[1:]), dual
+def _loop_elements(
+    structure: LoopStructure,
+    loop: Loop,
+    modes: dict[str, int],
+    known: dict[str, tuple[Element, ...]],
+) -> list[Element]:
+    """The loop's product; the elements of its joints, first body to second, are put in ``known``.
+
+    A joint's coordinates count in the direction in which the first loop that has it runs.
+    """
+    product: list[Element] = []
+    for joint, body in zip(loop.joints, loop.bodies, strict=True):
+        forward = joint.bodies[0] == body
+        if joint.name not in known:
+            known[joint.name] = joint_elements(joint, modes.get(joint.name, 0), forward)
+        own = known[joint.name]
+        product += own if forward else opposite(own)
+    return product
 
 
-def _product(factors: Sequence[DualQuaternion]) -> DualQuaternion:
-    result = factors[0]
-    for factor in factors[1:]:
-        result = dual_multiply(result, factor)
-    return result
-
-
-def _basis(first: Joint, second: Joint) -> list[list[Number]]:
-    """1, g, k and gk as vectors of 8 numbers, for the lines g and k of two joints."""
-    exact = Arithmetic(lambda c: c, lambda x: x)
-    g, k = _line(first, exact), _line(second, exact)
-    zero, one = Fraction(0), Fraction(1)
-    unit = ((one, zero, zero, zero), (zero, zero, zero, zero))
-    return [[x for part in q for x in part] for q in (unit, g, k, dual_multiply(g, k))]
-
-
-def _combine(row: Sequence[Number], flat: Sequence[Polynomial]) -> Polynomial:
-    return sum((f * c for c, f in zip(row, flat, strict=True)), Polynomial(flat[0].n, {}))
-
-
-def _norm(k: Fraction, joint: Joint, x: Polynomial) -> Polynomial:
-    """c^2 + N s^2 in the chart, with leading coefficient 1: x^2 + 1 for a unit axis."""
-    axis = direction(joint.axis)
-    squared = dot(axis, axis)
-    return ((1 - k * x) ** 2 + (k + x) ** 2 * squared) / (k * k + squared)
-
-
-def _primitive(f: Polynomial) -> Polynomial:
-    """``f`` times the rational number that makes its coefficients coprime integers."""
-    if not f.exact or not f:
-        return f
-    denominator = lcm(*(c.denominator for c in f.terms.values()))
-    divisor = gcd(*(int(c * denominator) for c in f.terms.values()))
-    return f * Fraction(denominator, divisor)
-
-
-def _variable_names(joints: Sequence[Joint]) -> tuple[str, ...]:
-    if all(j.name.isascii() and j.name.isidentifier() for j in joints):
-        return tuple(f"x_{j.name}" for j in joints)
-    return tuple(f"x{i + 1}" for i in range(len(joints)))
+def _in_order(chosen: Sequence[Closure]) -> list[Factor]:
+    order: dict[Factor, None] = {}
+    for closure in chosen:
+        order.update(dict.fromkeys(e.factor for e in closure.kept if e.factor is not None))
+    return list(order)

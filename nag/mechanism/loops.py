@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from nag.mechanism.graph import JOINT_FREEDOMS, Joint, Mechanism
+from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.joint_types import JOINT_FREEDOMS
+from nag.mechanism.rigid_groups import RigidGroups, rigid_groups
 
 if TYPE_CHECKING:
     import networkx
@@ -28,10 +31,11 @@ class Loop:
 
 @dataclass(frozen=True)
 class LoopStructure:
-    """What is left of a mechanism when dangling trees are cut off.
+    """What is left of a mechanism when rigid bodies are merged and dangling trees are cut off.
 
     Attributes:
-        mechanism: the whole mechanism.
+        mechanism: the mechanism, each group of bodies that are tied rigidly as one body.
+        groups: what was tied.
         base: the body taken as fixed: the ground, or, where the ground hangs on a tree, the body
             with loops that is nearest to it.
         moving: the other bodies, in the mechanism's order.
@@ -41,6 +45,7 @@ class LoopStructure:
     """
 
     mechanism: Mechanism
+    groups: RigidGroups
     base: str
     moving: tuple[str, ...]
     joints: tuple[Joint, ...]
@@ -78,47 +83,91 @@ class LoopStructure:
 
 
 def loop_structure(mechanism: Mechanism) -> LoopStructure:
-    """Cut dangling trees off and choose a minimum cycle basis.
+    """Merge rigid bodies, cut dangling trees off and choose a minimum cycle basis.
 
     A mechanism without loops gives a structure without moving bodies.
     """
-    import networkx
-
-    graph = mechanism.graph.copy()
-    cut: set[str] = set()
-    leaves = [b for b in graph if graph.degree(b) == 1]
-    while leaves:
-        leaf = leaves.pop()
-        if graph.degree(leaf) != 1:
-            continue
-        _, neighbour, name = next(iter(graph.edges(leaf, keys=True)))
-        cut.add(name)
-        graph.remove_node(leaf)
-        if graph.degree(neighbour) == 1:
-            leaves.append(neighbour)
-    kept = tuple(j for j in mechanism.joints if j.name not in cut)
-    left_out = tuple(j for j in mechanism.joints if j.name in cut)
+    groups = rigid_groups(mechanism)
+    mechanism = groups.merged
+    if groups.is_one_body:
+        return LoopStructure(mechanism, groups, mechanism.ground, (), (), (), ())
+    kept, left_out = _looped(mechanism.joints)
     if not kept:
-        return LoopStructure(mechanism, mechanism.ground, (), (), left_out, ())
+        return LoopStructure(mechanism, groups, mechanism.ground, (), (), left_out, ())
     looped = {b for j in kept for b in j.bodies}
-    distance = networkx.single_source_shortest_path_length(mechanism.graph, mechanism.ground)
+    distance = _distances(mechanism)
     base = min((b for b in mechanism.body_names if b in looped), key=lambda b: distance[b])
     moving = tuple(b for b in mechanism.body_names if b in looped and b != base)
-    return LoopStructure(mechanism, base, moving, kept, left_out, _cycle_basis(kept))
+    return LoopStructure(mechanism, groups, base, moving, kept, left_out, _cycle_basis(kept))
+
+
+def loop_bases(structure: LoopStructure) -> Iterator[tuple[Loop, ...]]:
+    """Bases of the loops: the minimum one, then those of spanning trees at each body.
+
+    A single loop is read from the base on.
+    """
+    if structure.single is not None:
+        yield (structure.single,)
+        return
+    yield structure.loops
+    import networkx
+
+    graph = _bipartite(structure.joints)
+    for body in (structure.base, *structure.moving):
+        yield _loops_of(networkx.cycle_basis(graph, ("body", body)), structure.joints)
+
+
+def _looped(joints: Sequence[Joint]) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
+    """The joints without those of dangling trees, and these."""
+    kept = tuple(joints)
+    while True:
+        degrees = Counter(b for j in kept for b in j.bodies)
+        inner = tuple(j for j in kept if min(degrees[b] for b in j.bodies) > 1)
+        if inner == kept:
+            names = {j.name for j in kept}
+            return kept, tuple(j for j in joints if j.name not in names)
+        kept = inner
+
+
+def _distances(mechanism: Mechanism) -> dict[str, int]:
+    """How many joints away from the ground each body is."""
+    distance, frontier = {mechanism.ground: 0}, [mechanism.ground]
+    for body in frontier:
+        for joint in mechanism.joints:
+            if body in joint.bodies and joint.other(body) not in distance:
+                distance[joint.other(body)] = distance[body] + 1
+                frontier.append(joint.other(body))
+    return distance
 
 
 def _cycle_basis(joints: tuple[Joint, ...]) -> tuple[Loop, ...]:
-    """Minimum cycle basis of a multigraph: a joint is a node of its own in a simple graph."""
+    """Minimum cycle basis of a multigraph."""
+    if len(joints) == len({b for j in joints for b in j.bodies}):
+        # As many joints as bodies, none of them dangling: they are one loop.
+        return (_ordered(list(joints)),)
+    import networkx
+
+    return _loops_of(networkx.minimum_cycle_basis(_bipartite(joints)), joints)
+
+
+def _bipartite(joints: tuple[Joint, ...]) -> networkx.Graph:
+    """A simple graph in which a joint is a node of its own."""
     import networkx
 
     graph: networkx.Graph = networkx.Graph()
     for joint in joints:
         for body in joint.bodies:
             graph.add_edge(("body", body), ("joint", joint.name))
+    return graph
+
+
+def _loops_of(
+    cycles: Sequence[Sequence[tuple[str, str]]], joints: tuple[Joint, ...]
+) -> tuple[Loop, ...]:
     position = {j.name: i for i, j in enumerate(joints)}
     by_name = {j.name: j for j in joints}
     loops = []
-    for nodes in networkx.minimum_cycle_basis(graph):
+    for nodes in cycles:
         names = {name for kind, name in nodes if kind == "joint"}
         loops.append(_ordered([by_name[n] for n in sorted(names, key=position.__getitem__)]))
     return tuple(sorted(loops, key=lambda p: [position[j.name] for j in p.joints]))

@@ -12,13 +12,14 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from nag.algebra.number import Number
-from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.through import through_points
 from nag.mechanism.axes import space_of
-from nag.mechanism.graph import JOINT_FREEDOMS, Mechanism
+from nag.mechanism.graph import Mechanism
+from nag.mechanism.joint_types import freedoms_in
+from nag.mechanism.loops import loop_structure
 from nag.mechanism.mobility import gruebler_kutzbach
-from nag.mechanism.model import Formulation, Model, model
+from nag.mechanism.model import Model, model
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.witness.expansion import expanded
 
@@ -130,7 +131,7 @@ class MobilityReport:
                 f"formulation {self.formulation}"
             )
             if self.free:
-                model_text += f"; {self.free} by joints outside all loops"
+                model_text += f"; {self.free} besides"
         return [
             ("counted", counts),
             ("model", model_text),
@@ -198,7 +199,7 @@ def mobility(
     mechanism: Mechanism,
     point: Sequence[Number] | None = None,
     *,
-    formulation: Formulation = "auto",
+    formulation: str = "auto",
     components: bool = True,
     seed: int = 0,
     threads: int = 1,
@@ -217,7 +218,7 @@ def mobility(
         nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
         nag.numerics.local_dimension.NoSolution: if an exact point is no configuration.
     """
-    if len(mechanism.graph.edges) < len(mechanism.graph):
+    if not loop_structure(mechanism).loops:
         return _without_loops(mechanism)
     made = model(mechanism, formulation)
     at = tuple(made.reference) if point is None else tuple(point)
@@ -236,7 +237,7 @@ def report_of(
     doubt: str = "",
 ) -> MobilityReport:
     """The report of what was found in a model."""
-    free = made.structure.cut_freedoms
+    free = sum(freedoms for freedoms, _ in made.freedoms_left_out)
     tangent = found.tangent_dimension
     return MobilityReport(
         space=space_of(made.mechanism.joints),
@@ -255,9 +256,9 @@ def report_of(
 
 
 def _without_loops(mechanism: Mechanism) -> MobilityReport:
-    free = sum(JOINT_FREEDOMS[j.type] for j in mechanism.joints)
     counted = gruebler_kutzbach(mechanism)
     space = space_of(mechanism.joints)
+    free = sum(freedoms_in(j.type, space) for j in mechanism.joints)
     return MobilityReport(space, counted, "", 0, 0, free, free, free, free, None, "", None)
 
 
@@ -265,11 +266,9 @@ def _components(
     made: Model, at: Sequence[Number], seed: int, threads: int, settings: str
 ) -> tuple[tuple[tuple[int, int], ...] | None, str]:
     """Dimension and degree of the components through a point, or why they are not known."""
-    from nag.algebra.symmetry import SignedPermutation
-
-    system: PolynomialSystem = made.system
-    symmetries = tuple(SignedPermutation.of_signs(signs) for signs in made.symmetries)
-    found = decompose(system, seed=seed, threads=threads, settings=settings, symmetries=symmetries)
+    found = decompose(
+        made.system, seed=seed, threads=threads, settings=settings, symmetries=made.symmetries
+    )
     if not found.complete:
         return None, f"the decomposition is incomplete: {'; '.join(found.notes)}"
     through = through_points(found, [("the configuration", tuple(at))], threads)[0]

@@ -5,28 +5,38 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import prod
-from typing import Any, Literal
+from typing import Any
 
 from nag.algebra.number import Number
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space, space_of
 from nag.mechanism.configuration import Configuration
-from nag.mechanism.euler import EulerModel, euler_model, unreduced_point, unreduced_system
+from nag.mechanism.euler import EulerModel
+from nag.mechanism.formulation_names import FORMULATIONS
+from nag.mechanism.formulations import (
+    Alternative,
+    Form,
+    ModelError,
+    alternative,
+    alternatives,
+    counted,
+    description,
+    joints_text,
+    smallest,
+)
 from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
+from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, loop_structure
 from nag.mechanism.mobility import gruebler_kutzbach
-from nag.mechanism.planar import PlanarModel, planar_model
+from nag.mechanism.path_estimates import path_bound
+from nag.mechanism.planar import PlanarModel
+from nag.mechanism.projection import projected
+from nag.mechanism.rods import RodModel
+from nag.mechanism.unreduced import unreduced_point, unreduced_system
 
-Formulation = Literal["auto", "E", "H"]
-
-# An equation in half-angles has two to the number of joints terms.
-MOST_HALF_ANGLE_JOINTS = 12
-
-
-class ModelError(ValueError):
-    """A mechanism that the asked formulation does not cover."""
+__all__ = ["Model", "ModelError", "formulations", "model"]
 
 
 @dataclass(frozen=True)
@@ -35,31 +45,35 @@ class Model:
 
     Attributes:
         mechanism: what is modelled.
-        formulation: "E" (Euler parameters; (c, s) in the plane) or "H" (half-angles).
+        formulation: "E" (Euler parameters; (c, s) in the plane) or "H" (half-angles, and slides
+            and quaternions of joints that have them).
         space: the smallest geometry that holds all axes.
         reason: one sentence: why this model.
         system: the equations, exact.
-        reference: the reference configuration in the system's variables, an exact solution.
+        reference: the reference configuration in the system's variables, an exact solution; empty
+            in other assembly modes.
         sign_group: size of the group of sign changes a -> -a that acts on E; 1 for H and in the
             plane, where configurations have one point each.
-        symmetries: generators of that group, as signs of the system's variables.
+        symmetries: generators of that group, as `nag.decompose` takes them.
         path_bound: number of solutions that a square system of these degrees, cut by linear
             equations, has at most (Bezout's number, multihomogeneous where there are groups).
         structure: the part of the mechanism that has loops, and what was cut off.
         form: the equations' own model.
+        modes: the joints that are not in the assembly mode of the reference configuration.
     """
 
     mechanism: Mechanism
-    formulation: Literal["E", "H"]
+    formulation: str
     space: Space
     reason: str
     system: PolynomialSystem
     reference: tuple[Number, ...]
     sign_group: int
-    symmetries: tuple[tuple[int, ...], ...]
+    symmetries: tuple[SignedPermutation, ...]
     path_bound: int
     structure: LoopStructure
-    form: EulerModel | HalfAngleModel | PlanarModel
+    form: Form
+    modes: Modes = REFERENCE
 
     def lift(self, point: Sequence[Any]) -> Configuration:
         """All bodies' orientations and positions at a solution of `system`.
@@ -70,136 +84,172 @@ class Model:
             raise ValueError(f"the point has {len(point)} coordinates, the model {self.system.n}")
         return self.form.lift(point)
 
+    def project(self, configuration: Configuration) -> tuple[Any, ...]:
+        """The point of `system` that a configuration is, for models in Euler parameters.
+
+        Raises:
+            ValueError: for other formulations.
+        """
+        if not isinstance(self.form, EulerModel | PlanarModel):
+            raise ValueError(f"formulation {self.formulation} has no coordinates of bodies")
+        return projected(self.form, configuration)
+
     @cached_property
     def unreduced(self) -> PolynomialSystem:
-        """Every constraint in the Euler parameters of all moving bodies, nothing eliminated."""
-        return unreduced_system(self.structure)
+        """Every constraint of PT13 table 1 in all Euler parameters and positions."""
+        return unreduced_system(self.mechanism)
 
     def unreduced_point(self, configuration: Configuration) -> tuple[Any, ...]:
         """The point of `unreduced` that a configuration is."""
-        return unreduced_point(self.structure, configuration)
+        return unreduced_point(self.mechanism, configuration)
+
+    @cached_property
+    def alternatives(self) -> tuple[Alternative, ...]:
+        """All formulations of the mechanism, by rising number of paths."""
+        return alternatives(self.structure, self.space, self.modes)
 
     @property
     def gruebler_kutzbach(self) -> int:
         """The mobility that counting predicts for the whole mechanism."""
         return gruebler_kutzbach(self.mechanism)
 
+    def __repr__(self) -> str:
+        from nag.mechanism.shown import model_text
+
+        return model_text(self)
+
     @property
     def cut(self) -> tuple[Joint, ...]:
         """Joints of dangling trees; each adds its own freedom to every component's dimension."""
         return self.structure.cut
 
+    @property
+    def freedoms_left_out(self) -> tuple[tuple[int, str], ...]:
+        """Freedoms that every configuration has besides those of `system`, and whose they are."""
+        found = []
+        if self.structure.cut_freedoms:
+            found.append((self.structure.cut_freedoms, "the joints that were cut off"))
+        if isinstance(self.form, RodModel):
+            found.append((self.form.spins, "rods that turn about themselves"))
+        return tuple(found)
 
-def model(mechanism: Mechanism, formulation: Formulation = "auto") -> Model:
+    @property
+    def rank(self) -> tuple[int, int] | None:
+        """Number of closure equations in joint coordinates and how many are independent.
+
+        Exact linear algebra; every component has at least as many dimensions as there are
+        variables more than independent equations. None for other formulations.
+        """
+        if not isinstance(self.form, HalfAngleModel):
+            return None
+        equations = sum(c.equations for c in self.form.closures)
+        return equations, len(self.system.polynomials)
+
+
+def model(
+    mechanism: Mechanism,
+    formulation: str = "auto",
+    modes: Modes = REFERENCE,
+    space: Space | None = None,
+) -> Model:
     """The smallest faithful model of a mechanism, or the one that is asked for.
 
-    Planar mechanisms take (c, s) of each body, single loops in space half-angles, all others Euler
-    parameters.
+    The smallest is the one with the fewest estimated paths.
+
+    Args:
+        mechanism: what is modelled.
+        formulation: ``"auto"`` or a key of `nag.mechanism.formulation_names.FORMULATIONS`.
+        modes: assembly modes, for joints that are not in that of the reference configuration
+            (`nag.mechanism.assembly_modes`), which are those of the mechanism in space.
+        space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
+
+    Args:
+        mechanism: at least one of its joints must belong to a loop.
+        formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
+            components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
+            for half-angles, ``"auto"`` for the smaller one.
 
     Raises:
         ModelError: if the mechanism has no loop, or ``formulation`` does not cover it.
+
+    >>> import nag
+    >>> model = nag.model(nag.read_case("cases/bennett.toml").mechanism)
+    >>> model.formulation, model.system.n, model.system.degrees
+    ('H', 2, (2,))
+    >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
+    True
     """
-    if formulation not in ("auto", "E", "H"):
-        raise ModelError(f'formulation {formulation!r} is unknown; use "auto", "E" or "H"')
+    if formulation != "auto" and formulation not in FORMULATIONS:
+        names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS))
+        raise ModelError(f"formulation {formulation!r} is unknown; use one of {names}")
+    structure = with_loops(mechanism)
+    if space is None:
+        space = "spatial" if modes else space_of(structure.joints)
+    if formulation == "auto":
+        chosen = smallest(structure, space, modes)
+    else:
+        chosen = alternative(structure, space, formulation, modes)
+    form = chosen.form
+    if form is None:
+        instead = "" if formulation == "E" else "; use formulation E"
+        raise ModelError(f"formulation {chosen.formulation}: {chosen.problem}{instead}")
+    symmetries = form.symmetries if isinstance(form, EulerModel) else ()
+    return Model(
+        mechanism=mechanism,
+        formulation=chosen.formulation,
+        space=space,
+        reason=_reason(structure, space, chosen, formulation) + _cut_text(structure),
+        system=form.system,
+        reference=form.reference,
+        sign_group=2 ** len(symmetries),
+        symmetries=tuple(map(SignedPermutation.of_signs, symmetries)),
+        path_bound=path_bound(form.system),
+        structure=structure,
+        form=form,
+        modes=modes,
+    )
+
+
+def formulations(mechanism: Mechanism) -> tuple[str, ...]:
+    """The formulations that cover a mechanism, by rising number of estimated paths.
+
+    Raises:
+        ModelError: if the mechanism has no loop.
+    """
+    structure = with_loops(mechanism)
+    found = alternatives(structure, space_of(structure.joints))
+    return tuple(a.formulation for a in found if a.form is not None)
+
+
+def with_loops(mechanism: Mechanism) -> LoopStructure:
+    """The part of a mechanism that has loops.
+
+    Raises:
+        ModelError: if there is none.
+    """
     structure = loop_structure(mechanism)
+    if structure.groups.is_one_body:
+        raise ModelError("all bodies are tied together by rigid joints: nothing moves")
     if not structure.loops:
         raise ModelError(
             f"the mechanism has no loop: each of its {len(mechanism.joints)} joints moves freely, "
             f"so its mobility is {structure.cut_freedoms} and there is nothing to decompose"
         )
-    space = space_of(structure.joints)
-    chosen, why = _choose(structure, space, formulation)
-    form = _build(structure, space, chosen)
-    symmetries = form.symmetries if isinstance(form, EulerModel) else ()
-    return Model(
-        mechanism=mechanism,
-        formulation=chosen,
-        space=space,
-        reason=why + _cut_text(structure),
-        system=form.system,
-        reference=form.reference,
-        sign_group=2 ** len(symmetries),
-        symmetries=symmetries,
-        path_bound=path_bound(form.system),
-        structure=structure,
-        form=form,
-    )
+    return structure
 
 
-def path_bound(system: PolynomialSystem) -> int:
-    """Bezout's number of the system's lowest degrees, cut down to points by linear equations.
-
-    Multihomogeneous where the system has groups; slices are linear in all variables together.
-    """
-    polynomials = sorted(system.polynomials, key=lambda f: f.degree)[: system.n]
-    if not system.groups:
-        return prod(f.degree for f in polynomials)
-    degrees = [tuple(f.degree_in(g) for g in system.groups) for f in polynomials]
-    degrees += [(1,) * len(system.groups)] * (system.n - len(polynomials))
-    counts = {tuple(len(g) for g in system.groups): 1}
-    for row in degrees:
-        following: dict[tuple[int, ...], int] = {}
-        for left, ways in counts.items():
-            for i, d in enumerate(row):
-                if d and left[i]:
-                    key = (*left[:i], left[i] - 1, *left[i + 1 :])
-                    following[key] = following.get(key, 0) + ways * d
-        counts = following
-    return sum(counts.values())
-
-
-def _choose(
-    structure: LoopStructure, space: Space, formulation: Formulation
-) -> tuple[Literal["E", "H"], str]:
-    joints, loops = len(structure.joints), len(structure.loops)
-    what = f"{space}, {_count(loops, 'loop')} of {_count(joints, 'revolute joint')}"
-    if formulation == "H":
-        if joints > MOST_HALF_ANGLE_JOINTS:
-            raise ModelError(
-                f"formulation H: a loop of {joints} joints has 2^{joints - 2} terms an equation, "
-                f"at most {MOST_HALF_ANGLE_JOINTS} joints are multiplied out; use formulation E"
-            )
-        return "H", f"{what}; half-angles, as asked"
-    if formulation == "E":
-        pairs = "one pair (c, s) for each body" if space == "planar" else "Euler parameters"
-        return "E", f"{what}; {pairs}, as asked"
-    if space == "planar":
-        return "E", f"{what}; all axes are parallel, so one pair (c, s) for each body"
-    if space == "spherical":
-        return "E", f"{what}; all axes meet, so Euler parameters without loop equations"
-    if loops == 1 and 3 <= joints <= MOST_HALF_ANGLE_JOINTS:
-        unknowns = 4 * len(structure.moving) - 4
-        return "H", (
-            f"{what}; half-angles with two joints eliminated leave "
-            f"{_count(joints - 2, 'unknown')}, Euler parameters {unknowns}"
-        )
-    return "E", (
-        f"{what}; Euler parameters: half-angles are for a single loop of 3 to "
-        f"{MOST_HALF_ANGLE_JOINTS} joints"
-    )
-
-
-def _build(
-    structure: LoopStructure, space: Space, formulation: Literal["E", "H"]
-) -> EulerModel | HalfAngleModel | PlanarModel:
-    if formulation == "H":
-        try:
-            return half_angle_model(structure)
-        except ValueError as error:
-            raise ModelError(f"formulation H: {error}; use formulation E") from None
-    if space == "planar":
-        return planar_model(structure)
-    return euler_model(structure, spherical=space == "spherical")
+def _reason(structure: LoopStructure, space: Space, chosen: Alternative, asked: str) -> str:
+    loops = counted(len(structure.loops), "loop")
+    text = f"{space}, {loops} of {joints_text(structure.joints)}; {description(chosen, space)}"
+    if asked != "auto":
+        return f"{text}, as asked"
+    unknowns = counted(chosen.system.n, "unknown")
+    return f"{text}: {unknowns} and the fewest paths, at most {chosen.paths}"
 
 
 def _cut_text(structure: LoopStructure) -> str:
     if not structure.cut:
         return ""
     names = ", ".join(j.name for j in structure.cut)
-    return (
-        f"; cut off, moving freely with {_count(structure.cut_freedoms, 'freedom')}: joints {names}"
-    )
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+    freedoms = counted(structure.cut_freedoms, "freedom")
+    return f"; cut off, moving freely with {freedoms}: joints {names}"

@@ -12,11 +12,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.elimination import Elimination
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.mechanism.axes import Vector, cross, difference, direction, dot, vanishes
+from nag.mechanism.axes import (
+    Vector,
+    cross,
+    difference,
+    direction,
+    dot,
+    planar_normal,
+    vanishes,
+)
 from nag.mechanism.configuration import (
     Arithmetic,
     Configuration,
@@ -24,6 +32,8 @@ from nag.mechanism.configuration import (
     as_entries,
     configuration,
 )
+from nag.mechanism.euler import slide_carrier, slide_names, without_slides
+from nag.mechanism.graph import Joint
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import Quaternion, multiply
 from nag.mechanism.row_reduction import independent_polynomials
@@ -34,6 +44,9 @@ Turn = tuple[Any, Any]
 @dataclass(frozen=True)
 class PlanarModel:
     """A planar mechanism in (c, s) for each moving body, linear equations solved away.
+
+    Prismatic joints have a slide each; those that are polynomials in the other variables are
+    eliminated as well.
 
     Attributes:
         structure: the mechanism's part with loops.
@@ -68,7 +81,13 @@ class PlanarModel:
             turn = _compose((values[2 * i], values[2 * i + 1]), (offset[0], -offset[1]), squared)
             half = _half_turn(turn, self.normal, squared, arithmetic)
             euler[body] = multiply(half, [convert(x) for x in mechanism.orientation(body)])
-        return configuration(self.structure, euler, arithmetic)
+        slides = {}
+        distances = values[2 * len(self.structure.moving) :]
+        for joint, distance in zip(_sliding(self.structure), distances, strict=True):
+            # Turning is the same for both bodies, so either may carry the slide.
+            sign = 1 if slide_carrier(self.structure, joint) == joint.bodies[0] else -1
+            slides[joint.name] = tuple(convert(x) * distance * sign for x in direction(joint.axis))
+        return configuration(self.structure, euler, arithmetic, slides)
 
 
 def planar_model(structure: LoopStructure) -> PlanarModel:
@@ -77,10 +96,13 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
     (c, s) is the turn of a body's local frame where the frame itself lies in the plane of motion,
     else the turn from the reference configuration.
     """
-    normal = direction(structure.joints[0].axis)
+    normal = planar_normal(structure.joints)
     squared = dot(normal, normal)
     frame = _frame(normal)
-    n = 2 * len(structure.moving)
+    names = tuple(f"{t}{i + 1}" for i in range(len(structure.moving)) for t in "cs")
+    parameters = len(names)
+    names += slide_names(structure)
+    n = len(names)
     variables = Polynomial.variables(n)
     mechanism = structure.mechanism
     offsets = {
@@ -90,28 +112,49 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
         body: (variables[2 * i], variables[2 * i + 1]) for i, body in enumerate(structure.moving)
     }
     turns[structure.base] = tuple(Polynomial.constant(n, x) for x in offsets[structure.base])
+    slides = dict(zip((j.name for j in _sliding(structure)), variables[parameters:], strict=True))
     polynomials = [turns[b][0] ** 2 + turns[b][1] ** 2 * squared - 1 for b in structure.moving]
+
+    def carried(body: str, vector: Vector) -> Turn:
+        place = (dot(vector, frame[0]), dot(vector, frame[1]) / squared)
+        offset = offsets[body]
+        return _apply(turns[body], _apply(_inverse(offset), place, squared), squared)
+
+    for joint in _sliding(structure):
+        first, second = (_compose(turns[b], _inverse(offsets[b]), squared) for b in joint.bodies)
+        polynomials += [first[0] - second[0], first[1] - second[1]]
     for loop in structure.loops:
         total = (Polynomial(n, {}), Polynomial(n, {}))
         for i, body in enumerate(loop.bodies):
-            link = difference(loop.joints[i].point, loop.joints[i - 1].point)
-            place = (dot(link, frame[0]), dot(link, frame[1]) / squared)
-            offset = offsets[body]
-            x, y = _apply((offset[0], -offset[1]), place, squared)
-            moved = _apply(turns[body], (x, y), squared)
+            joint = loop.joints[i]
+            moved = carried(body, difference(joint.point, loop.joints[i - 1].point))
             total = (total[0] + moved[0], total[1] + moved[1])
+            if joint.name in slides:
+                carrier = slide_carrier(structure, joint)
+                sign = 1 if carrier == body else -1
+                moved = carried(carrier, direction(joint.axis))
+                total = tuple(
+                    x + slides[joint.name] * y * sign for x, y in zip(total, moved, strict=True)
+                )
         polynomials += total
-    names = tuple(f"{t}{i + 1}" for i in range(len(structure.moving)) for t in "cs")
     full = PolynomialSystem(names, tuple(f for f in polynomials if f))
-    elimination = eliminate_linear(full, graphs=False)
+    elimination = without_slides(full, parameters)
     reduced = elimination.system
     system = PolynomialSystem(
         reduced.variables, tuple(independent_polynomials(reduced.polynomials)), reduced.nonzero
     )
-    start = [x for b in structure.moving for x in offsets[b]]
+    start = [x for b in structure.moving for x in offsets[b]] + [Fraction(0)] * (n - parameters)
     return PlanarModel(
         structure, normal, offsets, elimination, system, tuple(elimination.project(start))
     )
+
+
+def _sliding(structure: LoopStructure) -> list[Joint]:
+    return [j for j in structure.joints if j.type == "prismatic"]
+
+
+def _inverse(turn: Turn) -> Turn:
+    return turn[0], -turn[1]
 
 
 def _frame(normal: Vector) -> tuple[Vector, Vector]:

@@ -8,7 +8,6 @@ from typing import Any, Protocol
 
 import flint
 import numpy as np
-import scipy.linalg
 
 from nag.numerics.digits import doubles, log_norm, middle
 
@@ -143,6 +142,8 @@ def _schur_complement(
 
 def _well_conditioned(block: np.ndarray) -> tuple[list[int], list[int]]:
     """Rows and columns of a block that doubles see to be regular, as large as possible."""
+    import scipy.linalg
+
     r, columns = scipy.linalg.qr(block, mode="r", pivoting=True)
     diagonal = np.abs(np.diag(r))
     rank = max(1, int(np.sum(diagonal > 1e-8 * diagonal[0])))

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from nag.witness.witness import Decomposition, Status, WitnessSet
+from nag.witness.shown import Kind, flat, in_words, kinds
+from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
     from nag.files.cases import Truth
@@ -22,24 +21,6 @@ class Verdict(StrEnum):
     AGREES = "agrees"
     OPEN = "agrees as far as it is decided"
     DIFFERS = "differs"
-
-
-@dataclass(frozen=True)
-class Kind:
-    """Components that are alike in what can be known of them beforehand."""
-
-    dimension: int
-    degree: int
-    multiplicity: int
-    multidegree: tuple[int, ...] | None = None
-
-    def text(self, count: int) -> str:
-        """``count`` of them in words: "9 components of dimension 2, degree 4"."""
-        plural = "" if count == 1 else "s"
-        text = f"{count} component{plural} of dimension {self.dimension}, degree {self.degree}"
-        if self.multiplicity == 0:
-            return f"{text}, multiplicity not known"
-        return text if self.multiplicity == 1 else f"{text}, multiplicity {self.multiplicity}"
 
 
 @dataclass(frozen=True)
@@ -65,37 +46,6 @@ class Agreement:
     sources: tuple[str, ...]
 
 
-def _flat(multidegree: object) -> tuple[int, ...] | None:
-    return None if multidegree is None else tuple(np.ravel(np.array(multidegree)).tolist())
-
-
-def kind(component: WitnessSet) -> Kind:
-    """What can be compared of ``component``."""
-    return Kind(
-        component.dimension,
-        component.degree,
-        component.multiplicity,
-        _flat(component.multidegree),
-    )
-
-
-def kinds(components: Iterable[WitnessSet]) -> Counter[Kind]:
-    """How many components there are of each kind; each stands for its whole orbit."""
-    counts: Counter[Kind] = Counter()
-    for component in components:
-        counts[kind(component)] += component.orbit
-    return counts
-
-
-def in_words(counts: Counter[Kind]) -> str:
-    """Counts in words, multidegrees left out, by falling dimension."""
-    plain: Counter[Kind] = Counter()
-    for each, count in counts.items():
-        plain[Kind(each.dimension, each.degree, each.multiplicity)] += count
-    order = sorted(plain, key=lambda k: (-k.dimension, k.degree, k.multiplicity))
-    return "; ".join(each.text(plain[each]) for each in order) or "no component"
-
-
 def compare(
     decomposition: Decomposition, truth: Iterable[Truth], formulation: str | None = None
 ) -> Agreement | None:
@@ -114,7 +64,7 @@ def compare(
     missing: Counter[Kind] = Counter()
     # The more specific statements choose first among the components that fit.
     for item in sorted(known, key=lambda t: t.multidegree is None):
-        wanted = Kind(item.dimension, item.degree, item.multiplicity, _flat(item.multidegree))
+        wanted = Kind(item.dimension, item.degree, item.multiplicity, flat(item.multidegree))
         due = item.count
         for found in list(left):
             fits = (found.dimension, found.degree, found.multiplicity) == (

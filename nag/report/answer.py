@@ -9,6 +9,8 @@ from nag.algebra.number import number_text
 from nag.decomposition.through import Through
 from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
+from nag.report.assemblies import assembly_rows, parts_rows
+from nag.report.formulations import alternative_lines, joint_lines
 from nag.report.table import (
     component_table,
     labelled,
@@ -31,7 +33,21 @@ def _model_rows(model: Model) -> list[tuple[str, str]]:
     if model.sign_group > 1:
         text = f"{model.sign_group} sign changes of Euler parameters keep the equations; "
         rows.append(("signs", text + "components that they exchange are counted one by one"))
+    if model.rank is not None and model.rank[1] < model.rank[0]:
+        rows.append(("rank", _rank_text(*model.rank, model.system.n, bool(model.reference))))
     return rows
+
+
+def _rank_text(equations: int, rank: int, variables: int, assembled: bool) -> str:
+    text = f"the {equations} closure equations have rank {rank}"
+    if rank >= variables:
+        return f"{text}, by exact linear algebra"
+    free = variables - rank
+    unknowns = f"{variables} unknown" + ("s" if variables > 1 else "")
+    return (
+        f"{text} in {unknowns}, by exact linear algebra: every component has dimension {free} or "
+        f"more{', so it moves' if assembled else ''}"
+    )
 
 
 def _mobility_rows(
@@ -40,7 +56,7 @@ def _mobility_rows(
     rows = []
     label, counted, free = "dimension", "", 0
     if model is not None:
-        label, free = "mobility", model.structure.cut_freedoms
+        label, free = "mobility", sum(count for count, _ in model.freedoms_left_out)
         counted = f" (Gruebler-Kutzbach counts {model.gruebler_kutzbach})"
     everything = expanded(decomposition).components
     for point in points:
@@ -52,8 +68,9 @@ def _mobility_rows(
         else:
             largest = max(c.dimension for c in components) + free
             text = f"{largest} at {point.name}{counted}: on {in_words(kinds(components))}"
-            if free:
-                text += f", and {free} by the joints that were cut off"
+            if model is not None:
+                for count, whose in model.freedoms_left_out:
+                    text += f", and {count} by {whose}"
             if any(c.status is not Status.IRREDUCIBLE for c in components):
                 text += ", not all of them decided"
         rows.append((label, printable(text)))
@@ -79,9 +96,13 @@ def answer_lines(
     head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
     if model is not None:
         head = _model_rows(model) + head
+    if case.assembly is not None:
+        head = [(label, printable(text)) for label, text in parts_rows(case.assembly)] + head
     if not decomposition.complete:
         head.append(("", "INCOMPLETE, see below"))
     tail = _orbit_rows(decomposition) + _mobility_rows(decomposition, model, points)
+    if case.assembly is not None:
+        tail += assembly_rows(case.kind, case.assembly, decomposition)
     tail += [("open", line) for line in remarks(decomposition)]
     tail += [
         ("paths", paths_line(decomposition)),
@@ -108,6 +129,8 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     head = [("system", system_line(system))]
     if model is not None:
         head = _model_rows(model) + head
+    if case.assembly is not None:
+        head = [(label, printable(text)) for label, text in parts_rows(case.assembly)] + head
     lines = [printable(case.title), "", *labelled(head), "", "equations"]
     lines += [f"  {text} = 0" for text in system.text()] or ["  none"]
     if system.nonzero:
@@ -118,4 +141,4 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     for name, point in points_of(case, model):
         values = zip(system.variables, point, strict=True)
         lines += [printable(name), "  " + ", ".join(f"{v} = {number_text(x)}" for v, x in values)]
-    return lines
+    return lines if model is None else lines + joint_lines(model) + alternative_lines(model)

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from nag.report.table import align, labelled, magnitude, printable, system_line
+from nag.algebra.shown import system_line
+from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
+from nag.text.table import align, labelled, printable
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.model import Model
-    from nag.solving.solutions import Solution, SolveResult
-
-# Longer lists are left to the export.
-MOST_ROWS = 40
+    from nag.solving.solutions import SolveResult
 
 
 def solution_lines(
@@ -51,58 +50,16 @@ def solution_lines(
     ]
 
 
-def answer_text(result: SolveResult) -> str:
-    """The answer in one sentence."""
-    count, real = len(result.solutions), len(result.real)
-    text = f"{count} isolated solution{'' if count == 1 else 's'}, {real} real"
-    multiple = Counter(s.multiplicity for s in result.solutions if s.multiplicity > 1)
-    for multiplicity, number in sorted(multiple.items()):
-        text += f", {number} of multiplicity {multiplicity}"
-    if result.excluded:
-        text += f"; {result.excluded} more excluded, where a polynomial that must not vanish does"
-    if result.positive_dimensional:
-        text += "; and a solution set of positive dimension"
-    return text
-
-
 def solution_table(result: SolveResult) -> list[str]:
     """One row a solution, the real ones first."""
     if not result.solutions:
         return []
-    ordered = sorted(range(len(result.solutions)), key=lambda i: not result.solutions[i].real)
-    names = result.system.variables
-    wide = len(names) > 4
-    head = ["solution", *names[: 4 if wide else None], *(["..."] if wide else [])]
-    head += ["multiplicity", "real", "residual", "condition", "digits"]
-    rows = [head]
-    for i in ordered[:MOST_ROWS]:
-        s = result.solutions[i]
-        cells = [number_text(z, s) for z in s.point[: 4 if wide else None]]
-        rows.append(
-            [
-                str(i + 1),
-                *cells,
-                *(["..."] if wide else []),
-                str(s.multiplicity),
-                "yes" if s.real else "no",
-                magnitude(s.residual),
-                magnitude(s.condition),
-                str(s.precision),
-            ]
+    lines = align(solution_rows(result, MOST_ROWS, 4))
+    if len(result.solutions) > MOST_ROWS:
+        lines.append(
+            f"and {len(result.solutions) - MOST_ROWS} more; --json FILE writes all of them"
         )
-    lines = align(rows)
-    if len(ordered) > MOST_ROWS:
-        lines.append(f"and {len(ordered) - MOST_ROWS} more; --json FILE writes all of them")
     return lines
-
-
-def number_text(z: complex, solution: Solution) -> str:
-    """A coordinate to six digits; parts below the point's accuracy are left out."""
-    floor = max(1e-12, 1e2 * solution.accuracy) * (1 + float(abs(solution.point).max()))
-    real = 0.0 if abs(z.real) < floor else float(z.real)
-    if solution.real or abs(z.imag) < floor:
-        return f"{real:.6g}"
-    return f"{real:.6g}{z.imag:+.6g}i"
 
 
 def agreement_text(result: SolveResult, case: Case, model: Model | None) -> str:

@@ -1,6 +1,7 @@
 """All isolated solutions of a system.
 
-Read in this order: `solve` on `solutions` (the data); `start` (systems that are solved already);
-`branch_solutions` (what exact factoring decides); `parameter` (families, tracked from one member
-to others) with `parameter_line`, `solution_classes` and `solve_classes`; `kantorovich` proves.
+Read in this order: `solve` on `solutions` (the data) with `square_problem` (what is tracked) and
+`judged_ends` (what became of it); `start` (systems that are solved already); `branch_solutions`
+(what exact factoring decides); `parameter` (families, tracked from one member to others) with
+`parameter_line`, `solution_classes` and `solve_classes`; `kantorovich` proves.
 """

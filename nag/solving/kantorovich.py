@@ -16,7 +16,6 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 
-import mpmath
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator, PlacedDerivatives
@@ -189,6 +188,8 @@ class Confirmation:
 
     def _exact(self, point: np.ndarray, values: np.ndarray) -> np.ndarray:
         """Values of the equations in more digits, scaled as the evaluator's, shape ``(1, n)``."""
+        import mpmath
+
         with mpmath.workdps(DIGITS):
             z = [mpmath.mpc(complex(x)) for x in (*point[0], *values)]
             result = [

@@ -37,6 +37,16 @@ class Solution:
         point.setflags(write=False)
         object.__setattr__(self, "point", point)
 
+    def __repr__(self) -> str:
+        from nag.solving.shown import solution_line
+
+        return solution_line(self)
+
+    def __str__(self) -> str:
+        from nag.solving.shown import solution_text
+
+        return solution_text(self)
+
 
 @dataclass(frozen=True)
 class PathStatistics:
@@ -104,8 +114,11 @@ class SolveResult:
         return len(self.on_components) > 0
 
     def __repr__(self) -> str:
-        multiple = sum(s.multiplicity > 1 for s in self.solutions)
-        text = f"{len(self.solutions)} isolated solutions, {len(self.real)} real"
-        text += f", {multiple} multiple" if multiple else ""
-        text += ", and curves or surfaces" if self.positive_dimensional else ""
-        return f"SolveResult({text}{'' if self.complete else ', incomplete'})"
+        from nag.solving.shown import result_text
+
+        return result_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.solving.shown import result_html
+
+        return result_html(self)

@@ -68,7 +68,7 @@ def track(
         jumped = collisions(homotopy, paths)
         if attempt == 0:
             # Branches that begin alike may be two; a jump does not survive shorter steps.
-            jumped = np.union1d(jumped, alike(paths))
+            jumped = np.array(sorted({*jumped.tolist(), *alike(paths).tolist()}), dtype=int)
         if not len(jumped):
             return paths
         chosen = tighter(chosen)

@@ -12,7 +12,6 @@ from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
-import scipy.linalg
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
@@ -175,7 +174,11 @@ def numerical_corank(singular: np.ndarray, columns: int, small: float) -> int:
 def _null_basis(rows: np.ndarray, columns: int) -> np.ndarray:
     """Orthonormal basis of the directions along the slice, shape ``(columns, columns - d)``."""
     a = padded(rows, 1 + columns)[:, 1:]
-    return scipy.linalg.null_space(a) if len(a) else np.eye(columns, dtype=complex)
+    if not len(a):
+        return np.eye(columns, dtype=complex)
+    _, s, adjoint = np.linalg.svd(a)
+    rank = int((s > np.finfo(float).eps * max(a.shape) * s[0]).sum())
+    return adjoint[rank:].conj().T
 
 
 def regular_on(evaluator: Evaluator, rows: np.ndarray, sharpened: Sharpened) -> bool:
@@ -198,8 +201,25 @@ def _square_rows(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> list[
         return None
     if need == 0:
         return []
-    _, _, pivots = scipy.linalg.qr(matrix.T, mode="economic", pivoting=True)
-    return sorted(int(p) for p in pivots[:need])
+    if len(matrix) == need:
+        return list(range(need))
+    return _most_independent(matrix, need)
+
+
+def _most_independent(matrix: np.ndarray, need: int) -> list[int]:
+    """Rows chosen one by one, each the longest beside those before (Businger & Golub 1965)."""
+    rest, chosen = np.array(matrix, dtype=complex), []
+    for _ in range(need):
+        lengths = np.linalg.norm(rest, axis=1)
+        lengths[chosen] = -1.0
+        best = int(lengths.argmax())
+        chosen.append(best)
+        if lengths[best] > 0:
+            unit = rest[best] / lengths[best]
+            # Once more, as rounding errors of the first time count beside small rows.
+            for _ in range(2):
+                rest = rest - (rest @ unit.conj())[:, None] * unit
+    return sorted(chosen)
 
 
 def _deflated(

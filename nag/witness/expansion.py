@@ -46,12 +46,3 @@ def expanded(decomposition: Decomposition) -> Decomposition:
         components.append(replace(component, orbit=1, images=()))
         components += [image(component, symmetry) for symmetry in component.images]
     return replace(decomposition, components=tuple(components))
-
-
-def positions(decomposition: Decomposition) -> list[int]:
-    """For each component of `expanded`, the index of the one that stands for it."""
-    places: list[int] = []
-    for i, component in enumerate(decomposition.components):
-        known = len(component.images) == component.orbit - 1
-        places += [i] * (component.orbit if known else 1)
-    return places

@@ -53,6 +53,13 @@ class Projection:
     slice: Slice
     points: np.ndarray
 
+    def __repr__(self) -> str:
+        return (
+            f"Projection(coordinates={self.coordinates}, dimension={self.dimension}, "
+            f"degree={self.degree}, fibre_dimension={self.fibre_dimension}, "
+            f"fibre_degree={self.fibre_degree})"
+        )
+
 
 def _image_dimension(fibre: Fibre, coordinates: Sequence[int]) -> int:
     """Rank of the projection on the tangent space at a fibre's first point."""

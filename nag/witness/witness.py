@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from nag.algebra.system import PolynomialSystem
 
 if TYPE_CHECKING:
     from nag.witness.fibres import Fibre
+    from nag.witness.projection import Projection
 
 
 def _read_only(array: np.ndarray, dtype: type) -> np.ndarray:
@@ -84,6 +86,8 @@ class WitnessSet:
         fibres: the points again, in their order, with the square systems in the system's variables
             that cut them as regular zeros, and the unknowns that deflation added; empty where they
             were not kept. With them a component can be moved, sampled and tested.
+        system: the equations that it is a component of; a `Decomposition` tells its components.
+            It takes no part in comparisons.
     """
 
     slice: Slice
@@ -99,6 +103,7 @@ class WitnessSet:
     note: str = ""
     images: tuple[SignedPermutation, ...] = ()
     fibres: tuple[Fibre, ...] = ()
+    system: PolynomialSystem | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", _read_only(self.points, complex))
@@ -134,6 +139,135 @@ class WitnessSet:
             f"WitnessSet(dimension={self.dimension}, degree={self.degree}, "
             f"multiplicity={self.multiplicity}, {self.status})"
         )
+
+    def __str__(self) -> str:
+        from nag.witness.shown import witness_set_text
+
+        return witness_set_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.witness.shown import witness_set_html
+
+        return witness_set_html(self)
+
+    def _known_system(self) -> PolynomialSystem:
+        if self.system is None:
+            raise ValueError(
+                "system: the witness set does not know its equations; take it from the "
+                "components of a Decomposition, or replace(component, system=...)"
+            )
+        return self.system
+
+    def sample(
+        self,
+        rng: np.random.Generator | int,
+        count: int = 1,
+        *,
+        threads: int = 1,
+        settings: str = "default",
+    ) -> np.ndarray:
+        """Independent random points of the component, accurate to rounding.
+
+        Each is the end of a path from a random witness point to a random slice (Sommese &
+        Wampler 2005, section 15.2); of a finite set its points are drawn. They are complex.
+        `nag.decomposition.sample` also says how accurate they are.
+
+        Args:
+            rng: NumPy's generator, or a seed.
+            count: how many.
+
+        Returns:
+            Complex array of shape ``(count, n)``, in the order of the system's variables.
+
+        Raises:
+            nag.witness.sampling.SamplingError: if a path fails again and again.
+            ValueError: if ``count`` is no whole number from 0 up.
+
+        >>> import nag
+        >>> circle = nag.decompose(["x^2 + y^2 = 1"]).components[0]
+        >>> points = circle.sample(0, 10)
+        >>> points.shape
+        (10, 2)
+        >>> bool(abs((points**2).sum(axis=1) - 1).max() < 1e-10)
+        True
+        """
+        from nag.witness.at_prompt import sampled
+
+        return sampled(self._known_system(), self, rng, count, threads, settings)
+
+    def contains(
+        self,
+        point: Any,
+        *,
+        accuracy: float | None = None,
+        seed: int = 0,
+        threads: int = 1,
+        settings: str = "default",
+    ) -> bool:
+        """Whether a point lies on the component.
+
+        The slice moves to a generic one through the point; the point lies on the component exactly
+        when a path ends there (Sommese, Verschelde & Wampler 2001).
+
+        Args:
+            point: one number for each variable, or a mapping from names to numbers. Integers,
+                fractions, decimals, texts and sympy's numbers are exact, and the equations are
+                then tested exactly; floats and complex numbers are taken for rounded ones.
+            accuracy: relative error of a point that is not exact; by default what its residuals
+                suggest. One that satisfies an equation only to 1e-9 is on no component.
+
+        Raises:
+            nag.witness.membership.UndecidedError: if it could not be decided.
+            ValueError: if ``point`` has another number of coordinates, or one is no number.
+
+        >>> import nag
+        >>> curve, line = nag.decompose(["(x^2 + y^2 - 1)*(x - y)"]).components[::-1]
+        >>> curve.degree, curve.contains(["3/5", "4/5"]), line.contains({"x": 2, "y": 2})
+        (2, True, True)
+        >>> curve.contains([2, 2])
+        False
+        """
+        from nag.witness.at_prompt import contains
+
+        return contains(
+            self._known_system(),
+            self,
+            point,
+            accuracy,
+            {"seed": seed, "threads": threads, "settings": settings},
+        )
+
+    def project(
+        self,
+        coordinates: Sequence[int | str],
+        *,
+        seed: int = 0,
+        threads: int = 1,
+        settings: str = "default",
+    ) -> Projection:
+        """Dimension and degree of the closure of a coordinate projection, and of its fibres.
+
+        Pseudo-witness sets (Hauenstein & Sommese 2010).
+
+        Args:
+            coordinates: the variables to project to, by index or name, at least one.
+
+        Raises:
+            nag.witness.projection.ProjectionError: if it could not be determined.
+            ValueError: if ``coordinates`` are no variables, each once.
+
+        >>> import nag
+        >>> twisted = nag.decompose(["y - x^2", "z - x^3"]).components[0]
+        >>> image = twisted.project(["y", "z"])
+        >>> image.dimension, image.degree, image.fibre_degree
+        (1, 3, 1)
+        """
+        from nag.algebra.from_python import variable_indices
+        from nag.witness.projection import project
+
+        system = self._known_system()
+        chosen = variable_indices(coordinates, system.variables, "coordinates")
+        return project(system, self, chosen, seed=seed, threads=threads, settings=settings)
 
 
 @dataclass(frozen=True)
@@ -183,7 +317,24 @@ class Decomposition:
     complete: bool
     notes: tuple[str, ...] = field(default=())
 
+    def __post_init__(self) -> None:
+        known = tuple(
+            c if c.system is self.system else replace(c, system=self.system)
+            for c in self.components
+        )
+        object.__setattr__(self, "components", known)
+
     @property
     def dimension(self) -> int:
         """Largest dimension of a component; -1 for the empty set."""
         return max((c.dimension for c in self.components), default=-1)
+
+    def __repr__(self) -> str:
+        from nag.witness.shown import decomposition_text
+
+        return decomposition_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.witness.shown import decomposition_html
+
+        return decomposition_html(self)

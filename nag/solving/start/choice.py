@@ -67,6 +67,19 @@ def choose(
     if kind == "multihomogeneous":
         start = multihomogeneous(target, groups, rng)
         return start, f"multihomogeneous, as asked: {_paths(number)} in {_groups(groups)}"
+    return _least_work(target, groups, number, rng, threads, generic)
+
+
+def _least_work(
+    target: Target,
+    groups: Groups,
+    number: int,
+    rng: np.random.Generator,
+    threads: int,
+    generic: bool,
+) -> tuple[Start, str]:
+    """The start system of least work; one in ``groups`` has ``number`` paths."""
+    total = bezout(target)
     counts = [f"total degree {total}"]
     if len(groups) > 1:
         counts.append(f"multihomogeneous {number} in {_groups(groups)}")

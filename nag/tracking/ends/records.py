@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from fractions import Fraction
 from functools import cache
+from math import factorial
 from typing import NamedTuple
 
 import numpy as np
@@ -122,15 +122,20 @@ SCALARS = 19
 MOST_INVERSES = 32
 
 
-def _split(value: Fraction, count: int) -> list[float]:
-    power_of_two = value.denominator & (value.denominator - 1) == 0
-    if power_of_two and abs(value.numerator) < 1 << 53:
-        return [float(value), *[0.0] * (count - 1)]
-    parts = []
-    for _ in range(count):
-        parts.append(float(value))
-        value -= Fraction(parts[-1])
+def _split(numerator: int, denominator: int, count: int) -> list[float]:
+    """A quotient as a sum of doubles; integers are enough, and no common factor is looked for."""
+    parts = [0.0] * count
+    for k in range(count):
+        if not numerator:
+            break
+        parts[k] = numerator / denominator
+        p, q = parts[k].as_integer_ratio()
+        numerator, denominator = numerator * q - p * denominator, denominator * q
     return parts
+
+
+def _words(value: Fraction, count: int) -> list[float]:
+    return _split(value.numerator, value.denominator, count)
 
 
 def words(value: Number | complex, count: int, factor: Fraction = Fraction(1)) -> list[float]:
@@ -138,13 +143,13 @@ def words(value: Number | complex, count: int, factor: Fraction = Fraction(1)) -
     if isinstance(value, complex | float | np.complexfloating | np.floating):
         z = complex(value)
         return [
-            *_split(Fraction(z.real) * factor, count),
-            *_split(Fraction(z.imag) * factor, count),
+            *_words(Fraction(z.real) * factor, count),
+            *_words(Fraction(z.imag) * factor, count),
         ]
     if isinstance(value, Irrational):
         mantissa = to_mpf(value, 20 * count)
         value = Fraction(*mantissa.as_integer_ratio()) if mantissa else Fraction(0)
-    return [*_split(Fraction(value) * factor, count), *[0.0] * count]
+    return [*_words(Fraction(value) * factor, count), *[0.0] * count]
 
 
 def coefficients(homotopy: Homotopy, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -185,33 +190,36 @@ def composition(order: int) -> np.ndarray:
     return np.array(rows)
 
 
-def _exact_words(numbers: Iterable[Fraction], count: int) -> np.ndarray:
-    return np.array([part for x in numbers for part in _split(x, count)])
+def _logarithm_powers(order: int) -> tuple[list[list[int]], int]:
+    """`composition`, exactly: numerators, and the denominator that they have in common.
 
-
-def _logarithm_powers(order: int) -> list[list[Fraction]]:
-    """`composition`, exactly."""
-    first = [Fraction(0)] + [Fraction((-1) ** (m + 1), m) for m in range(1, order + 1)]
-    rows = [[Fraction(1)] + [Fraction(0)] * order]
-    for _ in range(order):
-        power = rows[-1]
-        products = (sum(power[i] * first[m - i] for i in range(m + 1)) for m in range(order + 1))
-        rows.append([Fraction(c) for c in products])
-    return rows
+    The coefficient of ``r^m`` is ``k! / m!`` times a Stirling number of the first kind.
+    """
+    rows = [[0] * (order + 1) for _ in range(order + 1)]
+    stirling = [1] + [0] * order
+    for m in range(order + 1):
+        for k in range(m + 1):
+            rows[k][m] = factorial(k) * stirling[k] * (factorial(order) // factorial(m))
+        shifted = [0, *stirling[:-1]]
+        stirling = [a - m * b for a, b in zip(shifted, stirling, strict=True)]
+    return rows, factorial(order)
 
 
 @cache
 def _constants(order: int, count: int) -> tuple[np.ndarray, ...]:
-    rows = _logarithm_powers(order)
+    rows, common = _logarithm_powers(order)
     at_end = [sum((-1) ** m * c for m, c in enumerate(row)) for row in rows]
     slopes = [
         (k + 1) * sum((-1) ** m * c for m, c in enumerate(rows[k][:-1])) for k in range(order)
     ]
     last = [(k + 1) * rows[k][order - 1] for k in range(order)]
     bends = [sum(-((-1) ** m) * m * c for m, c in enumerate(row)) for row in rows]
-    inverses = [Fraction(1, max(k, 1)) for k in range(MOST_INVERSES)]
-    exact = (_exact_words(numbers, count) for numbers in (at_end, slopes, last, bends, inverses))
-    return (composition(order).ravel(), *exact)
+    exact = [
+        np.array([part for c in numerators for part in _split(c, common, count)])
+        for numerators in (at_end, slopes, last, bends)
+    ]
+    inverses = [part for k in range(MOST_INVERSES) for part in _split(1, max(k, 1), count)]
+    return (composition(order).ravel(), *exact, np.array(inverses))
 
 
 def equations(homotopy: Homotopy, count: int, order: int) -> Equations:

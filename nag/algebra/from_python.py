@@ -1,0 +1,235 @@
+"""Exact numbers and systems from what Python has for them.
+
+A number may be an int, `Fraction`, `Decimal`, text (``"5/6"``, ``"sqrt(2)/2"``), a number of
+NumPy's or sympy's, or a float. A float is read as the shortest decimal that rounds to it, which is
+how it prints: 0.1 is 1/10, not 3602879701896397/36028797018963968.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
+from numbers import Integral, Rational, Real
+from typing import Any
+
+from nag.algebra.bounded import Budget, Value, representable
+from nag.algebra.expression import parse_number, parse_polynomial
+from nag.algebra.from_sympy import is_sympy, symbol_names, sympy_value
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.algebra.tokens import ExpressionError, is_name, names_in, nearest, quote
+
+__all__ = ["exact_number", "exact_vector", "system"]
+
+
+def exact_number(value: Any, place: str = "the number") -> Number:
+    """The exact number that ``value`` is or spells.
+
+    Raises:
+        ExpressionError: if it is none; the message begins with ``place``.
+    """
+    if isinstance(value, Fraction):
+        return value
+    try:
+        if is_sympy(value):
+            number = sympy_value(value, {}, 0, Budget())
+            assert not isinstance(number, Polynomial)
+            return representable(number)
+        return parse_number(_plain(value))
+    except ValueError as error:
+        raise ExpressionError(f"{place}: {error}") from None
+
+
+def _plain(value: Any) -> Any:
+    """NumPy's numbers, and those of others that are registered as numbers, as Python's."""
+    if isinstance(value, bool | str | int | float | Fraction):
+        return value
+    if type(value).__name__ in ("bool", "bool_"):
+        return bool(value)
+    if isinstance(value, Integral):
+        return int(value)
+    if isinstance(value, Rational):
+        return Fraction(int(value.numerator), int(value.denominator))
+    # The shortest decimal of a single is not that of the double which it becomes.
+    return str(value) if isinstance(value, Real) else value
+
+
+def exact_vector(values: Any, place: str) -> tuple[Number, ...]:
+    """The exact numbers that a sequence (a tuple, a list, an array) holds.
+
+    Raises:
+        ExpressionError: if it is no sequence, or holds something else.
+    """
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        shown = (
+            quote(values)
+            if isinstance(values, str)
+            else f"something of type {type(values).__name__}"
+        )
+        raise ExpressionError(f"{place}: {shown} is given; give a sequence of numbers")
+    return tuple(exact_number(x, f"{place}[{i}]") for i, x in enumerate(values))
+
+
+def system(
+    equations: Any,
+    variables: Any = None,
+    *,
+    parameters: Mapping[Any, Any] | None = None,
+    nonzero: Any = (),
+    groups: Iterable[Iterable[Any]] = (),
+) -> PolynomialSystem:
+    """The exact polynomial system that equations define.
+
+    Args:
+        equations: one or a sequence of them: texts (``"x^2 + y^2 = 1"``; without ``=`` the
+            expression is zero), sympy's expressions, ``Eq`` or ``Poly``, or `Polynomial`.
+        variables: their names, or sympy's symbols, in order; a text of names will do. By default
+            all names that occur and are no parameters, in alphabetical order (x2 before x10).
+        parameters: values of further names.
+        nonzero: expressions that must not vanish; written like ``equations``.
+        groups: groups of variables in which multidegrees are counted, by name or index.
+
+    Raises:
+        ValueError: if something is no polynomial; the message says which argument and what would
+            be right.
+
+    Floats in sympy's expressions and in ``parameters`` stand for their shortest decimals.
+
+    >>> import nag
+    >>> nag.system(["x^2 + y^2 = 1", "x = a*y"], parameters={"a": 0.5})
+    PolynomialSystem of 2 variables (x, y), 2 equations: 1 of degree 1, 1 of degree 2
+      x^2 + y^2 - 1 = 0
+      x - 1/2*y = 0
+    """
+    given, apart = _listed(equations, "equations"), _listed(nonzero, "nonzero")
+    values = {
+        str(name): exact_number(value, f"parameters[{str(name)!r}]")
+        for name, value in (parameters or {}).items()
+    }
+    names = _names(variables, [*given, *apart], values)
+    read = _Reader(names, values)
+    return PolynomialSystem(
+        names,
+        tuple(read.polynomial(f, f"equations[{i}]") for i, f in enumerate(given)),
+        tuple(read.polynomial(f, f"nonzero[{i}]") for i, f in enumerate(apart)),
+        tuple(_group(group, names, f"groups[{i}]") for i, group in enumerate(groups)),
+    )
+
+
+def _listed(equations: Any, place: str) -> list[Any]:
+    """Equations as a list; a single one is a list of one."""
+    matrix = getattr(equations, "is_Matrix", False)
+    if isinstance(equations, str | Polynomial) or (is_sympy(equations) and not matrix):
+        return [equations]
+    if hasattr(equations, "ravel"):
+        return list(equations.ravel())
+    if matrix:
+        return list(equations)
+    if not isinstance(equations, Iterable) or isinstance(equations, Mapping):
+        raise ExpressionError(
+            f"{place}: something of type {type(equations).__name__} is given; give texts like "
+            "'x^2 + y^2 = 1', sympy's expressions or nag.Polynomial, in a list"
+        )
+    return list(equations)
+
+
+def _names(variables: Any, equations: Sequence[Any], values: Mapping[str, Any]) -> tuple[str, ...]:
+    """The variables' names: those given, else those that occur in the equations."""
+    if variables is None:
+        if any(isinstance(f, Polynomial) for f in equations):
+            raise ExpressionError(
+                "variables: a nag.Polynomial has no names in it; give one for each variable"
+            )
+        found = {name for i, f in enumerate(equations) for name in _occurring(f, i)}
+        names = tuple(sorted(found - values.keys(), key=_natural))
+    else:
+        given = re.split(r"[\s,]+", variables.strip()) if isinstance(variables, str) else variables
+        if not isinstance(given, Iterable):
+            given = [given]
+        names = tuple(str(name) for name in given)
+    for i, name in enumerate(names):
+        if not is_name(name):
+            raise ExpressionError(
+                f"variables: {quote(name)} cannot name a variable; use letters, digits and _, "
+                "not a function"
+            )
+        if name in names[:i]:
+            raise ExpressionError(f"variables: {name!r} is there twice; name each variable once")
+        if name in values:
+            raise ExpressionError(f"variables: {name!r} is a parameter as well; rename one of them")
+    return names
+
+
+def _occurring(equation: Any, index: int) -> Iterable[str]:
+    try:
+        return symbol_names(equation) if is_sympy(equation) else names_in(str(equation))
+    except ExpressionError as error:
+        raise ExpressionError(f"equations[{index}]: {error}") from None
+
+
+def _natural(name: str) -> list[tuple[int, int | str]]:
+    """Alphabetical order, numbers by their values."""
+    parts = re.findall(r"\d+|\D+", name)
+    return [(0, int(part)) if part.isdigit() else (1, part) for part in parts]
+
+
+class _Reader:
+    """Reads equations in known names."""
+
+    def __init__(self, names: tuple[str, ...], values: Mapping[str, Number]) -> None:
+        self.names, self.values = names, values
+        variables = Polynomial.variables(len(names))
+        self.known: dict[str, Value] = {**values, **dict(zip(names, variables, strict=True))}
+
+    def polynomial(self, equation: Any, place: str) -> Polynomial:
+        n = len(self.names)
+        if isinstance(equation, Polynomial):
+            if equation.n != n:
+                raise ExpressionError(
+                    f"{place}: a polynomial in {equation.n} variables; {n} are named"
+                )
+            return equation
+        try:
+            if isinstance(equation, str):
+                return parse_polynomial(equation, self.names, self.values)
+            if not is_sympy(equation):
+                return Polynomial.constant(n, parse_number(_plain(equation)))
+            symbol_names(equation)
+            value = sympy_value(equation, self.known, n, Budget())
+        except ValueError as error:
+            raise ExpressionError(f"{place}: {error}") from None
+        return value if isinstance(value, Polynomial) else Polynomial.constant(n, value)
+
+
+def _group(group: Iterable[Any], names: tuple[str, ...], place: str) -> tuple[int, ...]:
+    if isinstance(group, str) or not isinstance(group, Iterable):
+        group = [group]
+    return variable_indices(group, names, place)
+
+
+def variable_indices(
+    chosen: Iterable[Any], names: Sequence[str], place: str = "variables"
+) -> tuple[int, ...]:
+    """Indices of variables that are given by name, as sympy's symbol or by index.
+
+    Raises:
+        ExpressionError: if one is unknown.
+    """
+    indices = []
+    for item in chosen:
+        if isinstance(item, Integral) and not isinstance(item, bool):
+            if not 0 <= item < len(names):
+                raise ExpressionError(
+                    f"{place}: {item} is no index; there are {len(names)} variables, from 0 on"
+                )
+            indices.append(int(item))
+            continue
+        if str(item) not in names:
+            raise ExpressionError(
+                f"{place}: {quote(str(item))} is no variable{nearest(str(item), names)}; "
+                f"there are {', '.join(names)}"
+            )
+        indices.append(list(names).index(str(item)))
+    return tuple(indices)

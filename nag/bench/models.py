@@ -1,0 +1,147 @@
+"""What each formulation of a mechanism costs: size, Bezout's number, paths, time."""
+
+from __future__ import annotations
+
+import multiprocessing
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from math import prod
+from typing import Any
+
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition import decompose
+from nag.mechanism.graph import Mechanism
+from nag.mechanism.model import model
+from nag.mechanism.path_estimates import estimated_paths
+from nag.witness.witness import Decomposition
+
+# Systems whose estimated number of paths is larger are not tracked.
+MOST_PATHS = 200_000
+
+
+@dataclass(frozen=True)
+class Formulated:
+    """One formulation of one mechanism, decomposed.
+
+    Attributes:
+        case: name of the case file.
+        formulation: its name, or "unreduced".
+        taken: whether it is the one that is chosen.
+        variables, equations: of its system.
+        bezout: product of the degrees of as many equations as there are variables, the lowest.
+        estimate: estimated number of paths.
+        paths: tracked; None if it was not tracked, or not in time.
+        seconds: of processor time, warm, model and decomposition; None as above.
+        components: dimension, degree and count of each kind, in the formulation's coordinates.
+        complete: whether the answer is.
+    """
+
+    case: str
+    formulation: str
+    taken: bool
+    variables: int
+    equations: int
+    bezout: int
+    estimate: int
+    paths: int | None = None
+    seconds: float | None = None
+    components: tuple[tuple[int, int, int], ...] = ()
+    complete: bool = False
+
+    def document(self) -> dict[str, Any]:
+        """As a JSON object."""
+        return asdict(self)
+
+
+def measure_models(
+    name: str, mechanism: Mechanism, patience: float, formulations: Sequence[str] | None = None
+) -> list[Formulated]:
+    """Every formulation of a mechanism, the unreduced one first, each given ``patience`` seconds.
+
+    Raises:
+        nag.mechanism.model.ModelError: if the mechanism has no loop.
+    """
+    chosen = model(mechanism)
+    rows = [_measured(name, "unreduced", False, chosen.unreduced, mechanism, patience)]
+    for each in chosen.alternatives:
+        if each.form is None or (formulations and each.formulation not in formulations):
+            continue
+        taken = each.formulation == chosen.formulation
+        rows.append(_measured(name, each.formulation, taken, each.system, mechanism, patience))
+    return rows
+
+
+def _measured(
+    name: str,
+    formulation: str,
+    taken: bool,
+    system: PolynomialSystem,
+    mechanism: Mechanism,
+    patience: float,
+) -> Formulated:
+    degrees = sorted(f.degree for f in system.polynomials)[: system.n]
+    row = Formulated(
+        name,
+        formulation,
+        taken,
+        system.n,
+        len(system.polynomials),
+        prod(degrees),
+        estimated_paths(system),
+    )
+    if row.estimate > MOST_PATHS:
+        return row
+    answer = _in_time(mechanism, formulation, patience)
+    if answer is None:
+        return row
+    seconds, paths, components, complete = answer
+    return replace(row, paths=paths, seconds=seconds, components=components, complete=complete)
+
+
+def _in_time(mechanism: Mechanism, formulation: str, patience: float) -> Any:
+    """What `_decomposed` gives, in a process of its own, which is ended when time is over."""
+    context = multiprocessing.get_context("spawn")
+    receiving, sending = context.Pipe(False)
+    process = context.Process(target=_send, args=(sending, mechanism, formulation))
+    process.start()
+    sending.close()
+    try:
+        return receiving.recv() if receiving.poll(patience) else None
+    except EOFError:
+        return None
+    finally:
+        process.terminate()
+        process.join()
+
+
+def _send(sending: Any, mechanism: Mechanism, formulation: str) -> None:
+    sending.send(_decomposed(mechanism, formulation))
+
+
+def _decomposed(
+    mechanism: Mechanism, formulation: str
+) -> tuple[float, int, tuple[tuple[int, int, int], ...], bool]:
+    best = float("inf")
+    for warm in (False, True):
+        begin = time.process_time()
+        made = model(mechanism, "E" if formulation == "unreduced" else formulation)
+        signs = [SignedPermutation.of_signs(s) for s in made.symmetries]
+        if formulation == "unreduced":
+            answer = decompose(made.unreduced)
+        else:
+            answer = decompose(made.system, symmetries=signs)
+        best = min(best, time.process_time() - begin) if warm else best
+        if not warm and time.process_time() - begin > 10:
+            best = time.process_time() - begin
+            break
+    return best, answer.paths.tracked, _kinds(answer), answer.complete
+
+
+def _kinds(answer: Decomposition) -> tuple[tuple[int, int, int], ...]:
+    counts: dict[tuple[int, int], int] = {}
+    for component in answer.components:
+        key = component.dimension, component.degree
+        counts[key] = counts.get(key, 0) + component.orbit
+    return tuple((*key, count) for key, count in sorted(counts.items()))

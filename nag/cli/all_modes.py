@@ -1,0 +1,51 @@
+"""``nag decompose --modes all``: the components of every assembly mode."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from nag.cli.arguments import UsageError
+
+if TYPE_CHECKING:
+    from nag.files.cases import Case
+
+
+def run_all_modes(
+    arguments: argparse.Namespace,
+    case: Case,
+    started: float,
+    progress: Callable[[str, int, int], None],
+) -> tuple[list[str], bool]:
+    """Decompose one combination of each class; returns the lines to print and whether all is known.
+
+    Raises:
+        UsageError: for bad input, or an export that cannot be written.
+    """
+    from nag.files.modes_export import write_modes
+    from nag.files.written_file import TargetError
+    from nag.mechanism.mode_decomposition import decompose_modes
+    from nag.mechanism.model import ModelError
+    from nag.report.modes import modes_lines
+
+    try:
+        answer = decompose_modes(
+            case.mechanism,
+            arguments.formulation or "auto",
+            arguments.coordinates or ("joint" if arguments.formulation == "H" else "euler"),
+            seed=arguments.seed,
+            threads=arguments.threads,
+            settings=arguments.settings,
+            progress=progress,
+        )
+    except ModelError as error:
+        raise UsageError(f"{arguments.case}: {error}") from None
+    lines = modes_lines(answer, case.title, time.perf_counter() - started)
+    if arguments.json is not None:
+        try:
+            write_modes(answer, arguments.json, case)
+        except TargetError as error:
+            raise UsageError(f"--json: {error}", lines) from None
+    return lines, answer.complete

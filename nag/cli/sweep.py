@@ -1,0 +1,96 @@
+"""The option ``--sweep``: the components for many values of a parameter."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+import time
+from dataclasses import dataclass
+from fractions import Fraction
+
+from nag.cli.arguments import UsageError, read_problem
+
+MOST_VALUES = 1000
+_NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Equally spaced values of a parameter.
+
+    Attributes:
+        name: of the parameter.
+        values: exact, two or more.
+    """
+
+    name: str
+    values: tuple[Fraction, ...]
+
+
+def sweep_of(text: str) -> Sweep:
+    """What ``NAME=FIRST:LAST:COUNT`` says."""
+    name, equals, numbers = text.partition("=")
+    parts = [part.strip() for part in numbers.split(":")]
+    if not (name.strip() and equals and len(parts) == 3):
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not of the form NAME=FIRST:LAST:COUNT")
+    for part in parts[:2]:
+        if not _NUMBER.fullmatch(part) or re.search(r"/0+$", part):
+            raise argparse.ArgumentTypeError(f"{part[:30]!r} is no number; write 1.5 or 3/2")
+    first, last = (Fraction(part) for part in parts[:2])
+    if first == last:
+        raise argparse.ArgumentTypeError("both ends are the same; write --set")
+    if not (parts[2].isascii() and parts[2].isdigit() and 2 <= int(parts[2][:9]) <= MOST_VALUES):
+        raise argparse.ArgumentTypeError(
+            f"{parts[2][:30]!r} is no number of values from 2 to {MOST_VALUES}"
+        )
+    count = int(parts[2])
+    step = (last - first) / (count - 1)
+    return Sweep(name.strip(), tuple(first + step * k for k in range(count)))
+
+
+def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
+    """The table to print, and whether every line of it is complete.
+
+    Raises:
+        UsageError: for bad input, or an option that does not go with a sweep.
+    """
+    for option, given in (
+        ("--json", arguments.json is not None),
+        ("--expand", arguments.expand),
+        ("--method sampling", arguments.method == "sampling"),
+    ):
+        if given:
+            raise UsageError(f"--sweep: prints a table; leave out {option}")
+    asked: Sweep = arguments.sweep
+    started = time.perf_counter()
+    settings = list(arguments.set)
+    if any(name == asked.name for name, _ in settings):
+        raise UsageError(f"--sweep: {asked.name} is set by --set as well; leave one of them out")
+
+    def problem_at(value: Fraction):
+        arguments.set = [*settings, (asked.name, value)]
+        return read_problem(arguments)
+
+    case, model = problem_at(asked.values[0])
+    if model is not None:
+        # One formulation for all values, so that their systems are one family.
+        arguments.formulation = model.formulation
+
+    from nag.cli.progress import compilation_notice
+
+    with compilation_notice(sys.stderr, arguments.quiet):
+        from nag.decomposition.sweep import sweep
+        from nag.files.problem import system_of
+        from nag.report.sweep import sweep_lines
+
+        swept = sweep(
+            lambda value: system_of(*problem_at(value)),
+            asked.values,
+            seed=arguments.seed,
+            threads=arguments.threads,
+            settings=arguments.settings,
+        )
+    seconds = time.perf_counter() - started
+    complete = all(each.decomposition.complete for each in swept)
+    return sweep_lines(case.title, asked.name, swept, seconds), complete

@@ -1,0 +1,147 @@
+"""The irreducible components through given points, with all their witness points.
+
+Where another model of the same set was decomposed, one point of each of its components is enough:
+loops find the other points on the slice, and the trace says when these are all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.discovery import regular_on_flag
+from nag.decomposition.final_checks import checked_witness_set
+from nag.decomposition.reduction import Reduction
+from nag.decomposition.sign_orbits import keeps, sign_orbit
+from nag.decomposition.splitting import split
+from nag.decomposition.symmetric_images import in_orbits
+from nag.decomposition.trace import digits_of_evidence
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.gauss_newton import polish
+from nag.witness.points import Points
+from nag.witness.slices import random_rows
+from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
+
+# Relative error of a point that Newton's method could not sharpen.
+ROUGH = 1e-7
+
+
+def components_through_points(
+    system: PolynomialSystem,
+    starts: Sequence[tuple[int, np.ndarray]],
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+    symmetries: Sequence[SignedPermutation] = (),
+) -> Decomposition:
+    """The components through solutions that are generic on them.
+
+    Args:
+        system: the equations.
+        starts: for each component at least one point, with the component's dimension there.
+        seed: of all random numbers.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        symmetries: signed permutations that keep the equations; of each orbit of components one is
+            worked out.
+
+    Returns:
+        A decomposition that is complete if every point led to a component that was confirmed; it
+        says nothing of components through none of the points.
+    """
+    rng = np.random.default_rng([seed, 11])
+    tracker = Tracker(settings, threads)
+    reduction = Reduction.of(system)
+    flag = random_rows(rng, reduction.n, reduction.n)
+    pools: dict[int, Points] = {}
+    counts, notes = PathCounts(), []
+    for d, start in starts:
+        x = np.asarray(start, dtype=complex)[reduction.kept]
+        if d == 0 and not reduction.n:
+            continue
+        zero = polish(reduction.equations.evaluator, x)
+        near, accuracy = (zero.x, 1e-12) if zero.converged else (x, ROUGH)
+        simple = zero.converged and zero.corank == d
+        found, spent = regular_on_flag(
+            near, [d], accuracy, not simple, pools, reduction.equations, flag, rng, tracker
+        )
+        counts += spent
+        if found is None:
+            notes.append(f"a point of dimension {d} led to no component")
+            continue
+        _, cut, z = found
+        known = pools.get(d, Points(flag[:d]))
+        pools[d] = known if known.place(z[: cut.n]) is not None else known.with_point(cut, z)
+    components: list[WitnessSet] = []
+    evidence = digits_of_evidence(system.polynomials)
+    for d in sorted(pools, reverse=True):
+        answer = split(pools[d], (), evidence, rng, tracker)
+        counts += answer.counts
+        for each in answer.classes:
+            component, spent = checked_witness_set(each, answer.points, reduction, rng, tracker)
+            counts += spent
+            if component.status is Status.IRREDUCIBLE and symmetries:
+                fibres, _ = answer.points.fibres(each.indices)
+                found, spent = _with_orbit(
+                    component, fibres, flag[:d], reduction, symmetries, rng, tracker
+                )
+                counts += spent
+                if found is None:
+                    notes.append(f"the orbit of a component of dimension {d} is not known")
+                component = component if found is None else found
+            components.append(component)
+    open_ones = [c for c in components if c.status is not Status.IRREDUCIBLE]
+    components.sort(key=lambda c: (-c.dimension, c.degree))
+    return Decomposition(
+        system=system,
+        components=tuple(components),
+        paths=counts,
+        seed=seed,
+        settings=settings,
+        order=(),
+        complete=not (notes or open_ones),
+        notes=tuple(notes),
+    )
+
+
+def _with_orbit(
+    component: WitnessSet,
+    fibres: Sequence[Fibre],
+    rows: np.ndarray,
+    reduction: Reduction,
+    symmetries: Sequence[SignedPermutation],
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> tuple[WitnessSet | None, PathCounts]:
+    """The component with its orbit, or None if that could not be found."""
+    n, counts = reduction.system.n, PathCounts()
+    plain = all(g.sources == tuple(range(n)) for g in symmetries)
+    kept = reduction.kept
+    generators = [tuple(g.signs[i] for i in kept) for g in symmetries]
+    if plain and len(fibres) == 1 and all(keeps(fibres[0].cut, g) for g in generators):
+        carriers, counts = sign_orbit(fibres[0], rows, generators, rng, tracker)
+        if carriers is None:
+            return None, counts
+        images = []
+        for carrier in carriers[1:]:
+            way = SignedPermutation.identity(n)
+            for k in carrier:
+                way = symmetries[k].after(way)
+            images.append(way)
+        return replace(component, orbit=len(carriers), images=tuple(images)), counts
+    try:
+        (found,) = in_orbits(
+            reduction.system,
+            [component],
+            symmetries,
+            threads=tracker.threads,
+            settings=tracker.settings,
+        )
+    except ValueError:
+        return None, counts
+    return found, counts

@@ -1,0 +1,185 @@
+"""Decompositions for many values of a parameter: one is found, the others are followed from it.
+
+The components for a general value are cut by their slices; the parameter goes to a random complex
+value and from there to each given one, and the witness points with it (Morgan & Sommese,
+Coefficient-parameter polynomial continuation, 1989). Where all arrive at regular points they are
+split anew, as a component may fall apart at a special value; where not, the value is special and is
+decomposed by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.family import Family
+from nag.algebra.interpolation import family_of
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.components import decompose
+from nag.decomposition.given_points import components_through_points
+from nag.solving.parameter_line import parameter_line
+from nag.tracking.paths import PathStatus
+from nag.tracking.track import track
+from nag.witness.witness import Decomposition, WitnessSet
+
+SystemAt = Callable[[Fraction], PolynomialSystem]
+
+# Relative residuals of points that lie on the set; of others they are far larger.
+ON = 1e-9
+# Values to learn from are fractions of the interval with this denominator, off the given ones.
+GRID = 1009
+
+
+@dataclass(frozen=True, eq=False)
+class Swept:
+    """The components for one value of the parameter.
+
+    Attributes:
+        value: of the parameter.
+        decomposition: the components; of those that were followed, not with others that only this
+            value may have.
+        followed: whether they were followed from a general value.
+        paths: number of paths tracked for this value.
+        reason: why they were not followed; empty otherwise.
+    """
+
+    value: Fraction
+    decomposition: Decomposition
+    followed: bool
+    paths: int
+    reason: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class _General:
+    """The components for a random complex value, each as a family of square systems."""
+
+    value: complex
+    members: tuple[tuple[Family, np.ndarray, int], ...]
+
+
+def sweep(
+    system_at: SystemAt,
+    values: Sequence[Fraction],
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> list[Swept]:
+    """The components of a system for each value of a parameter.
+
+    Components that are there for single values only are not looked for, unless the others cannot
+    be followed there.
+
+    Args:
+        system_at: the exact system at a rational value.
+        values: two or more.
+    """
+    rng = np.random.default_rng([seed, 13])
+    options = {"seed": seed, "threads": threads, "settings": settings}
+    general, reason = _general(system_at, values, rng, options)
+    swept = []
+    for value in values:
+        system = system_at(value)
+        starts, paths, why = [], 0, reason
+        if general is not None:
+            starts, paths, why = _followed(general, system, value, options)
+        if not why:
+            answer = components_through_points(system, starts, **options)
+            paths += answer.paths.tracked
+            if not answer.complete:
+                why = "special value: the points that arrive are not general ones"
+        if why:
+            answer = decompose(system, **options)
+            paths += answer.paths.tracked
+        swept.append(Swept(value, answer, not why, paths, why))
+    return swept
+
+
+def _general(
+    system_at: SystemAt, values: Sequence[Fraction], rng: np.random.Generator, options: dict
+) -> tuple[_General | None, str]:
+    """The components for a random complex value, or why they cannot be followed."""
+    first, last = min(values), max(values)
+
+    def places(count: int) -> list[Fraction]:
+        steps = [2 * (k * (GRID // 2) // count) + 1 for k in range(count)]
+        return [first + (last - first) * Fraction(k, GRID) for k in steps]
+
+    polynomials = family_of(system_at, places)
+    if polynomials is None:
+        return None, "the equations are no rational functions of the parameter"
+    start = first + (last - first) * Fraction(int(rng.integers(1, 10**6)), 10**6 + 3)
+    system = system_at(start)
+    answer = decompose(system, **options)
+    if not answer.complete:
+        return None, "the components for a general value are not all known"
+    if not answer.components:
+        return None, "there is no component for a general value"
+    if any(c.multiplicity != 1 for c in answer.components):
+        return None, "a component for a general value is not simple"
+    target = complex(start) + complex(float(last - first)) * complex(
+        rng.uniform(-0.5, 0.5), rng.uniform(0.25, 0.5)
+    )
+    members = []
+    for component in answer.components:
+        family = _cut_family(system, polynomials, component, rng)
+        line = parameter_line(family, [complex(start)], [target])
+        paths = track(line.homotopy, line.starts(component.points), options["settings"])
+        regular = paths.where(PathStatus.REGULAR)
+        if len(regular) < component.degree:
+            return None, "a component could not be followed to a complex value"
+        members.append((family, line.affine(paths.points), component.dimension))
+    return _General(target, tuple(members)), ""
+
+
+def _cut_family(
+    system: PolynomialSystem,
+    polynomials: Sequence[Polynomial],
+    component: WitnessSet,
+    rng: np.random.Generator,
+) -> Family:
+    """As many combinations of the equations as the component has codimension, and its slice."""
+    n, d = system.n, component.dimension
+    equations = list(polynomials)
+    if len(equations) > n - d:
+        mixed = []
+        for _ in range(n - d):
+            weights = [Fraction(int(w), 128) for w in rng.integers(32, 129, len(equations))]
+            signs = rng.choice([-1, 1], len(equations))
+            total = Polynomial(n + 1, {})
+            for f, w, sign in zip(equations, weights, signs, strict=True):
+                total = total + f * (w * int(sign))
+            mixed.append(total)
+        equations = mixed
+    for row in component.slice.rows:
+        terms = {(0,) * (n + 1): complex(row[0])}
+        for i in range(n):
+            terms[tuple(int(j == i) for j in range(n + 1))] = complex(row[i + 1])
+        equations.append(Polynomial(n + 1, terms))
+    return Family(system.variables, ("parameter",), tuple(equations))
+
+
+def _followed(
+    general: _General, system: PolynomialSystem, value: Fraction, options: dict
+) -> tuple[list[tuple[int, np.ndarray]], int, str]:
+    """The components' points at a value; the number of paths; why it is special, if it is."""
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    starts: list[tuple[int, np.ndarray]] = []
+    count = 0
+    for family, points, dimension in general.members:
+        line = parameter_line(family, [general.value], [value])
+        paths = track(line.homotopy, line.starts(points), options["settings"], options["threads"])
+        count += len(points)
+        if len(paths.where(PathStatus.REGULAR)) < len(points):
+            return [], count, "special value: not all points stay regular and finite"
+        ends = line.affine(paths.points)
+        if not (evaluator.residuals(ends) < ON).all():
+            return [], count, "special value: points leave the set"
+        starts += [(dimension, x) for x in ends]
+    return starts, count, ""

@@ -1,0 +1,61 @@
+"""Cases of kind ``dh``: a single loop by Denavit and Hartenberg's table."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from nag.algebra.number import cosine, pi_multiple, sine
+from nag.algebra.tokens import is_name
+from nag.files.case_table import ReadNumber, Table
+from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, assembled, dh_model
+from nag.mechanism.graph import Mechanism
+
+_JOINT_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_half_tangent")
+
+
+def read_dh(top: Table, number: ReadNumber) -> DHModel | Mechanism:
+    """A table with open angles as a model of its closings, one without as a mechanism."""
+    if "joint" not in top.values:
+        top.fail("joint", "is missing; write a table [[joint]] for every joint")
+    tables = top.tables("joint")
+    rows = [_read_row(i, table, number) for i, table in enumerate(tables, 1)]
+    try:
+        loop = DHLoop(tuple(rows))
+        return dh_model(loop) if loop.open else assembled(loop)
+    except DHError as error:
+        if error.joint is None:
+            top.fail("joint", str(error))
+        tables[error.joint].fail(error.key, str(error))
+
+
+def _read_row(i: int, table: Table, number: ReadNumber) -> Row:
+    table.allow(_JOINT_KEYS)
+    name = table.text("name") if "name" in table.values else f"J{i}"
+    if not is_name(name):
+        table.fail("name", f"{name!r} cannot name a joint; use letters, digits and _")
+    lengths = []
+    for key in ("a", "d"):
+        with table.at(key):
+            lengths.append(number(table.values.get(key, 0)))
+    twist = _half_angle(table, "alpha", number)
+    if twist is None:
+        table.fail("alpha", "is missing; give the link's twist, or alpha_half_tangent")
+    return Row(name, *lengths, twist, _half_angle(table, "theta", number))
+
+
+def _half_angle(table: Table, key: str, number: ReadNumber) -> HalfAngle | None:
+    """(cos : sin) of half an angle that is given itself or by its half-tangent; None if neither."""
+    tangent = f"{key}_half_tangent"
+    if key in table.values and tangent in table.values:
+        table.fail(tangent, f"{key} is given as well; leave one of them out")
+    if tangent in table.values:
+        with table.at(tangent):
+            return Fraction(1), number(table.values[tangent])
+    if key not in table.values:
+        return None
+    with table.at(key):
+        angle = number(table.values[key])
+    turns = pi_multiple(angle)
+    if turns is not None and turns % 2 == 1:
+        return Fraction(0), Fraction(1)
+    return 1 + cosine(angle), sine(angle)

@@ -1,0 +1,57 @@
+"""Cases of kind ``linkage``: planar links by their lengths or shapes."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from nag.algebra.tokens import is_name, quote
+from nag.files.case_table import ReadNumber, Table
+from nag.mechanism.linkage import Link, Linkage, LinkageError, LinkageModel, Place, linkage_model
+
+_LINK_KEYS = ("name", "pins", "length", "shape")
+
+
+def read_linkage(top: Table, number: ReadNumber) -> LinkageModel:
+    """The model of a linkage."""
+    ground = top.text("ground")
+    if "link" not in top.values:
+        top.fail("link", "is missing; write a table [[link]] for every link, the ground included")
+    tables = [(t.text("name"), t) for t in top.tables("link")]
+    try:
+        links = [_read_link(name, table.called(name), number) for name, table in tables]
+        return linkage_model(Linkage(ground, tuple(links)))
+    except LinkageError as error:
+        # The last table of a name, as a repeated name is the fault of the later one.
+        for name, table in reversed(tables):
+            if name == error.link:
+                table.called(name).fail(error.key, str(error))
+        top.fail(error.key, str(error))
+
+
+def _read_link(name: str, table: Table, number: ReadNumber) -> Link:
+    table.allow(_LINK_KEYS)
+    if not is_name(name):
+        table.fail("name", f"{quote(name)} cannot name a link; use letters, digits and _")
+    pins = table.texts("pins", "names of pins")
+    if ("length" in table.values) == ("shape" in table.values):
+        found = "given beside 'shape'" if "length" in table.values else "missing"
+        table.fail("length", f"is {found}; write a length for two pins, or a shape for more")
+    if "shape" in table.values:
+        return Link(name, tuple(pins), _read_shape(table, len(pins), number))
+    if len(pins) != 2:
+        table.fail("length", f"is for two pins, here are {len(pins)}; write their places: shape")
+    with table.at("length"):
+        length = number(table.values["length"])
+    if length < 0:
+        table.fail("length", "is negative; write a positive one")
+    return Link(name, tuple(pins), ((Fraction(0), Fraction(0)), (length, Fraction(0))))
+
+
+def _read_shape(table: Table, count: int, number: ReadNumber) -> tuple[Place, ...]:
+    shape = []
+    for i, place in enumerate(table.items("shape", "places [x, y], one for each pin", count), 1):
+        if not isinstance(place, list) or len(place) != 2:
+            table.fail(f"shape {i}", "is no place; write [x, y] in the link's own frame")
+        with table.at(f"shape {i}"):
+            shape.append((number(place[0]), number(place[1])))
+    return tuple(shape)

@@ -1,0 +1,59 @@
+"""The components of all assembly modes as JSON.
+
+The format is ``nag-modes``, version 1: for each class of modes its combinations and a
+``nag-decomposition`` of the first of them.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from nag.files.export import Origin
+from nag.files.export import document as decomposition_document
+from nag.files.json_text import lay_out
+from nag.files.written_file import write_target
+
+if TYPE_CHECKING:
+    from nag.files.cases import Case
+    from nag.mechanism.mode_decomposition import ModesAnswer
+
+FORMAT = "nag-modes"
+VERSION = 1
+
+
+def document(answer: ModesAnswer, case: Case) -> dict[str, Any]:
+    """The export as a JSON object."""
+    classes = []
+    for each in answer.classes:
+        origin = Origin(
+            case.title,
+            Path(case.path).name,
+            case.kind,
+            each.model.formulation,
+            each.model.reason,
+        )
+        classes.append(
+            {
+                "modes": [dict(modes) for modes in each.modes.members],
+                "decomposition": decomposition_document(each.decomposition, origin),
+            }
+        )
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "complete": answer.complete,
+        "modes_apart": answer.apart,
+        "meetings": [list(meeting) for meeting in answer.meetings],
+        "classes": classes,
+    }
+
+
+def write_modes(answer: ModesAnswer, path: str | os.PathLike[str], case: Case) -> None:
+    """Write the export to ``path`` in one step.
+
+    Raises:
+        nag.files.written_file.TargetError: if the file cannot be written.
+    """
+    write_target(path, lay_out(document(answer, case)) + "\n")

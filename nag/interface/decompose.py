@@ -1,0 +1,74 @@
+"""``nag.decompose``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from nag.algebra.symmetry import SymmetryError
+from nag.interface.problem import check_running, problem_of, symmetries_in
+
+if TYPE_CHECKING:
+    from nag.witness.witness import Decomposition
+
+
+def decompose(
+    system: Any,
+    variables: Any = None,
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+    progress: Callable[[str, int, int], None] | None = None,
+    symmetries: Iterable[Any] | None = None,
+) -> Decomposition:
+    """The irreducible components over the complex numbers of what satisfies the equations.
+
+    Equations that factor are decomposed apart, the others intersected one by one (u-generation:
+    Duff, Leykin & Rodriguez 2022); points are split by monodromy, and components confirmed by the
+    trace test (Sommese, Verschelde & Wampler 2001, 2002).
+
+    Args:
+        system: a `nag.Mechanism`, a `nag.model`, a `nag.Case`, a `nag.PolynomialSystem`, or
+            equations as `nag.system` takes them: texts, sympy's expressions, one or a list.
+        variables: of equations, their names in order; see `nag.system`.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        progress: called with a stage's name, the step reached and the number of steps.
+        symmetries: signed permutations of the variables that keep the equations, each a
+            `nag.SignedPermutation`, a dict ``{"x": "-x", "y": "z", "z": "y"}`` or a sign for each
+            variable. Of the components that they carry into each other one is reported, with the
+            size of its orbit. By default those that the model or the case has; ``()`` for none.
+
+    Returns:
+        The components, by falling dimension, as witness sets: points of shape ``(degree, n)``.
+        Of a mechanism they live in the variables of ``nag.model(mechanism).system``.
+
+    Raises:
+        nag.mechanism.model.ModelError: if a mechanism has no loop.
+        nag.algebra.symmetry.SymmetryError: if a symmetry does not keep the equations.
+        ValueError: if another argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> answer = nag.decompose(["(x^2 + y^2 - 1)*(x - y)^2"])
+    >>> [(c.dimension, c.degree, c.multiplicity) for c in answer.components]
+    [(1, 1, 2), (1, 2, 1)]
+    """
+    problem = problem_of(system, variables)
+    kept = symmetries_in(symmetries, problem)
+    check_running(seed, threads, settings)
+
+    from nag.decomposition.components import decompose as decompose_system
+
+    try:
+        return decompose_system(
+            problem.system,
+            seed=int(seed),
+            threads=int(threads),
+            settings=settings,
+            progress=progress,
+            symmetries=kept,
+        )
+    except SymmetryError as error:
+        raise SymmetryError(f"symmetries: {error}") from None

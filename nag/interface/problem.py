@@ -1,0 +1,109 @@
+"""What a problem may be given as, and what it comes down to: a system and its symmetries."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from numbers import Integral
+from typing import Any
+
+from nag.algebra.from_python import system as system_of_equations
+from nag.algebra.symmetry import SignedPermutation, SymmetryError
+from nag.algebra.system import PolynomialSystem
+
+SETTINGS = ("fast", "default", "careful")
+
+
+@dataclass(frozen=True)
+class Problem:
+    """An exact system, and signed permutations of its variables that keep it."""
+
+    system: PolynomialSystem
+    symmetries: tuple[SignedPermutation, ...] = ()
+
+
+def problem_of(given: Any, variables: Any = None) -> Problem:
+    """The problem that a mechanism, a model, a case, a system or equations describe.
+
+    Raises:
+        nag.mechanism.model.ModelError: if a mechanism has no loop.
+        ValueError: if ``given`` is none of these, or an equation is no polynomial.
+    """
+    if isinstance(given, PolynomialSystem):
+        problem = Problem(given)
+    elif _is(given, "nag.mechanism.graph", "Mechanism"):
+        from nag.mechanism.model import model
+
+        problem = _of_model(model(given))
+    elif _is(given, "nag.mechanism.model", "Model"):
+        problem = _of_model(given)
+    elif _is(given, "nag.files.cases", "Case"):
+        problem = (
+            problem_of(given.mechanism)
+            if given.system is None
+            else Problem(given.system, given.symmetries)
+        )
+    elif _is(given, "networkx", "Graph"):
+        raise ValueError(
+            "system: a networkx graph is given; make it a mechanism first: "
+            "nag.Mechanism.from_graph(graph, ground=...)"
+        )
+    elif given is None or isinstance(given, Mapping | bool | int | float):
+        raise ValueError(
+            f"system: something of type {type(given).__name__} is given; give equations in a list, "
+            "or a nag.PolynomialSystem, nag.Mechanism, nag.Case, or a model"
+        )
+    else:
+        return Problem(system_of_equations(given, variables))
+    if variables is not None:
+        raise ValueError("variables: are for equations; what is given has its own, leave them out")
+    return problem
+
+
+def _is(value: object, module: str, name: str) -> bool:
+    """Whether a value is of a class whose module must have been loaded to make it."""
+    loaded = sys.modules.get(module)
+    return loaded is not None and isinstance(value, getattr(loaded, name))
+
+
+def _of_model(model: Any) -> Problem:
+    return Problem(model.system, model.symmetries)
+
+
+def symmetries_in(given: Iterable[Any] | None, problem: Problem) -> tuple[SignedPermutation, ...]:
+    """Symmetries given as signed permutations, as maps of names, or as signs of the variables.
+
+    Raises:
+        SymmetryError: if one is none.
+    """
+    if given is None:
+        return problem.symmetries
+    found = []
+    for i, item in enumerate(given):
+        try:
+            if isinstance(item, SignedPermutation):
+                found.append(item)
+            elif isinstance(item, Mapping):
+                texts = {str(name): str(image) for name, image in item.items()}
+                found.append(SignedPermutation.of_map(texts, problem.system.variables))
+            elif isinstance(item, Iterable) and not isinstance(item, str):
+                found.append(SignedPermutation.of_signs(tuple(int(sign) for sign in item)))
+            else:
+                raise SymmetryError("give a dict like {'x': '-x'}, or a sign for each variable")
+        except (SymmetryError, TypeError) as error:
+            raise SymmetryError(f"symmetries[{i}]: {error}") from None
+    return tuple(found)
+
+
+def check_running(seed: Any, threads: Any, settings: Any) -> None:
+    """Make sure that the arguments of a run make sense.
+
+    Raises:
+        ValueError: if one does not.
+    """
+    for name, value, least in (("seed", seed, 0), ("threads", threads, 1)):
+        if isinstance(value, bool) or not isinstance(value, Integral) or value < least:
+            raise ValueError(f"{name}: {value!r} is given; give a whole number from {least} up")
+    if isinstance(settings, str) and settings not in SETTINGS:
+        raise ValueError(f"settings: {settings!r} is unknown; use {', '.join(SETTINGS)}")

@@ -1,0 +1,33 @@
+"""What the models of unassembled mechanisms have in common: parts are given, not how they meet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from nag.algebra.number import Number
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+
+
+class AssemblyModel(Protocol):
+    """A system whose solutions are all assemblies of given parts, real and complex."""
+
+    @property
+    def system(self) -> PolynomialSystem:
+        """The equations."""
+
+    @property
+    def reference(self) -> tuple[Number, ...] | None:
+        """An assembly that is known, an exact solution."""
+
+    @property
+    def symmetries(self) -> tuple[SignedPermutation, ...]:
+        """Reflections and the like that carry assemblies to assemblies."""
+
+    @property
+    def reason(self) -> str:
+        """One sentence: what was made of the parts."""
+
+    def is_real(self, point: Sequence[complex]) -> bool:
+        """Whether a solution is a real assembly, to within rounding."""

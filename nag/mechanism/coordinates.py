@@ -1,0 +1,63 @@
+"""A decomposition in joint coordinates, carried over to Euler parameters.
+
+One configuration has as many points in Euler parameters as there are sign changes of them, so that
+a component in half-angles is an orbit of components there, each a covering of it. One witness point
+is lifted; loops and the trace find the witness points of the component through it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from nag.algebra.symmetry import SignedPermutation
+from nag.decomposition.given_points import components_through_points
+from nag.mechanism.model import Model, model
+from nag.mechanism.rods import RodModel
+from nag.witness.witness import Decomposition, Status
+
+
+def euler_decomposition(
+    source: Model, decomposition: Decomposition, *, threads: int = 1
+) -> tuple[Model, Decomposition]:
+    """The model in Euler parameters and its components, from those in other coordinates.
+
+    Complete if the given decomposition is and every component was found and confirmed. Degrees and
+    multiplicities are those in Euler parameters (and slides that these do not determine).
+
+    Args:
+        source: the model that was decomposed.
+        decomposition: its components, all of them or one of each orbit.
+        threads: for path tracking.
+    """
+    target = model(source.mechanism, "E", source.modes, source.space)
+    reason = f"{source.reason}; carried over from formulation {source.formulation}"
+    target = replace(target, reason=f"{reason} to the bodies' Euler parameters")
+    spins = source.form.spins if isinstance(source.form, RodModel) else 0
+    starts = []
+    notes = list(decomposition.notes)
+    for component in decomposition.components:
+        if component.status is not Status.IRREDUCIBLE:
+            notes.append(f"a component of dimension {component.dimension} is undecided")
+        lifted = source.lift(component.points[0])
+        point = np.array(target.project(lifted), dtype=complex)
+        starts.append((component.dimension + spins, point))
+    answer = components_through_points(
+        target.system,
+        starts,
+        seed=decomposition.seed,
+        threads=threads,
+        settings=decomposition.settings,
+        symmetries=[SignedPermutation.of_signs(signs) for signs in target.symmetries],
+    )
+    return target, Decomposition(
+        system=answer.system,
+        components=answer.components,
+        paths=decomposition.paths + answer.paths,
+        seed=answer.seed,
+        settings=answer.settings,
+        order=(),
+        complete=decomposition.complete and answer.complete and not notes,
+        notes=(*notes, *answer.notes),
+    )

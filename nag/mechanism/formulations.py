@@ -1,0 +1,153 @@
+"""The formulations of a mechanism, and how many paths each may ask for."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import prod
+
+from nag.algebra.system import PolynomialSystem
+from nag.mechanism.assembly_modes import REFERENCE, Modes
+from nag.mechanism.axes import Space
+from nag.mechanism.euler import EulerModel, euler_model
+from nag.mechanism.formulation_names import FORMULATIONS
+from nag.mechanism.graph import Joint
+from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
+from nag.mechanism.loops import LoopStructure
+from nag.mechanism.path_estimates import estimated_paths, path_bound
+from nag.mechanism.planar import PlanarModel, planar_model
+from nag.mechanism.rods import RodModel, rod_model
+
+Form = EulerModel | HalfAngleModel | PlanarModel | RodModel
+
+
+class ModelError(ValueError):
+    """A mechanism that the asked formulation does not cover."""
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """A formulation of a mechanism, or why it does not cover it.
+
+    Attributes:
+        formulation: one of `FORMULATIONS`.
+        form: the equations; None if the formulation does not cover the mechanism.
+        problem: why not; empty otherwise.
+    """
+
+    formulation: str
+    form: Form | None
+    problem: str = ""
+
+    @property
+    def system(self) -> PolynomialSystem:
+        """The equations."""
+        if self.form is None:
+            raise ModelError(f"formulation {self.formulation}: {self.problem}")
+        return self.form.system
+
+    @property
+    def bezout(self) -> int:
+        """Product of the degrees of as many equations as there are variables, the lowest."""
+        degrees = sorted(f.degree for f in self.system.polynomials)
+        return prod(degrees[: self.system.n])
+
+    @property
+    def bound(self) -> int:
+        """Bezout's number in the variable groups, cut down to points by linear equations."""
+        return path_bound(self.system)
+
+    @property
+    def paths(self) -> int:
+        """Estimated number of paths that equation by equation are tracked at most."""
+        return estimated_paths(self.system)
+
+
+def alternative(
+    structure: LoopStructure, space: Space, formulation: str, modes: Modes = REFERENCE
+) -> Alternative:
+    """One formulation of a mechanism."""
+    try:
+        if formulation == "H":
+            return Alternative("H", half_angle_model(structure, modes))
+        if formulation == "S":
+            return Alternative("S", rod_model(structure, modes))
+        if space == "planar":
+            return Alternative("E", planar_model(structure))
+        return Alternative("E", euler_model(structure, space == "spherical", modes))
+    except ValueError as error:
+        return Alternative(formulation, None, str(error))
+
+
+def alternatives(
+    structure: LoopStructure, space: Space, modes: Modes = REFERENCE
+) -> tuple[Alternative, ...]:
+    """All formulations, those that cover the mechanism first, by rising number of paths."""
+    found = [alternative(structure, space, name, modes) for name in FORMULATIONS]
+    return tuple(sorted(found, key=lambda a: (a.form is None, a.paths if a.form else 0)))
+
+
+def smallest(structure: LoopStructure, space: Space, modes: Modes = REFERENCE) -> Alternative:
+    """The formulation with the fewest estimated paths.
+
+    What cannot be it is not worked out: half-angles have four equations for each loop; Euler
+    parameters, which cover everything, have many quadrics.
+    """
+    rods = alternative(structure, space, "S", modes)
+    if rods.form is not None and rods.paths <= 4 ** (len(structure.loops) + 1):
+        return rods
+    others = [rods, alternative(structure, space, "H", modes)]
+    fitting = sorted((a for a in others if a.form is not None), key=lambda a: a.paths)
+    if fitting and fitting[0].paths <= _least_euler_paths(structure, space):
+        return fitting[0]
+    euler = alternative(structure, space, "E", modes)
+    return min([*fitting, euler], key=lambda a: a.paths)
+
+
+def _least_euler_paths(structure: LoopStructure, space: Space) -> int:
+    """What the estimate for Euler parameters is at least.
+
+    Norms of the moving bodies, and two equations for each turning joint between them, are
+    independent quadrics; those of joints at the base are linear and leave fewer variables.
+    """
+    moving = len(structure.moving)
+    sliding = sum(j.type == "prismatic" for j in structure.joints)
+    if space == "planar" or sliding:
+        return 2 ** (max(moving - sliding, 0) + 1) - 2
+    turning = [j for j in structure.joints if j.type in ("revolute", "cylindrical", "planar")]
+    at_base = sum(structure.base in j.bodies for j in turning)
+    quadrics = min(moving + 2 * (len(turning) - at_base), 4 * moving - 2 * at_base)
+    return 2 ** (quadrics + 1) - 2
+
+
+def description(alternative: Alternative, space: Space) -> str:
+    """The formulation's coordinates in words."""
+    if alternative.formulation == "E":
+        return "one pair (c, s) for each body" if space == "planar" else "Euler parameters"
+    form = alternative.form
+    if isinstance(form, RodModel):
+        free = sum(f.kind == "free" for f in form.charts.plain)
+        names = "Study coordinates" if free else "joint coordinates"
+        return f"{names}, {counted(len(form.rods), 'rod')} between spherical joints as distances"
+    if not isinstance(form, HalfAngleModel):
+        return "half-angles"
+    lost = len({f.joint for c in form.closures for f in c.lost})
+    each = " of each loop" if len(form.closures) > 1 else ""
+    count = lost // len(form.closures) if lost % len(form.closures) == 0 else 0
+    word = {1: "one joint", 2: "two joints"}.get(count, "joints")
+    kinds = {f.kind for f in form.charts.factors}
+    names = "half-angles" if kinds <= {"turn"} else "joint coordinates"
+    return f"{names} with {word}{each} eliminated"
+
+
+def joints_text(joints: Sequence[Joint]) -> str:
+    """ "2 revolute joints and 1 spherical joint"."""
+    kinds = Counter(j.type for j in joints)
+    parts = [counted(number, f"{kind} joint") for kind, number in kinds.items()]
+    return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
+
+
+def counted(number: int, noun: str) -> str:
+    """A number and a noun."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

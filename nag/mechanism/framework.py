@@ -1,0 +1,276 @@
+"""Bar-and-joint frameworks: points in the plane or in space, and bars that fix distances.
+
+A realisation is a placement of the points in which every bar has its length; two are the same if a
+proper motion carries one to the other. Motions are taken away by pinning one bar in the plane and
+a triangle of bars in space, in a frame in which their places are rational whenever the squared
+lengths are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from typing import TYPE_CHECKING, Any
+
+from nag.algebra.number import Number, is_zero
+
+if TYPE_CHECKING:
+    import networkx
+
+Place = tuple[Number, ...]
+Bar = tuple[str, str]
+
+# Ranks of general placements are found modulo this prime, at random places.
+PRIME = 2**61 - 1
+
+
+class FrameworkError(ValueError):
+    """A framework that makes no sense.
+
+    Attributes:
+        key: the field that is wrong (``points``, ``bars``, ``lengths``), or None.
+    """
+
+    def __init__(self, message: str, key: str | None = None) -> None:
+        super().__init__(message)
+        self.key = key
+
+
+@dataclass(frozen=True)
+class Framework:
+    """Points and bars.
+
+    Attributes:
+        dimension: 2 or 3.
+        points: names.
+        bars: pairs of names.
+        squared_lengths: one for each bar.
+        placement: a place for each point, in which the bars have these lengths, or None.
+
+    Raises:
+        FrameworkError: if bars and points do not fit, or the framework is not connected.
+    """
+
+    dimension: int
+    points: tuple[str, ...]
+    bars: tuple[Bar, ...]
+    squared_lengths: tuple[Number, ...]
+    placement: tuple[Place, ...] | None = None
+
+    def __post_init__(self) -> None:
+        for field in ("points", "bars"):
+            object.__setattr__(self, field, tuple(getattr(self, field)))
+        squared = (Fraction(x) if isinstance(x, int) else x for x in self.squared_lengths)
+        object.__setattr__(self, "squared_lengths", tuple(squared))
+        if len(set(self.points)) != len(self.points):
+            name = next(p for i, p in enumerate(self.points) if p in self.points[:i])
+            raise FrameworkError(f"two points are named {name!r}; name each point once", "points")
+        seen: set[frozenset[str]] = set()
+        for first, second in self.bars:
+            for name in (first, second):
+                if name not in self.points:
+                    raise FrameworkError(f"a bar ends in {name!r}, which is no point", "bars")
+            if first == second:
+                raise FrameworkError(f"a bar joins {first!r} with itself", "bars")
+            if frozenset((first, second)) in seen:
+                raise FrameworkError(
+                    f"{first!r} and {second!r} are joined by two bars; leave one out", "bars"
+                )
+            seen.add(frozenset((first, second)))
+        for (first, second), squared in zip(self.bars, self.squared_lengths, strict=True):
+            if is_zero(squared):
+                raise FrameworkError(
+                    f"the bar from {first!r} to {second!r} has length zero; make its ends one "
+                    "point",
+                    "bars",
+                )
+        stray = sorted(set(self.points) - self._reached())
+        if stray:
+            raise FrameworkError(
+                f"no bars connect {', '.join(stray)} with {self.points[0]!r}; parts that are not "
+                "connected move freely, take them one by one",
+                "bars",
+            )
+
+    def _reached(self) -> set[str]:
+        reached, frontier = {self.points[0]}, [self.points[0]]
+        while frontier:
+            point = frontier.pop()
+            for bar in self.bars:
+                if point in bar:
+                    other = bar[1] if bar[0] == point else bar[0]
+                    if other not in reached:
+                        reached.add(other)
+                        frontier.append(other)
+        return reached
+
+    @property
+    def motions(self) -> int:
+        """Dimension of the group of motions."""
+        return self.dimension * (self.dimension + 1) // 2
+
+    @property
+    def freedoms(self) -> int:
+        """Freedoms by counting: coordinates of the points minus motions minus bars."""
+        return self.dimension * len(self.points) - self.motions - len(self.bars)
+
+    def squared_length(self, first: str, second: str) -> Number | None:
+        """The squared length of the bar between two points, or None."""
+        for bar, squared in zip(self.bars, self.squared_lengths, strict=True):
+            if set(bar) == {first, second}:
+                return squared
+        return None
+
+    def infinitesimal_motions(self) -> int | None:
+        """Velocities of the placement that keep all lengths, modulo motions; None without one."""
+        if self.placement is None:
+            return None
+        if not all(isinstance(x, Fraction) for place in self.placement for x in place):
+            from nag.mechanism.row_reduction import row_echelon
+
+            rank = len(row_echelon(self._rigidity_matrix(self.placement))[0])
+        else:
+            rank = _rational_rank(self._rigidity_matrix(self.placement))
+        return self.dimension * len(self.points) - self.motions - rank
+
+    def generic_motions(self) -> int:
+        """The same for a general placement: 0 if the graph is rigid for almost all lengths.
+
+        Decided modulo a prime at random places: too large with a probability below 1e-15.
+        """
+        import random
+
+        draw = random.Random(0)
+        places = [[draw.randrange(PRIME) for _ in range(self.dimension)] for _ in self.points]
+        rank = _rank_modulo(self._rigidity_matrix(places), PRIME)
+        return self.dimension * len(self.points) - self.motions - rank
+
+    def _rigidity_matrix(self, places: Sequence[Sequence[Any]]) -> list[list[Any]]:
+        """One row for each bar: its vector at one end, its negative at the other."""
+        d, index = self.dimension, {name: i for i, name in enumerate(self.points)}
+        rows = []
+        for first, second in self.bars:
+            i, j = index[first], index[second]
+            row: list[Any] = [0 * places[0][0]] * (d * len(self.points))
+            for k in range(d):
+                row[d * i + k] = places[i][k] - places[j][k]
+                row[d * j + k] = places[j][k] - places[i][k]
+            rows.append(row)
+        return rows
+
+    def triangles(self) -> Iterable[tuple[str, str, str]]:
+        """Triples of points with all bars between them."""
+        joined = {frozenset(bar) for bar in self.bars}
+        for triple in combinations(self.points, 3):
+            if all(frozenset(pair) in joined for pair in combinations(triple, 2)):
+                yield triple
+
+
+def placed_framework(dimension: int, placement: dict[str, Place], bars: Sequence[Bar]) -> Framework:
+    """The framework whose bars have the lengths that a placement gives them."""
+    squared = []
+    for first, second in bars:
+        for name in (first, second):
+            if name not in placement:
+                raise FrameworkError(f"a bar ends in {name!r}, which is no point", "bars")
+        gap = [x - y for x, y in zip(placement[first], placement[second], strict=True)]
+        squared.append(sum((x * x for x in gap), Fraction(0)))
+    return Framework(
+        dimension, tuple(placement), tuple(bars), tuple(squared), tuple(placement.values())
+    )
+
+
+def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework:
+    """A networkx graph as a framework: its edges are the bars.
+
+    Lengths are those of the edges' attribute ``length``, or of the placement that the nodes'
+    attribute ``pos`` gives. Numbers may be exact or decimals, which are taken as they are written.
+
+    Raises:
+        FrameworkError: if neither attribute is everywhere, or the framework makes no sense.
+    """
+    from nag.algebra.expression import parse_number
+
+    names = [str(node) for node in graph.nodes]
+    bars = [(str(a), str(b)) for a, b in graph.edges]
+    lengths = [data.get("length") for _, _, data in graph.edges(data=True)]
+    if bars and all(x is not None for x in lengths):
+        squared = [parse_number(x) ** 2 for x in lengths]
+        return Framework(dimension, tuple(names), tuple(bars), tuple(squared))
+    places = {str(node): data.get("pos") for node, data in graph.nodes(data=True)}
+    if any(place is None or len(place) != dimension for place in places.values()):
+        raise FrameworkError(
+            f"give every edge a 'length', or every node a 'pos' of {dimension} coordinates"
+        )
+    exact = {name: tuple(parse_number(x) for x in place) for name, place in places.items()}
+    return placed_framework(dimension, exact, bars)
+
+
+def henneberg_order(framework: Framework) -> list[str] | None:
+    """The points in an order in which each has just two bars to earlier ones, or None.
+
+    The first two are joined by a bar. Such a graph of n points has 2^(n - 2) realisations in the
+    plane for general lengths (Henneberg's first construction).
+    """
+    neighbours = {
+        p: {q for bar in framework.bars if p in bar for q in bar} - {p} for p in framework.points
+    }
+    removed: list[str] = []
+    left = set(framework.points)
+    while len(left) > 2:
+        last = next(
+            (p for p in framework.points if p in left and len(neighbours[p] & left) == 2), None
+        )
+        if last is None:
+            return None
+        removed.append(last)
+        left.discard(last)
+    first = [p for p in framework.points if p in left]
+    return [*first, *reversed(removed)] if first[1] in neighbours[first[0]] else None
+
+
+def _rational_rank(matrix: list[list[Fraction]]) -> int:
+    """The rank over the rationals, in integers without fractions (Bareiss)."""
+    from math import lcm
+
+    rows = []
+    for row in matrix:
+        common = lcm(*(Fraction(x).denominator for x in row))
+        rows.append([int(x * common) for x in row])
+    rank, previous = 0, 1
+    for column in range(len(rows[0]) if rows else 0):
+        found = next((i for i in range(rank, len(rows)) if rows[i][column]), None)
+        if found is None:
+            continue
+        rows[rank], rows[found] = rows[found], rows[rank]
+        pivot = rows[rank]
+        for i in range(rank + 1, len(rows)):
+            factor = rows[i][column]
+            rows[i] = [
+                (pivot[column] * x - factor * y) // previous
+                for x, y in zip(rows[i], pivot, strict=True)
+            ]
+        previous = pivot[column]
+        rank += 1
+    return rank
+
+
+def _rank_modulo(matrix: list[list[int]], prime: int) -> int:
+    rows = [[x % prime for x in row] for row in matrix]
+    rank = 0
+    for column in range(len(rows[0]) if rows else 0):
+        found = next((i for i in range(rank, len(rows)) if rows[i][column]), None)
+        if found is None:
+            continue
+        rows[rank], rows[found] = rows[found], rows[rank]
+        inverse = pow(rows[rank][column], -1, prime)
+        for i in range(rank + 1, len(rows)):
+            factor = rows[i][column] * inverse % prime
+            if factor:
+                rows[i] = [
+                    (x - factor * y) % prime for x, y in zip(rows[i], rows[rank], strict=True)
+                ]
+        rank += 1
+    return rank

@@ -1,0 +1,207 @@
+"""Frameworks as polynomial systems: the places of the points that are not pinned.
+
+In the plane the first bar is pinned to (0, 0) and (1, 0), and lengths count in multiples of its
+own. Frameworks that are given by lengths take isotropic coordinates there, z = x + iy and
+w = x - iy: a bar is (z - z')(w - w') = l^2, bilinear, and a realisation is real where w is the
+conjugate of z. In space a triangle is pinned. The frame is e1 along its first side, e2 across it in
+its plane, e3 across both, of whatever lengths make the equations rational where the squared lengths
+are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import sqrt
+from typing import Any
+
+from nag.algebra.number import Number, is_zero
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.mechanism.axes import cross, difference, dot
+from nag.mechanism.framework import Framework, FrameworkError, Place
+
+# Imaginary parts of real realisations, relative to the size of the point.
+REAL = 1e-8
+
+
+@dataclass(frozen=True)
+class FrameworkModel:
+    """The realisations of a framework up to motions, as a system.
+
+    Attributes:
+        framework: what is modelled.
+        pinned: the points that are held: the ends of a bar, or a triangle.
+        coordinates: letters of each point's variables: ``"zw"``, ``"xy"`` or ``"xyz"``.
+        system: one equation for each bar that is not pinned.
+        reference: the placement in the system's variables, or None.
+        symmetries: the reflection that keeps the pinned points.
+    """
+
+    framework: Framework
+    pinned: tuple[str, ...]
+    coordinates: str
+    system: PolynomialSystem
+    reference: tuple[Number, ...] | None
+    symmetries: tuple[SignedPermutation, ...]
+
+    @property
+    def reason(self) -> str:
+        """One sentence: what was made of the framework."""
+        plane = self.framework.dimension == 2
+        letters = ", ".join(self.coordinates)
+        return (
+            f"framework of {len(self.framework.points)} points and {len(self.framework.bars)} bars "
+            f"{'in the plane' if plane else 'in space'}; "
+            f"{'isotropic ' if self.coordinates == 'zw' else ''}coordinates ({letters}) of the "
+            f"points, {'bar' if plane else 'triangle'} {'-'.join(self.pinned)} pinned"
+        )
+
+    def is_real(self, point: Sequence[complex]) -> bool:
+        """Whether a solution is a real realisation, to within rounding."""
+        bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
+        if self.coordinates != "zw":
+            return all(abs(complex(x).imag) <= bound for x in point)
+        pairs = zip(point[::2], point[1::2], strict=True)
+        return all(abs(complex(z) - complex(w).conjugate()) <= bound for z, w in pairs)
+
+
+def framework_model(framework: Framework) -> FrameworkModel:
+    """The equations of a framework.
+
+    Raises:
+        FrameworkError: if there are no points to place, or no triangle to pin in space.
+    """
+    if len(framework.points) <= framework.dimension:
+        raise FrameworkError(
+            f"{len(framework.points)} points in dimension {framework.dimension} leave nothing to "
+            "place; add points",
+            "points",
+        )
+    if framework.dimension == 3:
+        return _space_model(framework)
+    return _isotropic_model(framework) if framework.placement is None else _plane_model(framework)
+
+
+def _isotropic_model(framework: Framework) -> FrameworkModel:
+    pinned, unit = framework.bars[0], framework.squared_lengths[0]
+    free, variables, names = _unknowns(framework, pinned, "zw")
+    n = len(names)
+    places: dict[str, Sequence[Any]] = {pinned[i]: _constants(n, (i, i)) for i in (0, 1)}
+    places |= {p: variables[2 * i : 2 * i + 2] for i, p in enumerate(free)}
+    equations = []
+    for (a, b), squared in zip(framework.bars[1:], framework.squared_lengths[1:], strict=True):
+        z, w = difference(places[a], places[b])
+        equations.append(z * w - squared / unit)
+    groups = (tuple(range(0, n, 2)), tuple(range(1, n, 2)))
+    system = PolynomialSystem(names, tuple(equations), groups=groups)
+    # The reflection exchanges the groups, so it is no symmetry of multidegrees.
+    return FrameworkModel(framework, pinned, "zw", system, None, ())
+
+
+def _plane_model(framework: Framework) -> FrameworkModel:
+    pinned, unit = framework.bars[0], framework.squared_lengths[0]
+    reference = {}
+    origin, end = (_place(framework, p) for p in pinned)
+    along = difference(end, origin)
+    for point in framework.points:
+        x, y = difference(_place(framework, point), origin)
+        reference[point] = (
+            (x * along[0] + y * along[1]) / unit,
+            (y * along[0] - x * along[1]) / unit,
+        )
+    return _metric_model(framework, pinned, reference, [unit, unit])
+
+
+def _space_model(framework: Framework) -> FrameworkModel:
+    for pinned in framework.triangles():
+        sides = [
+            framework.squared_length(pinned[i], pinned[j]) for i, j in ((0, 1), (0, 2), (1, 2))
+        ]
+        # C = A + u e1 + e2, with e1 = B - A of squared length s, e2 of squared length v.
+        s, t, opposite = sides
+        u = (t + s - opposite) / (2 * s)
+        v = t - u * u * s
+        if not is_zero(v):
+            break
+    else:
+        raise FrameworkError(
+            "no three points that are not in line have bars between them; a framework in space "
+            "needs such a triangle, which is pinned",
+            "bars",
+        )
+    zero, one = Fraction(0), Fraction(1)
+    size = Fraction(max(1, round(sqrt(float(s)))))
+    if framework.placement is not None:
+        reference = _in_frame(framework, pinned, size)
+    else:
+        corners = ((zero,) * 3, (one, zero, zero), (u, one, zero))
+        reference = dict(zip(pinned, corners, strict=True))
+    return _metric_model(framework, pinned, reference, [s, v, v * s / (size * size)])
+
+
+def _in_frame(
+    framework: Framework, pinned: Sequence[str], size: Fraction
+) -> dict[str, tuple[Number, ...]]:
+    """The placement in the frame of the pinned triangle, e3 = e1 x e2 / size."""
+    origin, second, third = (_place(framework, p) for p in pinned)
+    e1 = difference(second, origin)
+    gap = difference(third, origin)
+    share = dot(gap, e1) / dot(e1, e1)
+    e2 = tuple(x - share * y for x, y in zip(gap, e1, strict=True))
+    e3 = tuple(x / size for x in cross(e1, e2))
+    frame = (e1, e2, e3)
+    return {
+        point: tuple(
+            dot(difference(_place(framework, point), origin), e) / dot(e, e) for e in frame
+        )
+        for point in framework.points
+    }
+
+
+def _metric_model(
+    framework: Framework,
+    pinned: tuple[str, ...],
+    reference: dict[str, tuple[Number, ...]],
+    metric: Sequence[Number],
+) -> FrameworkModel:
+    """Coordinates along orthogonal vectors whose squared lengths are ``metric``."""
+    d = framework.dimension
+    free, variables, names = _unknowns(framework, pinned, "xyz"[:d])
+    n = len(names)
+    places: dict[str, Sequence[Any]] = {p: _constants(n, reference[p]) for p in pinned}
+    places |= {p: variables[d * i : d * i + d] for i, p in enumerate(free)}
+    equations = []
+    for (a, b), squared in zip(framework.bars, framework.squared_lengths, strict=True):
+        if a in pinned and b in pinned:
+            continue
+        gap = difference(places[a], places[b])
+        norm = sum((x * x * m for x, m in zip(gap, metric, strict=True)), Polynomial(n, {}))
+        equations.append((norm - squared) / metric[0])
+    system = PolynomialSystem(names, tuple(equations))
+    signs = tuple(-1 if i % d == d - 1 else 1 for i in range(n))
+    at = None
+    if framework.placement is not None:
+        at = tuple(x for p in free for x in reference[p])
+    mirror = (SignedPermutation.of_signs(signs),)
+    return FrameworkModel(framework, pinned, "xyz"[:d], system, at, mirror)
+
+
+def _unknowns(
+    framework: Framework, pinned: Sequence[str], letters: str
+) -> tuple[list[str], tuple[Polynomial, ...], tuple[str, ...]]:
+    """The points that are not pinned, their coordinates in order, and the names of these."""
+    free = [p for p in framework.points if p not in pinned]
+    names = tuple(f"{letter}_{p}" for p in free for letter in letters)
+    return free, Polynomial.variables(len(names)), names
+
+
+def _constants(n: int, values: Sequence[Number | int]) -> tuple[Polynomial, ...]:
+    return tuple(Polynomial.constant(n, x) for x in values)
+
+
+def _place(framework: Framework, point: str) -> Place:
+    assert framework.placement is not None
+    return framework.placement[framework.points.index(point)]

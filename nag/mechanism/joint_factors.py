@@ -1,0 +1,162 @@
+"""Joints as products of factors that are linear in homogeneous coordinates.
+
+In dual quaternions a turn about a line h is c + s h, a slide along u is 1 + x eps u/2; a spherical
+joint is any quaternion about its centre, a planar one a + b n + eps (x u + y v)/2. Each factor is a
+combination of constant dual quaternions, its *generators*, with coefficients that are homogeneous
+coordinates of a projective space; a group of affine variables is a chart of that space. All of it
+is in global coordinates of the reference configuration, where every factor is the unit.
+
+Lines are not made unit where that would take a square root: with N the squared length of the axis,
+h^2 = -N, so c + s h has norm c^2 + N s^2, and the half-angle has tangent s sqrt(N) / c.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any, Literal
+
+from nag.algebra.number import Number
+from nag.algebra.polynomial import Polynomial
+from nag.mechanism.assembly_modes import mode_rotation
+from nag.mechanism.axes import across, direction, dot
+from nag.mechanism.graph import Joint
+from nag.mechanism.quaternion import DualQuaternion, Quaternion, dual_conjugate, line
+
+Kind = Literal["turn", "slide", "ball", "plane", "free"]
+
+ZERO, ONE = Fraction(0), Fraction(1)
+NOTHING: Quaternion = (ZERO, ZERO, ZERO, ZERO)
+UNIT: DualQuaternion = ((ONE, ZERO, ZERO, ZERO), NOTHING)
+
+# Tangents of the charts' turns: no two alike, none at a special angle, none large enough to spoil
+# the conditioning. The points that a chart leaves out are then no special position of the joint.
+_CHARTS = tuple(
+    Fraction(a, b)
+    for a, b in ((3, 7), (-5, 9), (7, 11), (-4, 13), (8, 17), (-9, 19), (6, 23), (-11, 29))
+)
+# Letters of the variables of a joint, in the order of its factors.
+_LETTERS = {
+    "turn": ("x", "y"),
+    "slide": ("d",),
+    "ball": ("a", "b", "c"),
+    "plane": ("x", "d", "e"),
+    "free": ("e1", "e2", "e3", "g0", "g1", "g2", "g3"),
+}
+# Number of coordinates that turn, each with a chart constant of its own.
+_TURNING = {"turn": 1, "slide": 0, "ball": 3, "plane": 1, "free": 3}
+
+
+@dataclass(frozen=True)
+class Factor:
+    """One factor of a joint.
+
+    Attributes:
+        joint: name of the joint; of a body in the air, its own name.
+        kind: what it does.
+        generators: the first is the unit.
+        number: which factor of that kind it is in its joint, from 0.
+        charts: constants of its chart, as many as it has turning coordinates.
+    """
+
+    joint: str
+    kind: Kind
+    generators: tuple[DualQuaternion, ...]
+    number: int = 0
+    charts: tuple[Fraction, ...] = ()
+
+    @property
+    def dimension(self) -> int:
+        """Dimension of its projective space."""
+        return len(self.generators) - 1
+
+    @property
+    def letters(self) -> tuple[str, ...]:
+        """First letters of its variables' names."""
+        letters = _LETTERS[self.kind]
+        return (letters[self.number],) if self.dimension == 1 else tuple(letters)
+
+    def charted(self, first: int) -> Factor:
+        """The same with chart constants, those of a model being numbered from ``first``."""
+        count = _TURNING[self.kind]
+        return replace(self, charts=tuple(_chart(first + i) for i in range(count)))
+
+    def homogeneous(self, x: Sequence[Any], convert: Any = lambda c: c) -> tuple[Any, ...]:
+        """Homogeneous coordinates of the chart's point ``x``."""
+        turning = [convert(k) + y for k, y in zip(self.charts, x, strict=False)]
+        first = convert(ONE) - sum(
+            (convert(k) * y for k, y in zip(self.charts, x, strict=False)), convert(ZERO)
+        )
+        return (first, *turning, *x[len(turning) :])
+
+    @property
+    def reference(self) -> tuple[Fraction, ...]:
+        """The reference configuration in the chart."""
+        turning = tuple(-k for k in self.charts)
+        return turning + (ZERO,) * (self.dimension - len(turning))
+
+    def norm(self, x: Sequence[Polynomial]) -> Polynomial | None:
+        """The factor's squared norm in the chart, scaled to leading coefficient 1; None if it is 1.
+
+        Where it vanishes the factor is no displacement.
+        """
+        if self.kind == "slide":
+            return None
+        values = self.homogeneous(x)[: 1 + len(self.charts)]
+        total = values[0] * values[0]
+        top = sum((k * k for k in self.charts[:1]), ZERO)
+        for value, (real, _) in zip(values[1:], self.generators[1:], strict=False):
+            squared = dot(real[1:], real[1:])
+            total = total + value * value * squared
+        real = self.generators[1][0]
+        return total / (top + dot(real[1:], real[1:]))
+
+
+def _chart(i: int) -> Fraction:
+    return _CHARTS[i] if i < len(_CHARTS) else Fraction(i + 4, 2 * i + 15)
+
+
+def factors_of(joint: Joint) -> tuple[Factor, ...]:
+    """The factors whose product is the displacement of the second body against the first."""
+    name = joint.name
+    if joint.type == "spherical":
+        axes = [tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3)]
+        return (Factor(name, "ball", (UNIT, *(line(joint.point, a) for a in axes))),)
+    axis = direction(joint.axis)
+    turn = Factor(name, "turn", (UNIT, line(joint.point, axis)))
+    slide = Factor(name, "slide", (UNIT, _shift(axis)))
+    if joint.type == "revolute":
+        return (turn,)
+    if joint.type == "prismatic":
+        return (slide,)
+    if joint.type == "cylindrical":
+        return turn, slide
+    if joint.type == "universal":
+        second = line(joint.point, direction(joint.second_axis))
+        return turn, Factor(name, "turn", (UNIT, second), 1)
+    u, v = across(axis)
+    return (Factor(name, "plane", (UNIT, line(joint.point, axis), _shift(u), _shift(v))),)
+
+
+def free_factor(body: str) -> Factor:
+    """Study coordinates of a body: all dual quaternions, of which Study's quadric moves it."""
+    units = [tuple(Fraction(int(i == j)) for j in range(4)) for i in range(4)]
+    generators = [(u, NOTHING) for u in units] + [(NOTHING, u) for u in units]
+    return Factor(body, "free", tuple(generators))
+
+
+def mode_constant(joint: Joint, mode: int) -> DualQuaternion:
+    """The constant displacement of an assembly mode, which follows the joint's factors."""
+    if mode == 0:
+        return UNIT
+    return line(joint.point, mode_rotation(joint, mode)[1:])
+
+
+def reversed_generators(generators: Sequence[DualQuaternion]) -> tuple[DualQuaternion, ...]:
+    """Generators of the opposite displacement, first body against second."""
+    return tuple(dual_conjugate(g) for g in generators)
+
+
+def _shift(vector: Sequence[Number]) -> DualQuaternion:
+    return NOTHING, (ZERO, *(x / 2 for x in vector))

@@ -1,0 +1,220 @@
+"""Planar linkages by the shapes of their links: how they are assembled is found by solving.
+
+A link carries pins; links that share a pin are joined there by a revolute joint. Each moving link
+has (c, s), the cosine and sine of its turn, and each loop of links closes: two equations, linear in
+them (Piipponen & Tuomela 2013, section 5.3).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from nag.algebra.number import Number, is_zero
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+
+Place = tuple[Number, Number]
+
+# Imaginary parts of real assemblies.
+REAL = 1e-8
+
+
+class LinkageError(ValueError):
+    """A linkage that makes no sense.
+
+    Attributes:
+        link: name of the link that is wrong, or None.
+        key: the field that is wrong, or None.
+    """
+
+    def __init__(self, message: str, link: str | None = None, key: str | None = None) -> None:
+        super().__init__(message)
+        self.link = link
+        self.key = key
+
+
+@dataclass(frozen=True)
+class Link:
+    """A rigid plate with pins.
+
+    Attributes:
+        name: unique among the links.
+        pins: names of its pins, two or more.
+        shape: the place of each pin in the link's own frame.
+    """
+
+    name: str
+    pins: tuple[str, ...]
+    shape: tuple[Place, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.pins) < 2:
+            raise LinkageError("a link needs at least two pins", self.name, "pins")
+        if len(set(self.pins)) != len(self.pins):
+            raise LinkageError("a pin is there twice; name each pin once", self.name, "pins")
+        for i, place in enumerate(self.shape):
+            for j, other in enumerate(self.shape[:i]):
+                if all(is_zero(x - y) for x, y in zip(place, other, strict=True)):
+                    raise LinkageError(
+                        f"pins {self.pins[j]!r} and {self.pins[i]!r} are at the same place: a link "
+                        "of length zero; make them one pin",
+                        self.name,
+                        "shape" if len(self.pins) > 2 else "length",
+                    )
+
+
+@dataclass(frozen=True)
+class Linkage:
+    """Links and the fixed one among them.
+
+    Raises:
+        LinkageError: if names are repeated, the ground is no link, or the links do not hang
+            together.
+    """
+
+    ground: str
+    links: tuple[Link, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "links", tuple(self.links))
+        names = [link.name for link in self.links]
+        for i, name in enumerate(names):
+            if name in names[:i]:
+                raise LinkageError("another link has that name", name, "name")
+        if self.ground not in names:
+            raise LinkageError(
+                f"{self.ground!r} is no link; the links are {', '.join(names)}", key="ground"
+            )
+        reached = {self.ground}
+        for _ in names:
+            pins = {p for link in self.links if link.name in reached for p in link.pins}
+            reached |= {link.name for link in self.links if pins & set(link.pins)}
+        stray = [name for name in names if name not in reached]
+        if stray:
+            raise LinkageError(
+                f"no pin connects it with the ground {self.ground!r}", stray[0], "pins"
+            )
+
+    @property
+    def gruebler_kutzbach(self) -> int:
+        """3 (links - 1) - 2 joints; a pin of k links is k - 1 joints."""
+        pins = {p for link in self.links for p in link.pins}
+        joints = sum(sum(p in link.pins for link in self.links) - 1 for p in pins)
+        return 3 * (len(self.links) - 1) - 2 * joints
+
+
+@dataclass(frozen=True)
+class LinkageModel:
+    """All assemblies of a linkage as a system.
+
+    Attributes:
+        linkage: what is modelled.
+        loops: number of independent loops.
+        free: links that hang on one pin only, or on nothing that closes; each turns freely.
+        system: norms and loop equations in (c, s) of the moving links that are in loops.
+    """
+
+    linkage: Linkage
+    loops: int
+    free: tuple[str, ...]
+    system: PolynomialSystem
+
+    reference = None
+    symmetries = ()
+
+    @property
+    def reason(self) -> str:
+        """One sentence: what was made of the linkage."""
+        loops = f"{self.loops} loop{'' if self.loops == 1 else 's'}"
+        text = (
+            f"planar linkage of {len(self.linkage.links)} links and {loops}, given by its links' "
+            "shapes; one pair (c, s) for each moving link"
+        )
+        if self.free:
+            text += f"; cut off, turning freely: links {', '.join(self.free)}"
+        return text
+
+    def is_real(self, point: Sequence[complex]) -> bool:
+        """Whether a solution is a real assembly, to within rounding."""
+        bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
+        return all(abs(complex(x).imag) <= bound for x in point)
+
+
+def linkage_model(linkage: Linkage) -> LinkageModel:
+    """The equations of a linkage.
+
+    Raises:
+        LinkageError: if it has no loop.
+    """
+    kept, free = _in_loops(linkage)
+    loops = _loops(kept)
+    if not loops:
+        raise LinkageError("the links form no loop: each turns freely, there is nothing to solve")
+    moving = [link for link in kept if link.name != linkage.ground]
+    if len(moving) == len(kept):
+        # The ground hangs on a part that turns freely: hold another link instead.
+        moving = moving[1:]
+    n = 2 * len(moving)
+    variables = Polynomial.variables(n)
+    turns: dict[str, tuple[Any, Any]] = {
+        link.name: (Polynomial.constant(n, 1), Polynomial.constant(n, 0)) for link in kept
+    }
+    turns |= {link.name: (variables[2 * i], variables[2 * i + 1]) for i, link in enumerate(moving)}
+    equations = [c * c + s * s - 1 for c, s in (turns[link.name] for link in moving)]
+    for loop in loops:
+        total = [Polynomial(n, {}), Polynomial(n, {})]
+        for link, start, end in loop:
+            (c, s), places = turns[link.name], dict(zip(link.pins, link.shape, strict=True))
+            x, y = (q - p for p, q in zip(places[start], places[end], strict=True))
+            total = [total[0] + c * x - s * y, total[1] + s * x + c * y]
+        equations += total
+    names = tuple(f"{t}_{link.name}" for link in moving for t in "cs")
+    return LinkageModel(linkage, len(loops), free, PolynomialSystem(names, tuple(equations)))
+
+
+def _in_loops(linkage: Linkage) -> tuple[list[Link], tuple[str, ...]]:
+    """The links that are joined at two pins at least, and the others."""
+    kept = list(linkage.links)
+    while True:
+        shared = [sum(_joined(p, link, kept) for p in link.pins) for link in kept]
+        rest = [link for link, count in zip(kept, shared, strict=True) if count >= 2]
+        if len(rest) == len(kept):
+            names = {link.name for link in kept}
+            return kept, tuple(x.name for x in linkage.links if x.name not in names)
+        kept = rest
+
+
+def _joined(pin: str, link: Link, links: Sequence[Link]) -> bool:
+    return any(pin in other.pins for other in links if other is not link)
+
+
+def _loops(links: Sequence[Link]) -> list[list[tuple[Link, str, str]]]:
+    """A minimum cycle basis of the graph of links and pins; each link from one pin to another."""
+    import networkx
+
+    graph: networkx.Graph = networkx.Graph()
+    for link in links:
+        for pin in link.pins:
+            graph.add_edge(("link", link.name), ("pin", pin))
+    by_name = {link.name: link for link in links}
+    loops = []
+    for nodes in networkx.minimum_cycle_basis(graph):
+        ring = _ordered(graph.subgraph(nodes), sorted(nodes)[0])
+        loop = []
+        for i, (kind, name) in enumerate(ring):
+            if kind == "link":
+                before, after = ring[i - 1][1], ring[(i + 1) % len(ring)][1]
+                loop.append((by_name[name], before, after))
+        loops.append(loop)
+    return sorted(loops, key=lambda loop: [(link.name, a, b) for link, a, b in loop])
+
+
+def _ordered(ring: Any, start: tuple[str, str]) -> list[tuple[str, str]]:
+    """The nodes of a minimum cycle, one after the other."""
+    order = [start]
+    while len(order) < len(ring):
+        last = order[-1]
+        order.append(next(v for v in sorted(ring[last]) if v not in order))
+    return order

@@ -1,0 +1,196 @@
+"""The closure of one loop: the product of its factors is a real number.
+
+Some factors are eliminated linearly. With B their product and A the product of the others, the loop
+closes when conj(A) = B up to a real factor. B ranges over the part of norm not zero, on Study's
+quadric, of a linear space W:
+
+- two factors that are turns or slides, W = span(1, g, k, gk). If Study's form does not vanish on W,
+  it is there a multiple of w00 w11 - w10 w01, so that a displacement in W is a product already;
+  else this one quadric is added;
+- a spherical or planar joint, W = span of its generators: every displacement in W is one of it.
+
+So each loop is four linear equations in A (and the quadric), multilinear in the other factors'
+coordinates. What is eliminated follows linearly: the matrix (w_ij) has rank one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from nag.algebra.number import Number, is_zero
+from nag.algebra.polynomial import Polynomial
+from nag.mechanism.axes import dot
+from nag.mechanism.joint_factors import UNIT, Factor
+from nag.mechanism.quaternion import DualQuaternion, dual_conjugate, dual_multiply
+from nag.mechanism.row_reduction import left_inverse, null_space, row_echelon
+
+
+@dataclass(frozen=True)
+class Element:
+    """A factor as it stands in a loop's product, or a constant.
+
+    Attributes:
+        factor: the factor, or None for a constant.
+        generators: its generators in the direction in which the loop runs.
+    """
+
+    factor: Factor | None
+    generators: tuple[DualQuaternion, ...]
+
+
+@dataclass(frozen=True)
+class Closure:
+    """A loop whose last elements are eliminated.
+
+    Attributes:
+        kept: the elements of A.
+        eliminated: the elements of B.
+        basis: of W, each a vector of 8 entries: 1, g, k, gk, or the generators of one joint.
+        quadric: whether w00 w11 = w10 w01 is needed as well.
+    """
+
+    kept: tuple[Element, ...]
+    eliminated: tuple[Element, ...]
+    basis: tuple[tuple[Number, ...], ...]
+    quadric: bool
+
+    @cached_property
+    def annihilator(self) -> tuple[tuple[Number, ...], ...]:
+        """Rows whose products with conj(A) vanish when the loop closes."""
+        return tuple(null_space(self.basis, 8))
+
+    @cached_property
+    def coordinates(self) -> tuple[tuple[Number, ...], ...]:
+        """Rows that give conj(A) in the basis of W."""
+        return tuple(left_inverse(self.basis))
+
+    @property
+    def lost(self) -> tuple[Factor, ...]:
+        """The factors that are eliminated."""
+        return tuple(e.factor for e in self.eliminated if e.factor is not None)
+
+    @property
+    def equations(self) -> int:
+        """Number of equations, before dependent ones are left out."""
+        return 8 - len(self.basis) + int(self.quadric)
+
+    def polynomials(self, coordinates: Callable[[Factor], Sequence[Any]]) -> list[Polynomial]:
+        """The loop's equations; ``coordinates`` gives a factor's homogeneous coordinates."""
+        flat = conjugate_product(self.kept, coordinates)
+        equations = [_combine(row, flat) for row in self.annihilator]
+        if self.quadric:
+            w00, w10, w01, w11 = (_combine(row, flat) for row in self.coordinates)
+            equations.append(w00 * w11 - w10 * w01)
+        return equations
+
+    def recovered(
+        self, coordinates: Callable[[Factor], Sequence[Any]], convert: Callable[[Number], Any]
+    ) -> dict[Factor, tuple[Any, ...]]:
+        """Homogeneous coordinates of the eliminated factors, in the arithmetic of the kept ones."""
+        flat = conjugate_product(self.kept, coordinates, convert)
+        zero = convert(Fraction(0))
+        w = [
+            sum((convert(y) * x for y, x in zip(row, flat, strict=True)), zero)
+            for row in self.coordinates
+        ]
+        if len(self.lost) == 1:
+            return {self.lost[0]: tuple(w)}
+        # The matrix has rank one; its largest entry is never zero, w00 is at half a turn.
+        matrix = ((w[0], w[2]), (w[1], w[3]))
+        row, column = max(
+            ((i, j) for i in (0, 1) for j in (0, 1)), key=lambda ij: abs(matrix[ij[0]][ij[1]])
+        )
+        first, second = self.lost
+        return {first: (matrix[0][column], matrix[1][column]), second: matrix[row]}
+
+
+def conjugate_product(
+    elements: Sequence[Element],
+    coordinates: Callable[[Factor], Sequence[Any]],
+    convert: Callable[[Number], Any] = lambda c: c,
+) -> list[Any]:
+    """conj(A) as 8 entries, for the product A of the elements."""
+    product: DualQuaternion | None = None
+    for element in elements:
+        value = combination(element, coordinates, convert)
+        product = value if product is None else dual_multiply(product, value)
+    if product is None:
+        product = UNIT
+    return [x for part in dual_conjugate(product) for x in part]
+
+
+def combination(
+    element: Element,
+    coordinates: Callable[[Factor], Sequence[Any]],
+    convert: Callable[[Number], Any],
+) -> DualQuaternion:
+    """The element's value: its generators, combined with its factor's coordinates."""
+    if element.factor is None:
+        (constant,) = element.generators
+        return tuple(tuple(convert(x) for x in part) for part in constant)
+    weights = coordinates(element.factor)
+    parts = []
+    for part in (0, 1):
+        entries = []
+        for i in range(4):
+            terms = [
+                w * convert(g[part][i])
+                for w, g in zip(weights, element.generators, strict=True)
+                if not is_zero(g[part][i])
+            ]
+            entries.append(sum(terms[1:], terms[0]) if terms else convert(Fraction(0)))
+        parts.append(tuple(entries))
+    return parts[0], parts[1]
+
+
+def closures(elements: Sequence[Element]) -> Iterator[Closure]:
+    """All ways to eliminate one spherical or planar joint or two neighbouring factors of a loop."""
+    n = len(elements)
+    for start in range(n):
+        turned = [*elements[start:], *elements[:start]]
+        if turned[-1].factor is None:
+            continue
+        for length in range(1, n + 1):
+            piece = turned[n - length :]
+            factors = [e.factor for e in piece if e.factor is not None]
+            if sum(f.dimension for f in factors) > (3 if len(factors) == 1 else 2):
+                break
+            if piece[0].factor is None:
+                continue
+            if factors[0].dimension == 3 or len(factors) == 2:
+                closure = _closure(turned[: n - length], piece)
+                if closure is not None:
+                    yield closure
+                break
+
+
+def _closure(kept: Sequence[Element], piece: Sequence[Element]) -> Closure | None:
+    """The closure that eliminates ``piece``; None where its products are dependent."""
+    products: list[DualQuaternion] = [UNIT]
+    for element in piece:
+        # The first factor's index runs fastest: 1, g, k, gk.
+        products = [dual_multiply(p, g) for g in element.generators for p in products]
+    basis = tuple(tuple(x for part in q for x in part) for q in products)
+    if len(row_echelon(basis)[0]) < 4:
+        return None
+    pair = sum(e.factor is not None for e in piece) == 2
+    study = (dot4(p[0], q[1]) + dot4(p[1], q[0]) for p in products for q in products)
+    return Closure(
+        kept=tuple(kept),
+        eliminated=tuple(piece),
+        basis=basis,
+        quadric=pair and all(is_zero(x) for x in study),
+    )
+
+
+def dot4(p: Sequence[Number], q: Sequence[Number]) -> Number:
+    """The scalar product of two quaternions."""
+    return p[0] * q[0] + dot(p[1:], q[1:])
+
+
+def _combine(row: Sequence[Number], flat: Sequence[Any]) -> Any:
+    return sum((f * c for c, f in zip(row, flat, strict=True)), Fraction(0))

@@ -1,0 +1,152 @@
+"""Decomposition of all assembly modes of a mechanism, one of each class."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from nag.algebra.symmetry import SignedPermutation
+from nag.decomposition import decompose, intersect_components
+from nag.mechanism.coordinates import euler_decomposition
+from nag.mechanism.euler import mode_conditions
+from nag.mechanism.graph import Mechanism
+from nag.mechanism.joint_types import JOINT_TYPES
+from nag.mechanism.loops import LoopStructure
+from nag.mechanism.mode_classes import ModeClass, mode_classes
+from nag.mechanism.model import Model, ModelError, model, with_loops
+from nag.mechanism.row_reduction import row_echelon
+from nag.witness.expansion import expanded
+from nag.witness.witness import Decomposition, WitnessSet
+
+Progress = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True)
+class ClassAnswer:
+    """The components of one combination of modes, which stand for those of its whole class."""
+
+    modes: ModeClass
+    model: Model
+    decomposition: Decomposition
+
+
+@dataclass(frozen=True)
+class ModesAnswer:
+    """The components of all assembly modes.
+
+    Attributes:
+        structure: the mechanism's part with loops.
+        classes: one answer for each class of modes, that of the reference configuration first.
+        apart: whether components of different modes cannot meet: for every joint the equations of
+            any two of its modes leave no relative orientation, by exact linear algebra.
+        meetings: pairs of components of one mode, of different dimension, that meet, as (class,
+            dimension, dimension).
+    """
+
+    structure: LoopStructure
+    classes: tuple[ClassAnswer, ...]
+    apart: bool
+    meetings: tuple[tuple[int, int, int], ...]
+
+    @property
+    def complete(self) -> bool:
+        """Whether every class is."""
+        return all(c.decomposition.complete for c in self.classes)
+
+
+def decompose_modes(
+    mechanism: Mechanism,
+    formulation: str = "auto",
+    coordinates: str = "euler",
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+    progress: Progress | None = None,
+) -> ModesAnswer:
+    """Decompose every combination of the joints' assembly modes.
+
+    Args:
+        mechanism: in space; a planar mechanism is taken as one in space.
+        formulation: of the models that are decomposed.
+        coordinates: ``"euler"`` for components in Euler parameters, ``"joint"`` for those in the
+            coordinates of the formulation.
+        seed: of all random numbers.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        progress: called with a stage's name, the class and the number of classes.
+
+    Raises:
+        ModelError: if the mechanism has too many combinations, or the formulation does not cover
+            it.
+    """
+    structure = with_loops(mechanism)
+    try:
+        classes = mode_classes(structure)
+    except ValueError as error:
+        raise ModelError(str(error)) from None
+    answers = []
+    for k, each in enumerate(classes):
+        if progress is not None:
+            progress("modes", k, len(classes))
+        chosen = model(mechanism, formulation, each.representative, "spatial")
+        answer = decompose(
+            chosen.system,
+            seed=seed,
+            threads=threads,
+            settings=settings,
+            symmetries=[SignedPermutation.of_signs(s) for s in chosen.symmetries],
+        )
+        if coordinates == "euler" and chosen.formulation != "E":
+            chosen, answer = euler_decomposition(chosen, answer, threads=threads)
+        answers.append(ClassAnswer(each, chosen, answer))
+    return ModesAnswer(
+        structure,
+        tuple(answers),
+        apart(structure),
+        tuple(_meetings(answers, seed, threads, settings)),
+    )
+
+
+def apart(structure: LoopStructure) -> bool:
+    """Whether no configuration belongs to two modes of a joint.
+
+    The equations of both modes together, linear in the relative orientation r, have full rank 4 for
+    every pair of modes, so that they leave r = 0, which is no rotation.
+    """
+    for joint in structure.joints:
+        modes = range(JOINT_TYPES[joint.type].modes)
+        conditions = [mode_conditions(joint, mode) for mode in modes]
+        for i in modes:
+            for j in range(i):
+                if len(row_echelon([*conditions[i], *conditions[j]])[0]) < 4:
+                    return False
+    return True
+
+
+def _meetings(
+    answers: Sequence[ClassAnswer], seed: int, threads: int, settings: str
+) -> list[tuple[int, int, int]]:
+    """Pairs of dimensions of components of one mode that meet, by computation."""
+    found = set()
+    for k, answer in enumerate(answers):
+        system = answer.decomposition.system
+        everything = expanded(answer.decomposition).components
+        for first in answer.decomposition.components:
+            for second in everything:
+                pair = (k, first.dimension, second.dimension)
+                if first.dimension >= second.dimension or pair in found:
+                    continue
+                options = {"seed": seed, "threads": threads, "settings": settings}
+                if intersect_components(system, first, second, **options).components:
+                    found.add(pair)
+    return sorted(found)
+
+
+def degree_counts(components: Sequence[WitnessSet]) -> dict[tuple[int, int], int]:
+    """How many components there are of each dimension and degree."""
+    counts: dict[tuple[int, int], int] = {}
+    for component in components:
+        key = component.dimension, component.degree
+        counts[key] = counts.get(key, 0) + component.orbit
+    return counts

@@ -1,0 +1,260 @@
+"""Formulation S: rods between two spherical joints as distances, free bodies by Study coordinates.
+
+A body that has two spherical joints and nothing else only keeps two points of its neighbours at
+their distance; it turns freely about the line through them. Without such rods the bodies are trees
+of joints; one that hangs in the air has Study coordinates (e, g), a dual quaternion e + eps g on
+the quadric e.g = 0 (Husty 1996). With A the displacement of the rod's one neighbour against the
+other, a and b its ends, |A_0 b + 2 A_1 - a A_0|^2 = |b - a|^2 |A_0|^2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from nag.algebra.number import Number
+from nag.algebra.system import PolynomialSystem
+from nag.mechanism.assembly_modes import REFERENCE, Modes
+from nag.mechanism.axes import across, cross, difference, dot
+from nag.mechanism.charts import Charts, factors_in
+from nag.mechanism.configuration import (
+    Arithmetic,
+    Configuration,
+    arithmetic_of,
+    as_entries,
+    configuration,
+)
+from nag.mechanism.euler import slide_directions
+from nag.mechanism.graph import Joint
+from nag.mechanism.joint_factors import free_factor
+from nag.mechanism.joint_products import displacement, joint_elements, moved, opposite
+from nag.mechanism.loop_product import Element
+from nag.mechanism.loops import LoopStructure
+from nag.mechanism.quaternion import (
+    DualQuaternion,
+    Quaternion,
+    multiply,
+    norm_squared,
+    scale,
+)
+
+# Factors along a path, beyond which a distance has too many terms.
+MOST_FACTORS = 5
+
+
+@dataclass(frozen=True)
+class Rod:
+    """A body that keeps two points at their distance.
+
+    Attributes:
+        body: its name.
+        ends: its spherical joints.
+        neighbours: the bodies at these.
+    """
+
+    body: str
+    ends: tuple[Joint, Joint]
+    neighbours: tuple[str, str]
+
+
+@dataclass(frozen=True)
+class RodModel:
+    """Distances between trees of joints.
+
+    Attributes:
+        structure: the mechanism's part with loops.
+        rods: what is taken as distances; each turns freely about itself.
+        charts: the factors of all joints that are left, and of bodies in the air.
+        paths: for each body that is no rod, the elements of its displacement against the base.
+        joints: the elements of the joints that are left.
+        system: the distances and Study's quadrics.
+        reference: the reference configuration; empty in other assembly modes.
+        modes: the assembly modes.
+    """
+
+    structure: LoopStructure
+    rods: tuple[Rod, ...]
+    charts: Charts
+    paths: Mapping[str, tuple[Element, ...]]
+    joints: Mapping[str, tuple[Element, ...]]
+    system: PolynomialSystem
+    reference: tuple[Number, ...]
+    modes: Modes
+
+    @property
+    def spins(self) -> int:
+        """Freedoms that the equations leave out: each rod turns about itself."""
+        return len(self.rods)
+
+    def lift(self, point: Sequence[Any]) -> Configuration:
+        """All bodies' orientations and positions at a solution.
+
+        The rods, which may turn about themselves, are turned the shortest way from the reference
+        configuration.
+
+        Raises:
+            ZeroDivisionError: at a point of norm zero.
+        """
+        arithmetic = arithmetic_of(point)
+        convert = arithmetic.convert
+        values = self.charts.at(as_entries(point), convert)
+        motions = {b: _motion(e, values, convert) for b, e in self.paths.items()}
+        structure, mechanism = self.structure, self.structure.mechanism
+        turns = {b: _unit(m[0], arithmetic) for b, m in motions.items()}
+        for rod in self.rods:
+            ends = [[convert(x) for x in j.point] for j in rod.ends]
+            there = [moved(motions[b], p) for b, p in zip(rod.neighbours, ends, strict=True)]
+            before, after = difference(ends[1], ends[0]), difference(there[1], there[0])
+            turns[rod.body] = _shortest_turn(before, after, arithmetic)
+        euler = {
+            b: multiply(turns[b], [convert(x) for x in mechanism.orientation(b)])
+            for b in structure.moving
+        }
+        slides = {}
+        for joint in structure.joints:
+            if slide_directions(joint):
+                place = [convert(x) for x in joint.point]
+                there = moved(displacement(self.joints[joint.name], values, convert), place)
+                slides[joint.name] = difference(there, place)
+        return configuration(structure, euler, arithmetic, slides)
+
+
+def rod_model(structure: LoopStructure, modes: Modes = REFERENCE) -> RodModel:
+    """The distances that rods keep.
+
+    Raises:
+        ValueError: if there are no such rods, or the joints that are left have loops.
+    """
+    rods = _rods(structure)
+    if not rods:
+        raise ValueError("no body has two spherical joints and no other joint")
+    joints, paths = _trees(structure, {r.body for r in rods}, dict(modes))
+    charts = Charts.of(factors_in([e for own in paths.values() for e in own]))
+    equations: list[Any] = []
+    products: dict[tuple[str, str], DualQuaternion] = {}
+    first: dict[tuple[str, str], Any] = {}
+    for rod in sorted(rods, key=lambda r: r.neighbours):
+        between = [*opposite(paths[rod.neighbours[0]]), *paths[rod.neighbours[1]]]
+        between = _without_common(between)
+        if len(factors_in(between)) > MOST_FACTORS:
+            raise ValueError(f"rod {rod.body!r} spans more than {MOST_FACTORS} joint coordinates")
+        if rod.neighbours not in products:
+            products[rod.neighbours] = displacement(between, charts.values, lambda c: c)
+        value = _distance(products[rod.neighbours], *(j.point for j in rod.ends))
+        # Differences of distances between the same two bodies are of lower degree in g.
+        equations.append(value - first[rod.neighbours] if rod.neighbours in first else value)
+        first.setdefault(rod.neighbours, value)
+    for factor in charts.plain:
+        if factor.kind == "free":
+            values = charts.values[factor]
+            equations.append(dot4(values[:4], values[4:]))
+    reference = () if modes else charts.reference
+    return RodModel(
+        structure, rods, charts, paths, joints, charts.system(equations), reference, modes
+    )
+
+
+def _rods(structure: LoopStructure) -> tuple[Rod, ...]:
+    rods: list[Rod] = []
+    for body in structure.moving:
+        ends = [j for j in structure.joints if body in j.bodies]
+        if len(ends) == 2 and all(j.type == "spherical" for j in ends):
+            neighbours = tuple(j.other(body) for j in ends)
+            taken = {r.body for r in rods}
+            if neighbours[0] != neighbours[1] and not taken & set(neighbours):
+                first, second = sorted(zip(neighbours, ends, strict=True), key=lambda p: p[0])
+                rods.append(Rod(body, (first[1], second[1]), (first[0], second[0])))
+    return tuple(rods)
+
+
+def _trees(
+    structure: LoopStructure, rods: set[str], modes: dict[str, int]
+) -> tuple[dict[str, tuple[Element, ...]], dict[str, tuple[Element, ...]]]:
+    """Elements of the joints that are left, and of each body's displacement against the base."""
+    left = [j for j in structure.joints if not rods & set(j.bodies)]
+    elements = {j.name: joint_elements(j, modes.get(j.name, 0), True) for j in left}
+    paths: dict[str, tuple[Element, ...]] = {structure.base: ()}
+    waiting, used = [b for b in structure.moving if b not in rods], set()
+    frontier = [structure.base]
+    while frontier or waiting:
+        if not frontier:
+            body = waiting[0]
+            free = free_factor(body)
+            paths[body] = (Element(free, free.generators),)
+            frontier.append(body)
+        parent = frontier.pop(0)
+        waiting = [b for b in waiting if b != parent]
+        for joint in left:
+            if joint.name in used or parent not in joint.bodies:
+                continue
+            used.add(joint.name)
+            child = joint.other(parent)
+            if child in paths:
+                raise ValueError("the joints between the bodies that are no rods have a loop")
+            own = elements[joint.name]
+            step = own if joint.bodies[0] == parent else tuple(opposite(own))
+            paths[child] = (*paths[parent], *step)
+            frontier.append(child)
+    return elements, paths
+
+
+def _without_common(elements: Sequence[Element]) -> list[Element]:
+    """A product without neighbours that undo each other."""
+    result: list[Element] = []
+    for element in elements:
+        last = result[-1] if result else None
+        if last is not None and last.factor == element.factor and element.factor is not None:
+            result.pop()
+        else:
+            result.append(element)
+    return result
+
+
+def _distance(motion: DualQuaternion, a: Sequence[Number], b: Sequence[Number]) -> Any:
+    """|A_0 b + 2 A_1 - a A_0|^2 - |b - a|^2 |A_0|^2, zero in the reference configuration."""
+    zero = Fraction(0)
+    real, dual = motion
+    gap = difference(multiply(real, (zero, *b)), multiply((zero, *a), real))
+    gap = tuple(x + 2 * y for x, y in zip(gap, dual, strict=True))
+    link = difference(b, a)
+    return norm_squared(gap) - norm_squared(real) * dot(link, link)
+
+
+def dot4(p: Sequence[Any], q: Sequence[Any]) -> Any:
+    """The scalar product of two quaternions."""
+    return p[0] * q[0] + dot(p[1:], q[1:])
+
+
+def _motion(elements: Sequence[Element], values: Any, convert: Any) -> DualQuaternion:
+    if elements:
+        return displacement(elements, values, convert)
+    zero, one = convert(Fraction(0)), convert(Fraction(1))
+    return (one, zero, zero, zero), (zero, zero, zero, zero)
+
+
+def _unit(q: Sequence[Any], arithmetic: Arithmetic) -> Quaternion:
+    return scale(q, 1 / arithmetic.sqrt(norm_squared(q)))
+
+
+def _shortest_turn(
+    before: Sequence[Any], after: Sequence[Any], arithmetic: Arithmetic
+) -> Quaternion:
+    """A unit quaternion that turns one vector to another of the same length."""
+    squared, product = dot(before, before), dot(before, after)
+    if abs(squared + product) <= abs(squared) / 1000:
+        # Nearly opposite: half a turn across the first vector, then the short way.
+        half = (0 * squared, *_across(before))
+        opposite_vector = tuple(-x for x in before)
+        rest = _shortest_turn(opposite_vector, after, arithmetic)
+        return multiply(rest, _unit(half, arithmetic))
+    return _unit((squared + product, *cross(before, after)), arithmetic)
+
+
+def _across(vector: Sequence[Any]) -> Sequence[Any]:
+    """A vector orthogonal to another, of no small length."""
+    if all(isinstance(x, Fraction) for x in vector):
+        return across(vector)[0]
+    units = [tuple(int(i == j) for j in range(3)) for i in range(3)]
+    return max((cross(vector, u) for u in units), key=lambda v: abs(dot(v, v)))

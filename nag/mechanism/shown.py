@@ -1,0 +1,73 @@
+"""What mechanisms and models show at the prompt and in notebooks."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING
+
+from nag.algebra.number import Number, number_text
+from nag.algebra.shown import system_line
+from nag.mechanism.graph import Joint
+from nag.text.table import align, counted, html_table, lines_of, printable, shortened
+
+if TYPE_CHECKING:
+    from nag.mechanism.graph import Mechanism
+    from nag.mechanism.model import Model
+
+# Of mechanisms with more joints the first are shown.
+MOST_LINES = 4
+_VECTORS = tuple(f.name for f in fields(Joint) if f.name not in ("name", "type", "bodies"))
+
+
+def _vector(values: tuple[Number, ...] | None) -> str:
+    return "" if values is None else f"({', '.join(map(number_text, values))})"
+
+
+def _title(mechanism: Mechanism) -> str:
+    names = ", ".join(mechanism.body_names)
+    bodies = counted(len(mechanism.body_names), "body", "bodies")
+    listed = f" ({names})" if len(names) <= 60 else ""
+    return f"Mechanism of {bodies}{listed}, ground {mechanism.ground}"
+
+
+def mechanism_text(mechanism: Mechanism) -> str:
+    """A mechanism in five lines: its bodies, and its first joints."""
+    joints = mechanism.joints
+    shown = len(joints) if len(joints) <= MOST_LINES else MOST_LINES - 1
+    rows = []
+    for joint in joints[:shown]:
+        vectors = [f"{n} {_vector(getattr(joint, n))}" for n in _VECTORS if getattr(joint, n)]
+        text = ", ".join([joint.type, " - ".join(joint.bodies), *vectors])
+        rows.append([f"  {joint.name}", text])
+    lines = [_title(mechanism), *align(rows, (0, 1))]
+    if shown < len(joints):
+        lines.append(f"  and {counted(len(joints) - shown, 'more joint')}")
+    return "\n".join(shortened(printable(line)) for line in lines)
+
+
+def mechanism_html(mechanism: Mechanism) -> str:
+    """A mechanism as a table, one row a joint."""
+    used = [n for n in _VECTORS if any(getattr(j, n) is not None for j in mechanism.joints)]
+    rows = [["joint", "type", "bodies", *used]]
+    for joint in mechanism.joints:
+        vectors = [_vector(getattr(joint, n)) for n in used]
+        rows.append([joint.name, joint.type, " - ".join(joint.bodies), *vectors])
+    return html_table(_title(mechanism), rows)
+
+
+def model_text(model: Model) -> str:
+    """A model in five lines."""
+    at = ", ".join(
+        f"{name} = {number_text(value)}"
+        for name, value in zip(model.system.variables, model.reference, strict=True)
+    )
+    signs = counted(model.sign_group, "sign change") if model.sign_group > 1 else "none"
+    return lines_of(
+        f"Model in formulation {model.formulation}: {model.reason}",
+        [
+            ("system", system_line(model.system)),
+            ("reference", at),
+            ("symmetries", signs),
+            ("counted", f"mobility {model.gruebler_kutzbach} by Gruebler-Kutzbach"),
+        ],
+    )

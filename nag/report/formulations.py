@@ -1,0 +1,66 @@
+"""The formulations and joints of a mechanism as text."""
+
+from __future__ import annotations
+
+from math import prod
+from typing import TYPE_CHECKING
+
+from nag.mechanism.joint_types import JOINT_TYPES
+from nag.report.table import align, printable
+
+if TYPE_CHECKING:
+    from nag.mechanism.formulations import Alternative
+    from nag.mechanism.model import Model
+
+
+def joint_lines(model: Model) -> list[str]:
+    """The types of the joints and the prime components of their constraints."""
+    kinds = dict.fromkeys(j.type for j in model.mechanism.joints)
+    rows = [["joints", "freedoms", "constraints", "modes", "components", "dimension", "degree"]]
+    for kind in kinds:
+        known = JOINT_TYPES[kind]
+        parts = ((known.coincidences, "C"), (known.orthogonalities, "SO"), (known.gaps, "O"))
+        constraints = " + ".join(f"{count} {name}" for count, name in parts if count)
+        numbers = (known.modes, known.components, known.dimension, known.degree)
+        rows.append([kind, str(known.freedoms), constraints, *map(str, numbers)])
+    lines = ["joints and the prime components of their SO constraints, in the Euler parameters of"]
+    lines.append("both bodies")
+    return [*lines, *(f"  {line}" for line in align(rows, (0, 2)))]
+
+
+def alternative_lines(model: Model) -> list[str]:
+    """Every formulation with its numbers, the one that is taken marked."""
+    rows = [["formulation", "variables", "equations", "Bezout", "groups' bound", "paths", ""]]
+    rows.append(unreduced_row(model))
+    covered = [a for a in model.alternatives if a.form is not None]
+    for each in covered:
+        taken = "taken" if each.formulation == model.formulation else ""
+        rows.append([*alternative_row(each), taken])
+    lines = [
+        "formulations; paths: at most so many, equation by equation",
+        *(f"  {line}" for line in align(rows, (0, 6))),
+    ]
+    lines += [
+        f"  {a.formulation}: {printable(a.problem)}" for a in model.alternatives if a.form is None
+    ]
+    return lines
+
+
+def alternative_row(each: Alternative) -> list[str]:
+    """Formulation, variables, equations, Bezout's number, the groups' bound, paths."""
+    system = each.system
+    numbers = (system.n, len(system.polynomials), each.bezout, each.bound, each.paths)
+    return [each.formulation, *map(large, numbers)]
+
+
+def unreduced_row(model: Model) -> list[str]:
+    """The same for every constraint of every joint in all bodies' coordinates."""
+    system = model.unreduced
+    degrees = sorted(f.degree for f in system.polynomials)[: system.n]
+    numbers = (system.n, len(system.polynomials), prod(degrees))
+    return ["unreduced", *map(large, numbers), "", "", ""]
+
+
+def large(number: int) -> str:
+    """A whole number, in powers of ten where it is long."""
+    return str(number) if number < 10**7 else f"{float(number):.1e}"

@@ -1,0 +1,215 @@
+"""The ends of all paths, sorted: isolated solutions, points on components, open questions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.numerics.coincidence import clusters, conjugates_present
+from nag.numerics.singular_point import Place, analyse
+from nag.solving.solutions import Solution
+from nag.solving.square_problem import SquareProblem
+from nag.solving.start.target import Start
+from nag.tracking.paths import Paths, PathStatus
+
+# |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
+ON = 1e-9
+# End points with larger values than this are no zeros, however badly they are known.
+NEARLY = 1e-5
+# Points evaluated at once.
+BLOCK = 2048
+
+
+@dataclass(frozen=True, eq=False)
+class JudgedEnds:
+    """The end points of all paths, sorted; coordinates are those of the original variables.
+
+    ``close``: the paths to those undecided.
+    """
+
+    solutions: tuple[Solution, ...]
+    on_components: np.ndarray
+    undecided: np.ndarray
+    excluded: int
+    notes: tuple[str, ...]
+    close: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class _Zeros:
+    """End points that are zeros, in the scaled variables, with the indices of their paths."""
+
+    path: np.ndarray
+    points: np.ndarray
+    accuracy: np.ndarray
+    residual: np.ndarray
+    regular: np.ndarray
+
+    def groups(self) -> list[np.ndarray]:
+        """Ends at one point each. Regular ends are distinct, as the tracker has seen."""
+        several = np.flatnonzero(~self.regular)
+        alone = [np.array([i]) for i in np.flatnonzero(self.regular)]
+        found = clusters(self.points[several], self.accuracy[several])
+        return alone + [several[group] for group in found]
+
+
+@dataclass(frozen=True, eq=False)
+class _Isolated:
+    """An isolated solution in the scaled variables."""
+
+    point: np.ndarray
+    multiplicity: int
+    residual: float
+    accuracy: float
+    condition: float
+    precision: int
+
+
+@dataclass(frozen=True, eq=False)
+class _Place:
+    """Where an end lies; None where it is no solution at all.
+
+    ``close``: whether it may be several solutions close together.
+    """
+
+    place: Place | None
+    isolated: _Isolated | None = None
+    close: bool = False
+
+
+def judged_ends(
+    problem: SquareProblem, begin: Start, paths: Paths, rng: np.random.Generator
+) -> JudgedEnds:
+    """What the ends of all paths are."""
+    n = problem.system.n
+    evaluator = Evaluator.of(problem.equations, n)
+    zeros, lost = _zeros(problem, begin, paths, evaluator)
+    notes = [f"{lost} end points are zeros of the equations only roughly"] if lost else []
+    isolated: list[_Isolated] = []
+    elsewhere: dict[Place, list[np.ndarray]] = {Place.ON_COMPONENT: [], Place.UNDECIDED: []}
+    close: list[int] = []
+    for group in zeros.groups():
+        best = int(group[np.argmin(zeros.accuracy[group])])
+        found = _place(problem, zeros, best, paths, evaluator, rng)
+        if found.isolated is not None:
+            multiplicity = found.isolated.multiplicity
+            isolated.append(found.isolated)
+            if begin.complete and not problem.squared and multiplicity != len(group):
+                notes.append(f"{len(group)} paths end at a solution of multiplicity {multiplicity}")
+        elif found.place is not None:
+            # Where equations were added, an end stands for one point of a component.
+            elsewhere[found.place].extend(zeros.points[[best] if problem.added else group])
+        if found.close:
+            close.extend(zeros.path[group].tolist())
+    if elsewhere[Place.UNDECIDED]:
+        notes.append(
+            f"{len(elsewhere[Place.UNDECIDED])} end points may or may not be isolated solutions, "
+            "or several that are close together"
+        )
+    solutions, excluded, paired = _solutions(problem, isolated)
+    if not paired:
+        notes.append("the conjugate of a solution is missing")
+    original = problem.target.original
+    return JudgedEnds(
+        solutions,
+        original(np.array(elsewhere[Place.ON_COMPONENT]).reshape(-1, n)),
+        original(np.array(elsewhere[Place.UNDECIDED]).reshape(-1, n)),
+        excluded,
+        tuple(notes),
+        np.array(sorted(close), dtype=np.int64),
+    )
+
+
+def _zeros(
+    problem: SquareProblem, begin: Start, paths: Paths, evaluator: Evaluator
+) -> tuple[_Zeros, int]:
+    """The finite ends that are zeros, and the number of those that are only roughly."""
+    finite = paths.where(PathStatus.REGULAR, PathStatus.SINGULAR)
+    points = begin.affine(paths.points[finite])
+    accuracy = paths.accuracy[finite]
+    residual = _residuals(evaluator, points)
+    regular = paths.status[finite] == PathStatus.REGULAR
+    on = residual < np.maximum(ON, accuracy)
+    lost = ~on
+    if problem.squared:
+        # Whether a regular zero is one of all equations is decided exactly, below.
+        on |= regular & (residual < NEARLY)
+        lost = ~on & (residual < NEARLY)
+    kept = _Zeros(finite[on], points[on], accuracy[on], residual[on], regular[on])
+    return kept, int(lost.sum())
+
+
+def _place(
+    problem: SquareProblem,
+    zeros: _Zeros,
+    i: int,
+    paths: Paths,
+    evaluator: Evaluator,
+    rng: np.random.Generator,
+) -> _Place:
+    """Where the zero ``i`` lies."""
+    point, accuracy, path = zeros.points[i], float(zeros.accuracy[i]), zeros.path[i]
+    precision = int(paths.precision[path])
+    if problem.added:
+        return _Place(Place.ON_COMPONENT)
+    if zeros.regular[i]:
+        solves = problem.solves(point) if problem.squared else True
+        if solves is None:
+            return _Place(Place.UNDECIDED)
+        if not solves:
+            return _Place(None)
+        residual, condition = float(zeros.residual[i]), float(paths.condition[path])
+        simple = _Isolated(point, 1, residual, accuracy, condition, precision)
+        return _Place(Place.ISOLATED, simple)
+    end = analyse(problem.equations, point, accuracy, rng)
+    if end.place is not Place.ISOLATED:
+        return _Place(end.place, close=end.place is Place.UNDECIDED)
+    residual = float(evaluator.residuals(end.point[None]).max())
+    multiple = _Isolated(
+        end.point, end.multiplicity, residual, end.accuracy, end.condition, precision
+    )
+    return _Place(Place.ISOLATED, multiple)
+
+
+def _solutions(
+    problem: SquareProblem, isolated: list[_Isolated]
+) -> tuple[tuple[Solution, ...], int, bool]:
+    """The solutions where nothing vanishes that must not, and how many were left out.
+
+    Also whether the conjugate of each is there.
+    """
+    points = np.array([s.point for s in isolated], dtype=complex).reshape(-1, problem.system.n)
+    accuracy = np.array([s.accuracy for s in isolated])
+    multiplicity = np.array([s.multiplicity for s in isolated], dtype=np.int64)
+    sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
+    imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
+    real = imaginary <= np.maximum(1e2 * accuracy, 1e-10) * sizes
+    paired = bool(conjugates_present(points, accuracy, multiplicity, real))
+    kept = ~_vanishes(problem.nonzero, points, accuracy)
+    solutions = tuple(
+        Solution(
+            point, s.multiplicity, bool(is_real), s.residual, s.accuracy, s.condition, s.precision
+        )
+        for point, s, is_real, keep in zip(
+            problem.target.original(points), isolated, real, kept, strict=True
+        )
+        if keep
+    )
+    return solutions, int((~kept).sum()), paired
+
+
+def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:
+    """The largest residual at each point; a block at a time, as there may be 10^5 points."""
+    blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)]
+    found = [evaluator.residuals(block).max(axis=1, initial=0.0) for block in blocks]
+    return np.concatenate([np.zeros(0), *found])
+
+
+def _vanishes(nonzero: Evaluator, points: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
+    """At which points one of the polynomials vanishes that must not, shape ``(P,)``."""
+    if not len(nonzero.coefficients):
+        return np.zeros(len(points), dtype=bool)
+    least = nonzero.residuals(points).min(axis=1)
+    return least < np.maximum(1e-8, 1e2 * accuracy)

@@ -1,0 +1,137 @@
+"""What solutions show at the prompt, in notebooks and in the commands."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nag.algebra.shown import system_line
+from nag.text.table import counted, html_table, lines_of, magnitude
+
+if TYPE_CHECKING:
+    from nag.solving.solutions import Solution, SolveResult
+
+# Longer lists are left to the export.
+MOST_ROWS = 40
+
+
+def answer_text(result: SolveResult) -> str:
+    """The answer in one sentence."""
+    count, real = len(result.solutions), len(result.real)
+    text = f"{count} isolated solution{'' if count == 1 else 's'}, {real} real"
+    multiple = Counter(s.multiplicity for s in result.solutions if s.multiplicity > 1)
+    for multiplicity, number in sorted(multiple.items()):
+        text += f", {number} of multiplicity {multiplicity}"
+    if result.excluded:
+        text += f"; {result.excluded} more excluded, where a polynomial that must not vanish does"
+    if result.positive_dimensional:
+        text += "; and a solution set of positive dimension"
+    return text
+
+
+def solution_rows(result: SolveResult, most: int, columns: int) -> list[list[str]]:
+    """Headings, and a row for each of at most ``most`` solutions, the real ones first.
+
+    At most ``columns`` coordinates are shown.
+    """
+    ordered = sorted(range(len(result.solutions)), key=lambda i: not result.solutions[i].real)
+    names = result.system.variables
+    dots = ["..."] if len(names) > columns else []
+    head = ["solution", *names[:columns], *dots]
+    rows = [[*head, "multiplicity", "real", "residual", "condition", "digits"]]
+    for i in ordered[:most]:
+        s = result.solutions[i]
+        rows.append(
+            [
+                str(i + 1),
+                *(number_text(z, s) for z in s.point[:columns]),
+                *dots,
+                str(s.multiplicity),
+                "yes" if s.real else "no",
+                magnitude(s.residual),
+                magnitude(s.condition),
+                str(s.precision),
+            ]
+        )
+    return rows
+
+
+def number_text(z: complex, solution: Solution) -> str:
+    """A coordinate to six digits; parts below the point's accuracy are left out."""
+    floor = max(1e-12, 1e2 * solution.accuracy) * (1 + float(abs(solution.point).max()))
+    real = 0.0 if abs(z.real) < floor else float(z.real)
+    if solution.real or abs(z.imag) < floor:
+        return f"{real:.6g}"
+    return f"{real:.6g}{z.imag:+.6g}i"
+
+
+def _point_text(solution: Solution) -> str:
+    return f"({', '.join(number_text(z, solution) for z in solution.point)})"
+
+
+def solution_line(solution: Solution) -> str:
+    """A solution in one line, as lists show it."""
+    kind = "real" if solution.real else "not real"
+    return f"Solution({_point_text(solution)}, {kind}, multiplicity={solution.multiplicity})"
+
+
+def solution_text(solution: Solution) -> str:
+    """A solution in five lines."""
+    kind = "real" if solution.real else "not real"
+    return lines_of(
+        f"Solution {_point_text(solution)}",
+        [
+            ("kind", f"{kind}, multiplicity {solution.multiplicity}"),
+            ("residual", magnitude(solution.residual)),
+            ("accuracy", f"{magnitude(solution.accuracy)}, {solution.precision} digits needed"),
+            ("condition", magnitude(solution.condition)),
+        ],
+    )
+
+
+def _rests_on(result: SolveResult) -> str:
+    if not result.solutions:
+        return "no points"
+    residual, accuracy, condition = (
+        magnitude(float(np.max([getattr(s, name) for s in result.solutions])))
+        for name in ("residual", "accuracy", "condition")
+    )
+    digits = max(s.precision for s in result.solutions)
+    return f"residual {residual}, accuracy {accuracy}, condition {condition}, {digits} digits"
+
+
+def _status(result: SolveResult) -> str:
+    status = "complete" if result.complete else "INCOMPLETE"
+    return ": ".join([status, *(["; ".join(result.notes)] if result.notes else [])])
+
+
+def _run(result: SolveResult) -> str:
+    paths = result.paths
+    return (
+        f"seed {result.seed}, settings {result.settings}; paths: {paths.tracked} tracked, "
+        f"{paths.at_infinity} to infinity, {paths.failed} failed"
+    )
+
+
+def result_text(result: SolveResult) -> str:
+    """A result in five lines."""
+    return lines_of(
+        f"SolveResult for {system_line(result.system)}",
+        [
+            ("answer", answer_text(result)),
+            ("status", _status(result)),
+            ("rests on", _rests_on(result)),
+            ("run", _run(result)),
+        ],
+    )
+
+
+def result_html(result: SolveResult) -> str:
+    """A result as a table, one row a solution, the real ones first."""
+    rows = solution_rows(result, MOST_ROWS, result.system.n) if result.solutions else []
+    hidden = len(result.solutions) - MOST_ROWS
+    more = [f"{counted(hidden, 'more solution')} not shown"] if hidden > 0 else []
+    note = "; ".join([_status(result), *more, _run(result)])
+    return html_table(f"{answer_text(result)}; {system_line(result.system)}", rows, note)

@@ -1,0 +1,84 @@
+"""Cells, rows and labelled lines as text and as HTML."""
+
+from __future__ import annotations
+
+import html
+import math
+import textwrap
+from collections.abc import Iterable, Sequence
+
+# Length of a line; longer texts are wrapped.
+LINE = 100
+
+
+def printable(text: str) -> str:
+    """``text`` on one line, with everything that could steer a terminal escaped."""
+    return "".join(
+        c if c.isprintable() else c.encode("unicode_escape", "backslashreplace").decode()
+        for c in text
+    )
+
+
+def counted(number: int, noun: str, plural: str = "") -> str:
+    """``1 path``, ``2 paths``; a plural that takes no s is given."""
+    return f"{number} {noun}" if number == 1 else f"{number} {plural or noun + 's'}"
+
+
+def magnitude(value: float) -> str:
+    """A small positive number to two digits: ``3.1e-16``; ``?`` if it is not known."""
+    return f"{value:.1e}" if math.isfinite(value) else "?"
+
+
+def align(rows: Sequence[Sequence[str]], left: Iterable[int] = ()) -> list[str]:
+    """Rows of cells as lines with aligned columns, right-aligned except those in ``left``."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    left = set(left)
+    return [
+        "  ".join(
+            cell.ljust(width) if i in left else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]
+
+
+def labelled(rows: Sequence[tuple[str, str]], width: int = 0) -> list[str]:
+    """Lines ``label  text`` with the texts in one column, the labels at least ``width`` wide.
+
+    Long texts go on below their beginning.
+    """
+    width = max([width, *(len(label) for label, _ in rows)])
+    lines = []
+    for label, text in rows:
+        parts = textwrap.wrap(text, LINE - width - 2, break_on_hyphens=False) or [""]
+        lines += [
+            f"{name.ljust(width)}  {part}".rstrip()
+            for name, part in zip([label, *[""] * len(parts)], parts, strict=False)
+        ]
+    return lines
+
+
+def lines_of(title: str, rows: Sequence[tuple[str, str]]) -> str:
+    """What an object shows at the prompt: a title, and one line for each of ``rows``."""
+    width = max(len(label) for label, _ in rows)
+    lines = [title, *(f"  {label.ljust(width)}  {text}" for label, text in rows)]
+    return "\n".join(shortened(printable(line)) for line in lines)
+
+
+def shortened(text: str, width: int = LINE) -> str:
+    """``text`` cut to ``width`` characters, with dots where something is missing."""
+    return text if len(text) <= width else text[: width - 3].rstrip() + "..."
+
+
+def html_table(caption: str, rows: Sequence[Sequence[str]], note: str = "") -> str:
+    """The first of ``rows`` as headings, the others below it, and a note; everything escaped."""
+
+    def cells(row: Sequence[str], tag: str) -> str:
+        return "".join(f"<{tag}>{html.escape(printable(cell))}</{tag}>" for cell in row)
+
+    parts = [f"<caption>{html.escape(printable(caption))}</caption>"]
+    if rows:
+        body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows[1:])
+        parts.append(f"<thead><tr>{cells(rows[0], 'th')}</tr></thead><tbody>{body}</tbody>")
+    table = f"<table>{''.join(parts)}</table>"
+    return f"{table}<p>{html.escape(printable(note))}</p>" if note else table

@@ -1,0 +1,220 @@
+"""What witness sets and decompositions show at the prompt, in notebooks and in the commands."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.shown import system_line
+from nag.text.table import counted, html_table, lines_of, magnitude, printable
+from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
+
+# Wider multidegrees are left to the JSON export.
+WIDEST_MULTIDEGREE = 32
+
+# Of longer lists of points a notebook shows the first.
+MOST_POINTS = 40
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Components that are alike in what can be known of them beforehand."""
+
+    dimension: int
+    degree: int
+    multiplicity: int
+    multidegree: tuple[int, ...] | None = None
+
+    def text(self, count: int) -> str:
+        """``count`` of them in words: "9 components of dimension 2, degree 4"."""
+        plural = "" if count == 1 else "s"
+        text = f"{count} component{plural} of dimension {self.dimension}, degree {self.degree}"
+        if self.multiplicity == 0:
+            return f"{text}, multiplicity not known"
+        return text if self.multiplicity == 1 else f"{text}, multiplicity {self.multiplicity}"
+
+
+def flat(multidegree: object) -> tuple[int, ...] | None:
+    """A multidegree's entries in a row."""
+    return None if multidegree is None else tuple(np.ravel(np.array(multidegree)).tolist())
+
+
+def kind(component: WitnessSet) -> Kind:
+    """What can be compared of ``component``."""
+    return Kind(
+        component.dimension,
+        component.degree,
+        component.multiplicity,
+        flat(component.multidegree),
+    )
+
+
+def kinds(components: Iterable[WitnessSet]) -> Counter[Kind]:
+    """How many components there are of each kind; each stands for its whole orbit."""
+    counts: Counter[Kind] = Counter()
+    for component in components:
+        counts[kind(component)] += component.orbit
+    return counts
+
+
+def in_words(counts: Counter[Kind]) -> str:
+    """Counts in words, multidegrees left out, by falling dimension."""
+    plain: Counter[Kind] = Counter()
+    for each, count in counts.items():
+        plain[Kind(each.dimension, each.degree, each.multiplicity)] += count
+    order = sorted(plain, key=lambda k: (-k.dimension, k.degree, k.multiplicity))
+    return "; ".join(each.text(plain[each]) for each in order) or "no component"
+
+
+def multidegree_text(multidegree: np.ndarray | None) -> str:
+    """A multidegree in the groups' order: ``(1, 2)`` for a curve, entries ``12: 1`` above.
+
+    Above dimension 1 only entries with ascending groups are given, the others are equal to them.
+    """
+    if multidegree is None or multidegree.ndim == 0:
+        return "-"
+    if multidegree.ndim == 1:
+        text = "(" + ", ".join(map(str, multidegree.tolist())) + ")"
+    else:
+        text = ", ".join(
+            f"{'.'.join(str(i + 1) for i in index)}: {multidegree[tuple(index)]}"
+            for index in np.argwhere(multidegree).tolist()
+            if index == sorted(index)
+        )
+    return text if len(text) <= WIDEST_MULTIDEGREE else "see the export"
+
+
+def title_line(decomposition: Decomposition) -> str:
+    """Like components counted together: "9 components of dimension 2, degree 4"."""
+    text = in_words(kinds(decomposition.components))
+    undecided = sum(c.orbit for c in decomposition.components if c.status is not Status.IRREDUCIBLE)
+    return f"{text} ({undecided} undecided)" if undecided else text
+
+
+def _like(component: WitnessSet) -> tuple[object, ...]:
+    return (
+        component.dimension,
+        component.degree,
+        multidegree_text(component.multidegree),
+        component.multiplicity,
+        str(component.status),
+        component.precision,
+    )
+
+
+def component_rows(decomposition: Decomposition) -> list[list[str]]:
+    """Headings, and one row for components that are alike, with the worst residual among them."""
+    alike: dict[tuple[object, ...], list[WitnessSet]] = {}
+    for component in decomposition.components:
+        alike.setdefault(_like(component), []).append(component)
+    rows = [_row(group) for group in alike.values()]
+    if not decomposition.system.groups:
+        rows = [{k: v for k, v in row.items() if k != "multidegree"} for row in rows]
+    return [list(rows[0]), *(list(row.values()) for row in rows)] if rows else []
+
+
+def _row(group: Sequence[WitnessSet]) -> dict[str, str]:
+    first = group[0]
+    return {
+        "dimension": str(first.dimension),
+        "degree": str(first.degree),
+        "multidegree": multidegree_text(first.multidegree),
+        "multiplicity": str(first.multiplicity) if first.multiplicity else "?",
+        "count": str(sum(c.orbit for c in group)),
+        "status": str(first.status),
+        "residual": magnitude(float(np.max([c.residual for c in group]))),
+        "accuracy": magnitude(float(np.max([c.accuracy for c in group]))),
+        "precision": first.precision,
+    }
+
+
+def remarks(decomposition: Decomposition) -> list[str]:
+    """Why an answer is incomplete, one line a reason."""
+    lines = [
+        f"undecided: dimension {c.dimension}, degree {c.degree}: {c.note or 'no reason given'}"
+        for c in decomposition.components
+        if c.status is not Status.IRREDUCIBLE
+    ]
+    return [printable(line) for line in dict.fromkeys([*lines, *decomposition.notes])]
+
+
+def paths_line(decomposition: Decomposition) -> str:
+    return paths_text(decomposition.paths)
+
+
+def paths_text(paths: PathCounts) -> str:
+    """What became of paths."""
+    return f"{paths.tracked} tracked, {paths.at_infinity} to infinity, {paths.failed} failed"
+
+
+def _rests_on(components: Sequence[WitnessSet]) -> str:
+    if not components:
+        return "no witness points"
+    residual, accuracy = (
+        magnitude(float(np.max([getattr(c, name) for c in components])))
+        for name in ("residual", "accuracy")
+    )
+    digits = ", ".join(dict.fromkeys(c.precision for c in components))
+    return f"residual {residual}, accuracy {accuracy}, {digits} arithmetic"
+
+
+def decomposition_text(decomposition: Decomposition) -> str:
+    """A decomposition in five lines."""
+    open_ = remarks(decomposition)
+    more = f" (and {len(open_) - 1} more)" if len(open_) > 1 else ""
+    status = "complete" if decomposition.complete else f"INCOMPLETE: {'; '.join(open_[:1])}{more}"
+    run = f"seed {decomposition.seed}, settings {decomposition.settings}"
+    return lines_of(
+        f"Decomposition of {system_line(decomposition.system)}",
+        [
+            ("answer", title_line(decomposition)),
+            ("status", status),
+            ("rests on", _rests_on(decomposition.components)),
+            ("run", f"{run}; paths: {paths_line(decomposition)}"),
+        ],
+    )
+
+
+def decomposition_html(decomposition: Decomposition) -> str:
+    """A decomposition as a table, like components in one row."""
+    status = "complete" if decomposition.complete else "INCOMPLETE"
+    note = "; ".join([status, *remarks(decomposition)])
+    title = f"{title_line(decomposition)}; {system_line(decomposition.system)}"
+    return html_table(title, component_rows(decomposition), note)
+
+
+def _kind_text(component: WitnessSet) -> str:
+    return kind(component).text(1).removeprefix("1 component of ")
+
+
+def witness_set_text(component: WitnessSet) -> str:
+    """A component in five lines."""
+    cut = f"a slice of {counted(component.dimension, 'linear equation')}"
+    orbit = f"; one of an orbit of {component.orbit}" if component.orbit > 1 else ""
+    doubt = f": {component.note}" if component.note else ""
+    known = "not kept" if component.system is None else system_line(component.system)
+    return lines_of(
+        f"WitnessSet of {_kind_text(component)}",
+        [
+            ("status", f"{component.status}{doubt}{orbit}"),
+            ("points", f"{counted(component.degree, 'point')} on {cut}"),
+            ("rests on", _rests_on([component])),
+            ("system", known),
+        ],
+    )
+
+
+def witness_set_html(component: WitnessSet) -> str:
+    """A component's witness points as a table."""
+    n = component.points.shape[1]
+    names = component.system.variables if component.system else [f"x{i}" for i in range(n)]
+    rows = [["point", *names]]
+    for i, point in enumerate(component.points[:MOST_POINTS]):
+        rows.append([str(i), *(f"{z.real:.6g}{z.imag:+.6g}i" for z in point)])
+    hidden = component.degree - MOST_POINTS
+    note = f"{component.status}; {_rests_on([component])}"
+    more = f"; {counted(hidden, 'more point')}" if hidden > 0 else ""
+    return html_table(f"Component of {_kind_text(component)}", rows, note + more)

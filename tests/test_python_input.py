@@ -1,0 +1,162 @@
+"""What a Python session gives is read exactly, or refused with the argument and the mend."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import nag
+from nag.algebra.from_python import exact_number, system
+from nag.algebra.number import square_root
+from nag.algebra.symmetry import SymmetryError
+
+
+@pytest.mark.parametrize(
+    ("value", "exact"),
+    [
+        (3, Fraction(3)),
+        (Fraction(5, 6), Fraction(5, 6)),
+        (Decimal("1e-3"), Fraction(1, 1000)),
+        ("5/6", Fraction(5, 6)),
+        ("sqrt(2)/2", square_root(Fraction(1, 2))),
+        (0.1, Fraction(1, 10)),
+        (1e-20, Fraction(1, 10**20)),
+        (np.float32(0.1), Fraction(1, 10)),
+        (np.float64(0.25), Fraction(1, 4)),
+        (np.int64(-7), Fraction(-7)),
+    ],
+)
+def test_numbers_of_every_kind_are_exact(value: Any, exact: Any) -> None:
+    assert exact_number(value) == exact
+
+
+@settings(derandomize=True, deadline=None)
+@given(st.floats(1e-200, 1e200) | st.floats(-1e200, -1e-200))
+def test_a_float_is_its_shortest_decimal(value: float) -> None:
+    exact = exact_number(value)
+    assert exact == Fraction(repr(value))
+    assert float(exact) == value
+
+
+@pytest.mark.parametrize("value", [None, True, 1j, float("nan"), float("inf"), "x", [1], "1/0"])
+def test_what_is_no_number_is_refused_by_its_place(value: Any) -> None:
+    with pytest.raises(ValueError, match=r"^axis\[2\]: "):
+        exact_number(value, "axis[2]")
+
+
+def test_variables_are_in_alphabetical_order_with_numbers_by_value() -> None:
+    assert system(["x10*b + x2", "a - x2"]).variables == ("a", "b", "x2", "x10")
+    assert system(["y - x"], "y x").variables == ("y", "x")
+
+
+def test_parameters_are_no_variables() -> None:
+    made = system(["x = a*y"], parameters={"a": 0.5}, groups=[["y"], [0]])
+    assert made.text() == ["x - 1/2*y"]
+    assert made.groups == ((1,), (0,))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((["x", "y +"],), r"equations\[1\]: column 4: something is missing"),
+        ((["x", None],), r"equations\[1\]: nothing is no number"),
+        ((["x + z"], "x y"), r"equations\[0\]: column 5: unknown name 'z'"),
+        ((["x"], "x x"), "variables: 'x' is there twice"),
+        ((["x"], ["2x"]), "variables: '2x' cannot name a variable"),
+        (([nag.Polynomial.variable(2, 0)],), "variables: a nag.Polynomial has no names in it"),
+        (([nag.Polynomial.variable(2, 0)], "x"), r"equations\[0\]: a polynomial in 2 variables"),
+        (({"x": 1},), "equations: something of type dict"),
+    ],
+)
+def test_equations_that_make_no_sense_are_refused(arguments: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        system(*arguments)
+
+
+@pytest.mark.parametrize(
+    ("keywords", "message"),
+    [
+        ({"seed": -1}, "seed: -1 is given; give a whole number from 0 up"),
+        ({"seed": 1.0}, "seed: 1.0 is given"),
+        ({"threads": 0}, "threads: 0 is given; give a whole number from 1 up"),
+        ({"settings": "quick"}, "settings: 'quick' is unknown; use fast, default, careful"),
+    ],
+)
+def test_arguments_of_a_run_are_checked_before_it(keywords: Any, message: str) -> None:
+    for run in (nag.solve, nag.decompose):
+        with pytest.raises(ValueError, match=message):
+            run(["x^2 - 2"], **keywords)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (3, "system: something of type int is given"),
+        (None, "system: something of type NoneType is given"),
+        ({"x": 1}, "system: something of type dict is given"),
+    ],
+)
+def test_what_is_no_problem_is_refused(given: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        nag.decompose(given)
+
+
+def test_a_graph_is_pointed_to_from_graph() -> None:
+    networkx = pytest.importorskip("networkx")
+    with pytest.raises(ValueError, match=r"nag\.Mechanism\.from_graph\(graph, ground=\.\.\.\)"):
+        nag.decompose(networkx.path_graph(3))
+
+
+def test_symmetries_are_maps_signs_or_signed_permutations() -> None:
+    circles = ["(x^2 + y^2 - 1)*(x^2 + y^2 - 4)*(x - 3*y)*(x + 3*y)"]
+    flip = nag.SignedPermutation.of_signs((-1, 1))
+    answers = [nag.decompose(circles, symmetries=[g]) for g in ({"x": "-x"}, (-1, 1), flip)]
+    assert [c.orbit for c in answers[0].components] == [2, 1, 1]
+    assert answers[0] == answers[1] == answers[2]
+
+
+@pytest.mark.parametrize(
+    ("symmetry", "message"),
+    [
+        ({"x": "z"}, r"symmetries\[0\]: unknown variable 'z'"),
+        ((1, 2), r"symmetries\[0\]: each variable must have a sign"),
+        ("x", r"symmetries\[0\]: give a dict"),
+        ((-1, 1), "symmetries: it does not become a combination"),
+    ],
+)
+def test_what_is_no_symmetry_is_refused(symmetry: Any, message: str) -> None:
+    with pytest.raises(SymmetryError, match=message):
+        nag.decompose(["x*y + x - y"], symmetries=[symmetry])
+
+
+def test_a_models_symmetries_are_used() -> None:
+    case = nag.read_case("cases/bennett.toml")
+    model = nag.model(case.mechanism, "E")
+    answer = nag.decompose(model)
+    alone = nag.decompose(model, symmetries=())
+    assert sum(c.orbit for c in answer.components) == len(alone.components)
+    assert len(answer.components) < len(alone.components)
+
+
+def test_cases_and_mechanisms_are_the_same_problem() -> None:
+    case = nag.read_case("cases/bennett.toml")
+    assert nag.decompose(case) == nag.decompose(case.mechanism)
+
+
+def test_nothing_that_is_given_loads_sympy_or_networkx() -> None:
+    code = (
+        "import sys, nag; nag.system(['x^2 - 2*y', 0.5, 'x = y']); nag.solve('x^2 = 2'); "
+        "print(*sorted({'sympy', 'networkx'} & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert done.stdout == "\n"

@@ -1,0 +1,114 @@
+"""What results show at the prompt and in notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from html.parser import HTMLParser
+from typing import Any
+
+import pytest
+
+import nag
+from nag.text.table import LINE, html_table
+
+
+def bennett() -> Any:
+    return nag.read_case("cases/bennett.toml").mechanism
+
+
+def crowd() -> Any:
+    names = [f"x{i}" for i in range(40)]
+    return nag.system([f"{name}^2 - {i}" for i, name in enumerate(names)])
+
+
+SHOWN: dict[str, Callable[[], Any]] = {
+    "system": lambda: nag.system(["x^2 + y^2 = 1"]),
+    "large system": crowd,
+    "mechanism": bennett,
+    "larger mechanism": lambda: nag.read_case("cases/bricard-cube.toml").mechanism,
+    "model": lambda: nag.model(bennett()),
+    "decomposition": lambda: nag.decompose(bennett()),
+    "no component": lambda: nag.decompose(["x*y - 1", "x"]),
+    "solutions": lambda: nag.solve(["x^2 + y^2 - 1", "x - y"]),
+    "no solution": lambda: nag.solve(["x*y - 1", "x"]),
+}
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_at_most_five_lines_at_the_prompt(name: str) -> None:
+    lines = repr(SHOWN[name]()).splitlines()
+    assert 2 <= len(lines) <= 5
+    assert max(map(len, lines)) <= LINE
+
+
+def test_components_and_solutions_are_one_line_in_lists_and_five_by_themselves() -> None:
+    for item in (
+        nag.decompose("x^2 + y^2 = 1").components[0],
+        nag.solve("x^2 = 2").solutions[0],
+    ):
+        assert len(repr(item).splitlines()) == 1
+        assert len(str(item).splitlines()) == 5
+
+
+def test_a_decomposition_says_what_it_rests_on() -> None:
+    answer = nag.decompose(["(x^2 + y^2 - 1)^2"], seed=3)
+    rows = dict(line.strip().split("  ", 1) for line in repr(answer).splitlines()[1:])
+    rows = {label: text.strip() for label, text in rows.items()}
+    assert rows["answer"] == "1 component of dimension 1, degree 2, multiplicity 2"
+    assert rows["status"] == "complete"
+    assert rows["rests on"].startswith("residual ")
+    assert rows["run"].startswith("seed 3, settings default; paths: ")
+    left = replace(answer, complete=False, notes=("2 paths failed", "another doubt"))
+    assert "status    INCOMPLETE: 2 paths failed (and 1 more)" in repr(left)
+
+
+class Table(HTMLParser):
+    """The cells of each row, and that every tag is closed."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.rows: list[list[str]] = []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: Any) -> None:
+        assert attrs == []
+        self.open.append(tag)
+        if tag == "tr":
+            self.rows.append([])
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if self.open[-1] in ("td", "th"):
+            self.rows[-1].append(data)
+
+
+def test_a_notebook_shows_a_row_for_each_kind_of_component() -> None:
+    rows = Table(nag.decompose(["(x^2 + y^2 - 1)*(x - y)*(x + y)"])._repr_html_()).rows
+    assert rows[0][:4] == ["dimension", "degree", "multiplicity", "count"]
+    assert [row[:4] for row in rows[1:]] == [["1", "1", "1", "2"], ["1", "2", "1", "1"]]
+
+
+def test_a_notebook_shows_a_row_for_each_solution_joint_point_and_equation() -> None:
+    solutions = Table(nag.solve(["x^2 - 4", "y - x"])._repr_html_()).rows
+    assert solutions[0][1:3] == ["x", "y"]
+    assert sorted(row[1:3] for row in solutions[1:]) == [["-2", "-2"], ["2", "2"]]
+    joints = Table(bennett()._repr_html_()).rows
+    assert [row[0] for row in joints] == ["joint", *(j.name for j in bennett().joints)]
+    points = Table(nag.decompose("x^2 + y^2 = 1").components[0]._repr_html_()).rows
+    assert [row[0] for row in points] == ["point", "0", "1"]
+    assert points[0][1:] == ["x", "y"]
+    equations = Table(nag.system(["x = 1", "x*y = 2"])._repr_html_()).rows
+    assert equations[1:] == [["0", "1", "x - 1"], ["1", "2", "x*y - 2"]]
+
+
+def test_what_is_shown_in_a_notebook_is_escaped() -> None:
+    text = html_table("<b>", [["<script>", "a"], ["&", "\x1b[2J"]], "<i>")
+    assert "<script>" not in text and "<b>" not in text and "<i>" not in text
+    assert "\x1b" not in text
+    assert Table(text).rows == [["<script>", "a"], ["&", "\\x1b[2J"]]
