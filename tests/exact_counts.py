@@ -11,56 +11,18 @@ from __future__ import annotations
 import random
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from fractions import Fraction
 
 import flint
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.bench.zero_set import Components, ZeroSet
 
 PRIME = 2**61 - 1
 ORDER = flint.Ordering.degrevlex
 RATIONAL = flint.fmpq_mpoly_ctx.get(("x", "y"), ORDER)
 MODULAR = flint.nmod_mpoly_ctx.get(("x", "y"), PRIME, ORDER)
-
-# Components by dimension, degree and multiplicity.
-Components = Counter[tuple[int, int, int]]
-
-
-@dataclass(frozen=True)
-class ZeroSet:
-    """The zero set of a system, as a scheme.
-
-    Attributes:
-        points: isolated zeros by multiplicity.
-        degrees: by dimension, above 0, and multiplicity, the sum of the components' degrees.
-        components: all components, isolated zeros included, or None where only the sums of their
-            degrees are known.
-    """
-
-    points: Counter[int] = field(default_factory=Counter)
-    degrees: Counter[tuple[int, int]] = field(default_factory=Counter)
-    components: Components | None = None
-
-    @classmethod
-    def of(cls, components: Components) -> ZeroSet:
-        """The zero set that has these components."""
-        points: Counter[int] = Counter()
-        degrees: Counter[tuple[int, int]] = Counter()
-        for (dimension, degree, multiplicity), count in components.items():
-            if dimension:
-                degrees[dimension, multiplicity] += count * degree
-            else:
-                points[multiplicity] += count
-        return cls(points, degrees, Counter(components))
-
-    def agrees(self, components: Components) -> bool:
-        """Whether these are the components, as far as is known here."""
-        if self.components is not None:
-            return self.components == components
-        found = ZeroSet.of(components)
-        return (self.points, self.degrees) == (found.points, found.degrees)
 
 
 def zero_set(system: PolynomialSystem) -> ZeroSet | None:

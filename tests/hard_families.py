@@ -19,15 +19,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import families_of_curves
-import families_of_points
 import numpy as np
-from exact_counts import ZeroSet, zero_set
-from families_of_points import Problem
-from timed_runs import Run, timed_runs
-from verdicts import METHODS, Answer, answered, described, summary, verdict
+from exact_counts import zero_set
 
-FAMILIES = families_of_points.FAMILIES | families_of_curves.FAMILIES
+from nag.bench.atlas import curves, points
+from nag.bench.atlas.points import Problem
+from nag.bench.timed_runs import Run, timed_runs
+from nag.bench.verdicts import METHODS, Answer, answered, described, summary, verdict
+from nag.bench.zero_set import ZeroSet
+
+FAMILIES = points.FAMILIES | curves.FAMILIES
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,11 @@ from fractions import Fraction
 from itertools import product
 
 import numpy as np
-from general_position import NAMES
 from numpy.random import Generator
 
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas.general_position import NAMES
 
 Equations = Sequence[Polynomial]
 

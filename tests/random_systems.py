@@ -22,10 +22,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from exact_counts import ZeroSet, zero_set
+from exact_counts import zero_set
 from random_small import small_system
-from timed_runs import Run, timed_runs
-from verdicts import METHODS, Answer, answered, described, known, summary, verdict
+
+from nag.bench.timed_runs import Run, timed_runs
+from nag.bench.verdicts import METHODS, Answer, answered, described, known, summary, verdict
+from nag.bench.zero_set import ZeroSet
 
 BAD = ("wrong", "error", "differ")
 # Systems between two notices of how far a run is.

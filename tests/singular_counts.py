@@ -20,9 +20,10 @@ from collections.abc import Sequence
 from functools import cache
 
 import flint
-from exact_counts import ZeroSet, modular
+from exact_counts import modular
 
 from nag.algebra.polynomial import Polynomial
+from nag.bench.zero_set import ZeroSet
 
 # The largest prime modulo which Singular factors.
 PRIME = 2**29 - 3

@@ -21,9 +21,8 @@ from functools import cache
 from pathlib import Path
 from statistics import median
 
-from timed_runs import Run, timed_runs
-
 from nag.algebra.system import PolynomialSystem
+from nag.bench.timed_runs import Run, timed_runs
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.solving.solve import solve

@@ -7,14 +7,15 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from exact_counts import ZeroSet, zero_set
-from families_of_curves import FAMILIES as CURVES
-from families_of_points import FAMILIES as POINTS
+from exact_counts import zero_set
 from random_small import DEGENERATIONS, small_system
 from singular_counts import standard_zero_set
 from systems import system
 
 from nag.algebra.expression import parse_polynomial
+from nag.bench.atlas.curves import FAMILIES as CURVES
+from nag.bench.atlas.points import FAMILIES as POINTS
+from nag.bench.zero_set import ZeroSet
 
 needs_singular = pytest.mark.skipif(
     shutil.which("Singular") is None, reason="Singular is not installed"

@@ -16,6 +16,7 @@ ORDER = (
     "tracking",
     "solving",
     "witness",
+    "interpolation",
     "decomposition",
     "mechanism",
     "files",

@@ -1,13 +1,13 @@
 """The mechanisms under `cases/` are the papers' own."""
 
 import pytest
-import tuomela as t25
 from linkages import CASES, case, exact
 
 from nag.files.cases import read_case
 from nag.mechanism.axes import cross, difference, dot, vanishes
 from nag.mechanism.model import model
 from nag.mechanism.quaternion import rotate
+from nag.symbolic import bennett, bennett_geometry
 
 OWN = exact("7/4", "5/6", "1/3")
 
@@ -15,11 +15,13 @@ OWN = exact("7/4", "5/6", "1/3")
 def test_bennetts_case_has_the_geometry_of_lemmas_5_1_5_3_and_6_1():
     mechanism = case("bennett")
     joints = {j.name: j for j in mechanism.joints}
-    for i, (point, axis) in enumerate(zip(t25.points(OWN), t25.axes(OWN), strict=True)):
+    for i, (point, axis) in enumerate(
+        zip(bennett_geometry.points(OWN), bennett_geometry.axes(OWN), strict=True)
+    ):
         assert joints[f"J{i}"].point == point
         assert joints[f"J{i}"].axis == axis
         assert joints[f"J{i}"].bodies == (f"B{(i - 1) % 4}", f"B{i}")
-    for i, orientation in enumerate(t25.orientations(OWN)):
+    for i, orientation in enumerate(bennett.orientations(OWN)):
         assert mechanism.orientation(f"B{i + 1}") == orientation
 
 

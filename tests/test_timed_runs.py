@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 
-from timed_runs import timed_runs
+from nag.bench.timed_runs import timed_runs
 
 
 def _work(task: object) -> object:

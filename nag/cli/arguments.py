@@ -96,6 +96,12 @@ def add_formulation(parser: argparse.ArgumentParser) -> None:
 
 
 def add_running(parser: argparse.ArgumentParser) -> None:
+    """The options of every command that tracks paths and exports its answer."""
+    add_tracking(parser)
+    parser.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
+
+
+def add_tracking(parser: argparse.ArgumentParser) -> None:
     """The options of every command that tracks paths."""
     parser.add_argument(
         "--seed", type=_seed, default=0, help="seed of the random numbers (default: 0)"
@@ -106,7 +112,6 @@ def add_running(parser: argparse.ArgumentParser) -> None:
         default=_available_threads(),
         help="threads; the answer is the same for any number (default: one a processor)",
     )
-    parser.add_argument("--json", metavar="FILE", help="write the answer to FILE as JSON")
     parser.add_argument(
         "--settings",
         choices=SETTINGS,
@@ -116,16 +121,21 @@ def add_running(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
-def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
-    """The case, and its model if it is a mechanism."""
+def read_case_file(path: str, values: Sequence[tuple[str, str]] = ()) -> Case:
+    """The case in a file, ``values`` given to its parameters."""
     from nag.files.cases import CaseError, read_case
 
     try:
-        case = read_case(arguments.case, dict(getattr(arguments, "set", ())))
+        return read_case(path, dict(values))
     except CaseError as error:
         raise UsageError(str(error)) from None
     except OSError as error:
-        raise UsageError(f"{arguments.case}: {error.strerror or error}") from None
+        raise UsageError(f"{path}: {error.strerror or error}") from None
+
+
+def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
+    """The case, and its model if it is a mechanism."""
+    case = read_case_file(arguments.case, getattr(arguments, "set", ()))
     if case.mechanism is None:
         if arguments.formulation is not None:
             raise UsageError(

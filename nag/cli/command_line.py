@@ -17,7 +17,11 @@ from types import ModuleType
 import nag
 from nag.cli import (
     bench,
+    certify,
+    chart,
+    check,
     decompose,
+    eliminate,
     intersect,
     local,
     member,
@@ -82,6 +86,14 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         f"Find the intersection of two components. {FROM_COMPONENTS}",
     ),
     (
+        "eliminate",
+        eliminate,
+        "find exact equations of a component in some variables",
+        "Find the exact equations that a component's points satisfy in some of the variables, and "
+        "the maps from there to the other variables, by interpolation; prove them where possible. "
+        f"{FROM_COMPONENTS}",
+    ),
+    (
         "solve",
         solve,
         "find the isolated solutions of a case",
@@ -89,11 +101,33 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
         "paths from a solved system.",
     ),
     (
+        "check",
+        check,
+        "test the statements of the founding papers, on a case or all",
+        "Test what the founding papers state, one by one: exactly where exact algebra decides, "
+        "else numerically, with a counterexample where a statement fails; and compare the "
+        "decomposition of a case with the papers' prime components.",
+    ),
+    (
+        "certify",
+        certify,
+        "prove the points of an export",
+        "Prove that there is exactly one zero in a box about each solution of `nag solve --json`, "
+        "or witness point of `nag decompose --json`, that they are distinct, and which are real.",
+    ),
+    (
         "bench",
         bench,
         "solve the benchmark systems and measure how fast",
         "Solve the benchmark systems, check their numbers of solutions and measure the time, "
         "beside other programs if they are installed.",
+    ),
+    (
+        "chart",
+        chart,
+        "chart where methods fail, and speed against accuracy",
+        "Run families of systems that are hard in one way each, or solve cases in many settings "
+        "and arithmetics, and draw what comes of it.",
     ),
     (
         "model",

@@ -15,6 +15,7 @@ from nag.cli.arguments import (
     read_problem,
     whole,
 )
+from nag.cli.certify import add_certify, certified
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
 
@@ -35,6 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag decompose``."""
     add_case(parser)
     add_running(parser)
+    add_certify(parser)
     parser.add_argument(
         "--expand",
         action="store_true",
@@ -121,6 +123,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.files.problem import origin
     from nag.files.written_file import TargetError
     from nag.report.answer import answer_lines
+    from nag.report.table import labelled
 
     decomposition = accounted(decomposition, points)
     failure = None
@@ -133,7 +136,10 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     lines = answer_lines(decomposition, case, model, points, seconds)
     if failure is not None:
         raise UsageError(failure, lines)
-    return lines, decomposition.complete
+    if not arguments.certify:
+        return lines, decomposition.complete
+    certificate, rows = certified(decomposition)
+    return [*lines, "", *labelled(rows)], decomposition.complete and certificate.all_proved
 
 
 def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:

@@ -9,6 +9,7 @@ import time
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import UsageError, add_case, add_running, check_json, read_problem
+from nag.cli.certify import add_certify, certified
 
 if TYPE_CHECKING:
     from nag.algebra.system import PolynomialSystem
@@ -23,6 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag solve``."""
     add_case(parser)
     add_running(parser)
+    add_certify(parser)
     parser.add_argument(
         "--start",
         choices=STARTS,
@@ -42,6 +44,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.files.problem import system_of
     from nag.files.written_file import TargetError
     from nag.report.solutions import solution_lines
+    from nag.report.table import labelled
     from nag.solving.start.target import StartError
 
     started = time.perf_counter()
@@ -73,7 +76,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         except TargetError as error:
             raise UsageError(f"--json: {error}") from None
     seconds = time.perf_counter() - started
-    return solution_lines(result, case, model, seconds), result.complete
+    lines = solution_lines(result, case, model, seconds)
+    if not options.certify:
+        return lines, result.complete
+    certificate, rows = certified(result)
+    return [*lines, "", *labelled(rows)], result.complete and certificate.all_proved
 
 
 def solve_case(

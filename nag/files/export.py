@@ -285,7 +285,12 @@ def _images(
     return tuple(found)
 
 
-def _export(value: Any) -> Export:
+def export_of(value: Any) -> Export:
+    """What a document of the format holds.
+
+    Raises:
+        ExportError: if it is not one.
+    """
     table = as_document(value, FORMAT, VERSION, 1)
 
     def get(key: str, convert: Any) -> Any:
@@ -328,7 +333,7 @@ def read_export(path: str | os.PathLike[str]) -> Export:
     Raises:
         ExportError: if the file cannot be read or is not an export.
     """
-    return read_file(path, _export)
+    return read_file(path, export_of)
 
 
 def read_decomposition(path: str | os.PathLike[str]) -> Decomposition:

@@ -137,7 +137,12 @@ def _solution(value: Any, n: int, place: str) -> Solution:
     )
 
 
-def _export(value: Any) -> SolutionsExport:
+def solutions_of(value: Any) -> SolutionsExport:
+    """What a document of the format holds.
+
+    Raises:
+        ExportError: if it is not one.
+    """
     table = as_document(value, FORMAT, VERSION)
 
     def get(key: str, convert: Any) -> Any:
@@ -193,4 +198,4 @@ def read_solutions(path: str | os.PathLike[str]) -> SolutionsExport:
     >>> bool((again.points == roots.points).all())
     True
     """
-    return read_file(path, _export)
+    return read_file(path, solutions_of)

@@ -7,15 +7,16 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import reduce
 from itertools import product
+from math import comb
 from operator import mul
 from typing import Any
 
 import numpy as np
-from exact_counts import RATIONAL, Components
-from families_of_points import Problem, plain
-from general_position import hidden
 
 from nag.algebra.polynomial import Polynomial
+from nag.bench.atlas.general_position import hidden
+from nag.bench.atlas.points import Problem, plain
+from nag.bench.zero_set import Components
 
 ONLY = ("decompose",)
 
@@ -36,9 +37,12 @@ def _small(k: int) -> Fraction:
 
 def circle_power(k: int, rng: np.random.Generator) -> Problem:
     """(x^2 + y^2 - 1)^k."""
-    x, y = RATIONAL.gens()
-    expanded = ((x**2 + y**2 - 1) ** k).to_dict()
-    terms = {(int(i), int(j)): Fraction(int(c.p)) for (i, j), c in expanded.items()}
+    # Powers by repeated multiplication, as `Polynomial` makes them, would take long.
+    terms = {
+        (2 * i, 2 * j): Fraction((-1) ** (k - i - j) * comb(k, i) * comb(k - i, j))
+        for i in range(k + 1)
+        for j in range(k + 1 - i)
+    }
     circle = Polynomial(2, terms)
     return Problem(plain(circle), Counter({(1, 2, k): 1}), ONLY)
 
@@ -109,6 +113,16 @@ def close_circles(k: int, rng: np.random.Generator) -> Problem:
     """Two concentric circles, the radii of which differ by 10^-k or so, not rational."""
     x, y = Polynomial.variables(2)
     return Problem(plain((x**2 + y**2 - 1) ** 2 - 2 * _small(2 * k)), _curves((2, 2)), ONLY)
+
+
+def touching_circles(k: int, rng: np.random.Generator) -> Problem:
+    """Two circles side by side that miss each other by 10^-k; their centres are not rational."""
+    x, y = Polynomial.variables(2)
+    square = 1 + _small(k)
+    if k == 0:
+        return Problem(plain((x**2 + y**2) ** 2 - 4 * x**2), _curves((2, 2)), ONLY)
+    form = (x**2 + y**2 - 1 + square) ** 2 - 4 * square * x**2
+    return Problem(plain(form), _curves((2, 2)), ONLY)
 
 
 def close_skew_lines(k: int, rng: np.random.Generator) -> Problem:
@@ -188,6 +202,7 @@ FAMILIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "big_circle": (big_circle, (2, 4, 6, 8)),
     "close_lines": (close_lines, CLOSE),
     "close_circles": (close_circles, CLOSE),
+    "touching_circles": (touching_circles, CLOSE),
     "close_skew_lines": (close_skew_lines, CLOSE),
     "close_planes": (close_planes, CLOSE),
     "hyperbola": (hyperbola, CLOSE),

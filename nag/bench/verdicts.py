@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from exact_counts import Components, ZeroSet
-from timed_runs import Run
-
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.bench.timed_runs import Run
+from nag.bench.zero_set import Components, ZeroSet
 from nag.decomposition import decompose
 from nag.solving.solve import solve
 
@@ -51,7 +50,7 @@ def answered(
 
 def agrees(answer: Answer, truth: ZeroSet) -> bool:
     """Whether the answer is the truth, as far as its method looks for it."""
-    if answer.method == "solve":
+    if answer.method == "solve" and truth.dimension is None:
         return ZeroSet.of(answer.components).points == truth.points
     return truth.agrees(answer.components)
 
@@ -83,6 +82,8 @@ def known(truth: ZeroSet | None, method: str) -> str:
     """What should have been found, in words."""
     if truth is None:
         return "not known"
+    if truth.dimension is not None:
+        return f"of dimension {truth.dimension}"
     if method == "decompose" and truth.components is not None:
         return in_words(truth.components)
     text = in_words(Counter({(0, 1, k): count for k, count in truth.points.items()}))

@@ -11,23 +11,35 @@ from operator import mul
 from typing import Any
 
 import numpy as np
-from exact_counts import Components
-from general_position import NAMES, hidden, mixed
-from verdicts import METHODS
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas.general_position import NAMES, hidden, mixed
+from nag.bench.verdicts import METHODS
+from nag.bench.zero_set import Components, ZeroSet
 
 
 @dataclass(frozen=True)
 class Problem:
-    """A system and all components of its zero set."""
+    """A system and all components of its zero set.
+
+    Attributes:
+        dimension: of the zero set, where nothing else is known of it.
+    """
 
     system: PolynomialSystem
     truth: Components
     methods: tuple[str, ...] = METHODS
     symmetries: tuple[SignedPermutation, ...] = ()
+    dimension: int | None = None
+
+    @property
+    def zero_set(self) -> ZeroSet:
+        """The zero set, as far as it is known."""
+        if self.dimension is not None:
+            return ZeroSet(dimension=self.dimension)
+        return ZeroSet.of(self.truth)
 
 
 def points(*numbers: tuple[int, int]) -> Components:
@@ -143,6 +155,24 @@ def rounded(k: int, rng: np.random.Generator) -> Problem:
     return Problem(hidden([x**2 + y**2 - 1, x + y - root, z**2 - x - 3], rng), points((1, 4)))
 
 
+def to_infinity(k: int, rng: np.random.Generator) -> Problem:
+    """Two curves of degree k that touch at infinity to order k^2 - 1, and meet in one point.
+
+    Over it a third variable has two values; all other paths run to infinity.
+    """
+    x, y, z = Polynomial.variables(3)
+    return Problem(
+        hidden([y - x**k - x, y - x**k - 2, z**2 - x - y - 3], rng), points((1, 2)), ("solve",)
+    )
+
+
+def nearly_tangent(k: int, rng: np.random.Generator) -> Problem:
+    """A line cuts a circle in points at a distance of 10^(-k/2) or so; two for each in space."""
+    x, y, z = Polynomial.variables(3)
+    cut = y - 1 + _tenth(k)
+    return Problem(hidden([x**2 + y**2 - 1, cut, z**2 - x - 3], rng), points((1, 4)))
+
+
 def osculating(k: int, rng: np.random.Generator) -> Problem:
     """A circle and a curve touch to order k at one point, and cut at another if k is odd.
 
@@ -200,6 +230,8 @@ FAMILIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "far_cluster": (far_cluster, tuple((n, k, j) for n in (1, 2) for k in (4, 9) for j in DIGITS)),
     "nearly_dependent": (nearly_dependent, tuple((c, k) for c in (1, 2) for k in DIGITS)),
     "rounded": (rounded, (8, 12, 16, 24, 32, 48)),
+    "to_infinity": (to_infinity, (2, 3, 4, 5, 6)),
+    "nearly_tangent": (nearly_tangent, DIGITS),
     "osculating": (osculating, tuple(range(2, 13))),
     "grid": (grid, ((-8,), (8,), (-8, 8), (-8, -8), (8, 8), (0, 8), (-4, 4), (-8, 0, 8))),
     "given": (given, (0, 1, 2, 3)),

@@ -1,0 +1,1 @@
+"""The atlas of stability: families with a knob that walks to where methods fail."""

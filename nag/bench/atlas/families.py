@@ -1,0 +1,199 @@
+"""The atlas: each family, its knob, and the values of it that are run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas import curves, linkages, points
+from nag.bench.atlas.general_position import Coordinates, mixed
+from nag.bench.atlas.points import Problem
+from nag.files.cases import Case, read_case
+
+Make = Callable[[Any, np.random.Generator], Problem]
+
+CASES = Path("cases")
+DIGITS = (2, 4, 8, 12, 16, 20, 30)
+
+
+@dataclass(frozen=True)
+class Family:
+    """Systems with a knob.
+
+    Attributes:
+        name: short, for options and files; text: what it is; knob: what the values are.
+        make: the system for a value of the knob; random numbers choose its coordinates.
+        values: easy ones first.
+        method: ``"solve"`` or ``"decompose"``.
+    """
+
+    name: str
+    text: str
+    knob: str
+    make: Make
+    values: tuple[Any, ...]
+    method: str = "solve"
+
+
+def moved_case(name: str, rng: np.random.Generator) -> Problem:
+    """A polynomial system of `CASES` in other coordinates, its equations mixed."""
+    case = _case(name)
+    assert case.system is not None
+    system = case.system
+    coordinates = Coordinates.random(system.n, rng)
+    moved = [coordinates.of(f) for f in system.polynomials]
+    # With more equations than unknowns, mixing would make all of them long.
+    equations = mixed(moved, rng) if len(moved) <= system.n else tuple(moved)
+    truth = points.points()
+    for item in case.truth:
+        truth[item.dimension, item.degree, item.multiplicity] += item.count
+    return Problem(PolynomialSystem(system.variables, equations), truth)
+
+
+@cache
+def _case(name: str) -> Case:
+    return read_case(CASES / f"{name}.toml")
+
+
+def _two(make: Make, *first: int) -> Make:
+    """A family of several knobs as one of its last."""
+    return lambda value, rng: make((*first, value), rng)
+
+
+def _sized(k: int, rng: np.random.Generator) -> Problem:
+    """Three values of each of two variables, of sizes 10^-k and 10^k."""
+    return points.grid((-k, k), rng)
+
+
+def _plain_polynomial(k: int, rng: np.random.Generator) -> Problem:
+    """A polynomial with random integer coefficients, and its value at each zero."""
+    x, y = Polynomial.variables(2)
+    terms = {(j, 0): int(rng.integers(1, 10)) * (-1) ** int(rng.integers(2)) for j in range(k + 1)}
+    return Problem(points.plain(Polynomial(2, terms), y - x**2 - 1), points.points((1, k)))
+
+
+FAMILIES: tuple[Family, ...] = (
+    Family(
+        "cluster-2", "pairs of zeros close together, two unknowns", "digits of the distance",
+        _two(points.cluster, 2, 2), DIGITS,
+    ),
+    Family(
+        "cluster-3", "pairs of zeros close together, three unknowns", "digits of the distance",
+        _two(points.cluster, 3, 2), DIGITS,
+    ),
+    Family(
+        "triple", "triples of zeros close together, three unknowns", "digits of the distance",
+        _two(points.cluster, 3, 3), DIGITS,
+    ),
+    Family(
+        "multiplicity", "the power of a line meets a circle", "multiplicity",
+        points.power_on_circle, (2, 3, 4, 6, 8, 12, 16),
+    ),
+    Family(
+        "osculating", "curves that touch, in other coordinates", "order of contact",
+        points.osculating, (2, 3, 4, 6, 8, 10, 12),
+    ),
+    Family(
+        "wilkinson", "(x - 1) ... (x - k)", "degree", points.factors, (5, 10, 15, 20, 25, 30),
+    ),
+    Family("unity", "x^k = 1", "degree", points.unity, (2, 10, 20, 30, 40, 60)),
+    Family(
+        "polynomial", "a random polynomial in one unknown", "degree",
+        _plain_polynomial, (2, 10, 20, 30, 40, 60),
+    ),
+    Family(
+        "infinity", "curves that touch at infinity", "degree", points.to_infinity,
+        (2, 3, 4, 5, 6, 8),
+    ),
+    Family(
+        "far", "10^-k x^4 + x - 1, two coupled unknowns", "k", _two(points.far, 2),
+        (2, 4, 8, 12, 16, 20, 30),
+    ),
+    Family(
+        "far-beside", "zeros of size one, others far out", "k", points.far_beside,
+        (2, 4, 8, 12, 16, 20, 30),
+    ),
+    Family(
+        "far-cluster", "pairs of zeros close together at 10^9", "digits of the distance",
+        _two(points.far_cluster, 2, 9), DIGITS,
+    ),
+    Family(
+        "rounded", "coefficients rounded, so that double zeros split", "digits kept",
+        points.rounded, (4, 8, 14, 20, 30, 40),
+    ),
+    Family(
+        "tangent", "a line that nearly touches a circle", "digits of the distance",
+        points.nearly_tangent, DIGITS,
+    ),
+    Family(
+        "dependent", "conics with the same directions to k digits", "digits",
+        _two(points.nearly_dependent, 1), DIGITS,
+    ),
+    Family(
+        "sizes", "unknowns of the sizes 10^-k and 10^k", "k", _sized, (0, 2, 4, 6, 8, 10, 12),
+    ),
+    Family(
+        "hyperbola", "a hyperbola near two lines", "digits of the distance",
+        curves.hyperbola, DIGITS, "decompose",
+    ),
+    Family(
+        "cubic", "a cubic near a circle and a line", "digits of the distance",
+        curves.nearly_circle_and_line, DIGITS, "decompose",
+    ),
+    Family(
+        "skew", "skew lines close together", "digits of the distance",
+        curves.close_skew_lines, DIGITS, "decompose",
+    ),
+    Family(
+        "circles", "concentric circles close together", "digits of the distance",
+        curves.close_circles, DIGITS, "decompose",
+    ),
+    Family(
+        "touching", "circles that nearly touch", "digits of the distance",
+        curves.touching_circles, (1, 2, 4, 6, 8, 12, 20), "decompose",
+    ),
+    Family(
+        "in-space", "a hyperbola near two lines, and a line", "digits of the distance",
+        curves.nearly_lines_in_space, DIGITS, "decompose",
+    ),
+    Family(
+        "bennett", "Bennett's condition violated: mobility 1, then 0", "digits; 0 as it should be",
+        linkages.bennett_violated, (0, 2, 6, 10, 15, 20, 30), "decompose",
+    ),
+    Family(
+        "bricard", "Bricard's cube violated: mobility 1, then 0", "digits; 0 as it should be",
+        linkages.bricard_violated, (0, 2, 4, 6, 8), "decompose",
+    ),
+    Family(
+        "kite", "a kite near a rhombus", "digits of the difference; 0 the rhombus",
+        linkages.kite, (0, 2, 4, 8, 12, 20, 30), "decompose",
+    ),
+    Family(
+        "slider-crank", "slider cranks near singular ones", "digits of the difference; 0 singular",
+        linkages.slider_crank, (0, 2, 4, 8, 12, 20, 30), "decompose",
+    ),
+    Family(
+        "size", "Bennett's mechanism 10^k times as large", "k",
+        linkages.bennett_scaled, (-8, -4, 0, 4, 8), "decompose",
+    ),
+    Family(
+        "lengths", "a parallelogram's lengths at 10^k", "k",
+        linkages.parallelogram, (1, 2, 4, 6, -2, -4, -8), "decompose",
+    ),
+    Family(
+        "moved", "cases in other coordinates", "case", moved_case,
+        (
+            "slider-crank", "rhombus", "four-bar", "literature/whitney-umbrella",
+            "literature/plane-line-point", "literature/sphere-and-cubic",
+            "literature/cyclic-4",
+        ),
+        "decompose",
+    ),
+)  # fmt: skip

@@ -1,0 +1,215 @@
+"""Runs of the atlas: how many answers were right, undecided and wrong, over seeds."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from nag.bench.atlas.families import FAMILIES, Family
+from nag.bench.timed_runs import timed_runs
+from nag.bench.verdicts import Answer, answered, described, verdict
+
+FORMAT = "nag-stability"
+VERSION = 1
+SEEDS, LIMIT = 20, 10.0
+
+
+@dataclass(frozen=True)
+class Task:
+    """One answer: of a family's system for a value of its knob, and a seed."""
+
+    family: str
+    value: Any
+    seed: int
+    settings: str = "default"
+
+
+@dataclass(frozen=True)
+class Cell:
+    """The answers for one value of a family's knob.
+
+    Attributes:
+        right, undecided, wrong: numbers of answers; slow: those that did not end within the limit
+            of processor time, which are undecided too; an error counts as wrong.
+        seconds: median processor time.
+        remarks: what was found and what is known, of one answer that was wrong and of one that was
+            undecided.
+    """
+
+    value: Any
+    right: int = 0
+    undecided: int = 0
+    slow: int = 0
+    wrong: int = 0
+    seconds: float = 0.0
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def answers(self) -> int:
+        return self.right + self.undecided + self.slow + self.wrong
+
+
+@dataclass(frozen=True)
+class Row:
+    """The answers of one family."""
+
+    name: str
+    text: str
+    knob: str
+    method: str
+    cells: tuple[Cell, ...]
+
+
+@dataclass(frozen=True)
+class Atlas:
+    """The answers of all families that were run."""
+
+    settings: str
+    seeds: int
+    limit: float
+    rows: tuple[Row, ...]
+
+    @property
+    def wrong(self) -> int:
+        return sum(c.wrong for row in self.rows for c in row.cells)
+
+    def cell(self, family: str, value: Any) -> Cell | None:
+        """The answers for a family and value, or None."""
+        for row in self.rows:
+            for cell in row.cells if row.name == family else ():
+                if cell.value == value:
+                    return cell
+        return None
+
+
+def family_named(name: str) -> Family:
+    """The family of that name."""
+    return next(f for f in FAMILIES if f.name == name)
+
+
+def answer(task: Task) -> Answer:
+    """The answer to one task."""
+    family = family_named(task.family)
+    problem = family.make(task.value, np.random.default_rng([task.seed, 20]))
+    return answered(family.method, problem.system, task.seed, task.settings, problem.symmetries)
+
+
+def run_atlas(
+    families: Sequence[Family],
+    seeds: int = SEEDS,
+    limit: float = LIMIT,
+    jobs: int = 1,
+    settings: str = "default",
+    progress: Callable[[Row], None] | None = None,
+) -> Atlas:
+    """Answers for all values of families, each family's when it is done.
+
+    Args:
+        seeds: how many, from 0.
+        limit: seconds of processor time for one answer.
+        jobs: processes.
+        progress: called with each family's answers.
+    """
+    tasks = [Task(f.name, v, s, settings) for f in families for v in f.values for s in range(seeds)]
+    left = {f.name: len(f.values) * seeds for f in families}
+    found: dict[str, list[Any]] = {f.name: [] for f in families}
+    named = {f.name: f for f in families}
+    rows: dict[str, Row] = {}
+    warm = Task("unity", 2, 0)
+    for run in timed_runs(answer, tasks, limit=limit, jobs=jobs, first=warm):
+        name = run.task.family
+        found[name].append(run)
+        left[name] -= 1
+        if not left[name]:
+            rows[name] = _row(named[name], found.pop(name))
+            if progress is not None:
+                progress(rows[name])
+    return Atlas(settings, seeds, limit, tuple(rows[f.name] for f in families))
+
+
+def _row(family: Family, runs: Sequence[Any]) -> Row:
+    cells = [
+        _cell(family, value, [r for r in runs if r.task.value == value]) for value in family.values
+    ]
+    return Row(family.name, family.text, family.knob, family.method, tuple(cells))
+
+
+def _cell(family: Family, value: Any, runs: Sequence[Any]) -> Cell:
+    counts = dict.fromkeys(("right", "undecided", "slow", "wrong"), 0)
+    remarks: dict[str, str] = {}
+    for run in sorted(runs, key=lambda r: r.task.seed):
+        problem = family.make(value, np.random.default_rng([run.task.seed, 20]))
+        kind = verdict(run, problem.zero_set)
+        kind = {"incomplete": "undecided", "error": "wrong"}.get(kind, kind)
+        counts[kind] += 1
+        if kind in ("undecided", "wrong") and kind not in remarks:
+            told = described(run, problem.zero_set)
+            remarks[kind] = f"{kind}, seed {run.task.seed}: {told}"
+    seconds = round(median(r.seconds for r in runs), 3)
+    return Cell(value, **counts, seconds=seconds, remarks=tuple(remarks.values()))
+
+
+def document(atlas: Atlas) -> dict[str, Any]:
+    """The atlas as a JSON object."""
+    rows = [asdict(row) for row in atlas.rows]
+    head = {"format": FORMAT, "version": VERSION, "settings": atlas.settings}
+    return head | {"seeds": atlas.seeds, "limit": atlas.limit, "rows": rows}
+
+
+def read_atlas(text: str) -> Atlas:
+    """The atlas that a document, as text, holds.
+
+    Raises:
+        ValueError: if it holds none.
+    """
+    value = json.loads(text)
+    try:
+        if value["format"] != FORMAT or value["version"] != VERSION:
+            raise ValueError(f'is not of the format "{FORMAT}", version {VERSION}')
+        rows = []
+        for row in value["rows"]:
+            cells = tuple(Cell(**{**c, "remarks": tuple(c["remarks"])}) for c in row["cells"])
+            rows.append(Row(**{**row, "cells": cells}))
+        return Atlas(value["settings"], int(value["seeds"]), float(value["limit"]), tuple(rows))
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"is not an atlas: {error}") from None
+
+
+def changes(now: Atlas, before: Atlas) -> Iterator[str]:
+    """What became better or worse, one line for each value of a knob.
+
+    Shares are compared, as the numbers of seeds may differ; a change is told where it cannot be
+    the same shares of fewer seeds.
+    """
+    for row in now.rows:
+        for cell in row.cells:
+            old = before.cell(row.name, cell.value)
+            if old is None:
+                yield f"{row.name} {cell.value}: new"
+                continue
+            for kind in ("wrong", "right"):
+                a, b = getattr(cell, kind) / cell.answers, getattr(old, kind) / old.answers
+                if abs(a - b) * min(cell.answers, old.answers) >= 1:
+                    better = (a > b) == (kind == "right")
+                    yield (
+                        f"{row.name} {cell.value}: {'better' if better else 'WORSE'}, "
+                        f"{getattr(cell, kind)} of {cell.answers} {kind}, "
+                        f"were {getattr(old, kind)} of {old.answers}"
+                    )
+
+
+def table(atlas: Atlas) -> list[list[str]]:
+    """Families as rows of cells: counts, and where answers begin to be undecided."""
+    lines = [["family", "answers", "right", "undecided", "slow", "wrong", "undecided from"]]
+    for row in atlas.rows:
+        sums = [
+            sum(getattr(c, k) for c in row.cells) for k in ("right", "undecided", "slow", "wrong")
+        ]
+        first = next((str(c.value) for c in row.cells if c.undecided + c.slow), "-")
+        lines.append([row.name, str(sum(sums)), *map(str, sums), first])
+    return lines

@@ -1,0 +1,135 @@
+"""Solutions of other programs, point by point, and the processor time that they take."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import resource
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.bench.peers import call, installed, plain_texts
+
+
+@dataclass(frozen=True, eq=False)
+class PeerPoints:
+    """What a program found.
+
+    Attributes:
+        program: its name.
+        seconds: processor time, as the program itself says it, or of its whole process.
+        points: complex, shape ``(k, n)``; None without an answer.
+        remark: why there is none.
+    """
+
+    program: str
+    seconds: float
+    points: np.ndarray | None
+    remark: str = ""
+
+
+def programs() -> list[str]:
+    """The programs that are there: M2, phc, and bertini2, a Python package."""
+    return [*installed(), *(["bertini2"] if importlib.util.find_spec("bertini") else [])]
+
+
+def peer_points(program: str, system: PolynomialSystem, limit: float) -> PeerPoints:
+    """Solve ``system`` with a program, for at most ``limit`` seconds."""
+    run = {"M2": _macaulay2, "phc": _phcpack, "bertini2": _bertini}[program]
+    with tempfile.TemporaryDirectory() as folder:
+        before = _children()
+        output = run(system, Path(folder), limit)
+        seconds = _children() - before
+    if output is None:
+        return PeerPoints(program, seconds, None, f"no answer in {limit:.0f} s")
+    said, numbers = output
+    points = np.array(numbers, dtype=complex).reshape(-1, system.n)
+    return PeerPoints(program, seconds if said is None else said, points)
+
+
+Answer = tuple[float | None, list[complex]] | None
+
+
+def _children() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def _pairs(lines: str) -> list[complex]:
+    found = re.findall(r"^value (\S+) (\S+)$", lines, re.MULTILINE)
+    return [complex(float(re), float(im)) for re, im in found]
+
+
+def _said(output: str) -> float | None:
+    found = re.search(r"^seconds (\S+)$", output, re.MULTILINE)
+    return float(found[1]) if found else None
+
+
+def _macaulay2(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
+    names, texts = plain_texts(system)
+    script = (
+        'needsPackage "NumericalAlgebraicGeometry";\n'
+        f"R = CC_53[{', '.join(names)}];\n"
+        f"F = {{{', '.join(texts)}}};\n"
+        "t = cpuTime();\n"
+        "S = solveSystem F;\n"
+        'print("seconds " | toString(cpuTime() - t));\n'
+        "full = x -> toExternalString(1.0 * x);\n"
+        'for s in S do for z in coordinates s do print("value " | full realPart z | " " '
+        "| full imaginaryPart z);\n"
+        "exit 0\n"
+    )
+    (folder / "system.m2").write_text(script, "utf-8")
+    _, output = call(["M2", "--script", "system.m2"], str(folder), limit)
+    if output is None:
+        return None
+    # Doubles are written with their precision in bits: .5p53e1.
+    return _said(output), _pairs(re.sub(r"p53", "", output))
+
+
+def _phcpack(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
+    names, texts = plain_texts(system)
+    count = len(texts)
+    head = f"{count}\n" if count == system.n else f"{count} {system.n}\n"
+    (folder / "system").write_text(head + "".join(f"{t};\n" for t in texts), "utf-8")
+    _, output = call(["phc", "-b", "-0", "system", "answer"], str(folder), limit)
+    if output is None:
+        return None
+    text = (folder / "system").read_text("utf-8", "replace").partition("THE SOLUTIONS")[2]
+    numbers = []
+    for block in re.split(r"^solution \d+ :", text, flags=re.MULTILINE)[1:]:
+        values = dict(_coordinates(block))
+        if all(name in values for name in names):
+            numbers += [values[name] for name in names]
+    return None, numbers
+
+
+def _coordinates(block: str) -> list[tuple[str, complex]]:
+    found = re.findall(r"^ (\w+) : +(\S+) +(\S+)$", block, re.MULTILINE)
+    return [(name, complex(float(re), float(im))) for name, re, im in found]
+
+
+def _bertini(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
+    names, texts = plain_texts(system)
+    functions = [f"f{i}" for i in range(len(texts))]
+    equations = " ".join(f"{f} = {t};" for f, t in zip(functions, texts, strict=True))
+    source = f"variable_group {', '.join(names)}; function {', '.join(functions)}; {equations}"
+    script = (
+        "import time, bertini\n"
+        f"system = bertini.parse.system({source!r})\n"
+        "begin = time.process_time()\n"
+        "found = bertini.solve(system, show_progress=False, directory='records', seed=1)\n"
+        "print('seconds', time.process_time() - begin)\n"
+        "for point in found:\n"
+        "    for z in point:\n"
+        "        z = complex(z)\n"
+        "        print('value', repr(z.real), repr(z.imag))\n"
+    )
+    (folder / "solve.py").write_text(script, "utf-8")
+    _, output = call([sys.executable, "solve.py"], str(folder), limit)
+    return None if output is None else (_said(output), _pairs(output))

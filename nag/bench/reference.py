@@ -1,0 +1,121 @@
+"""Solutions to 60 digits, proved, and how far found ones are from them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import flint
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.box_relations import overlaps
+from nag.numerics.digits import middle
+from nag.numerics.krawczyk import BITS, Boxes, FineBox, box_about, enter_box
+
+# A found point belongs to the solution that is nearest, if it is nearer than this, relative to its
+# size.
+NEAR = 1e-6
+
+
+class ReferenceError(ValueError):
+    """There is no reference, for the reason that the text says."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """Simple solutions of a system, each proved.
+
+    Attributes:
+        high, low: the solutions as sums of two doubles, shape ``(k, n)``.
+        boxes: of 512 bits.
+    """
+
+    high: np.ndarray
+    low: np.ndarray
+    boxes: tuple[FineBox, ...]
+
+    @classmethod
+    def of(cls, system: PolynomialSystem, points: np.ndarray, slices: np.ndarray) -> Reference:
+        """The solutions next to points, on a slice if there are rows of one.
+
+        Raises:
+            ReferenceError: if a point has no simple solution next to it, or two have the same.
+        """
+        exact = BallPolynomials.of([f for f in system.polynomials if f], slices)
+        if len(exact.rows) != system.n:
+            raise ReferenceError("there are not as many equations as unknowns")
+        P, n = points.shape
+        found = Boxes(
+            points.copy(), np.zeros((P, n)), np.zeros((P, n)), np.zeros(P, dtype=bool), {}
+        )
+        low = np.zeros((P, n), dtype=complex)
+        for i in range(P):
+            box = box_about(exact, [flint.acb(complex(z)) for z in points[i]], (BITS[-1],))
+            if box is None:
+                raise ReferenceError(f"no simple solution is proved next to point {i + 1}")
+            enter_box(found, i, box)
+            with flint.ctx.workprec(BITS[-1]):
+                rest = zip(box.centre, found.centres[i], strict=True)
+                low[i] = [complex(middle(z - complex(c))) for z, c in rest]
+        if overlaps(found) != ([], []):
+            raise ReferenceError("two points lead to one solution")
+        return cls(found.centres, low, tuple(found.fine[i] for i in range(P)))
+
+    def errors(self, points: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """Distances of points from these solutions, relative to their sizes, at least one.
+
+        Distances and sizes are those of the largest coordinates.
+        """
+        off = (points - self.high[places]) - self.low[places]
+        sizes = np.maximum(1.0, np.abs(self.high[places]).max(axis=1, initial=0.0))
+        return np.abs(off).max(axis=1, initial=0.0) / sizes
+
+
+@dataclass(frozen=True)
+class Found:
+    """How a list of points stands to a reference.
+
+    Attributes:
+        share: of the solutions that are found; false: points that are near none, or near one that
+            was found already; largest, median: errors of those that are found.
+    """
+
+    share: float
+    false: int
+    largest: float
+    median: float
+
+
+def compared(reference: Reference, points: np.ndarray) -> Found:
+    """Points beside the reference."""
+    k = len(reference.high)
+    best = np.full(k, np.inf)
+    false = 0
+    for x in points:
+        distance = np.abs(reference.high - x).max(axis=1, initial=0.0)
+        place = int(distance.argmin()) if k else 0
+        error = reference.errors(x[None], np.array([place]))[0] if k else np.inf
+        if not error < NEAR or np.isfinite(best[place]):
+            false += 1
+            continue
+        best[place] = error
+    errors = best[np.isfinite(best)]
+    share = len(errors) / k if k else 1.0
+    return Found(
+        share,
+        false,
+        float(errors.max(initial=0.0)),
+        float(np.median(errors)) if len(errors) else float("nan"),
+    )
+
+
+def joined(found: Sequence[Found]) -> Found:
+    """Over seeds: mean share, points that are false in all, largest error, median of medians."""
+    return Found(
+        float(np.mean([f.share for f in found])),
+        sum(f.false for f in found),
+        max(f.largest for f in found),
+        float(np.median([f.median for f in found])),
+    )

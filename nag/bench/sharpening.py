@@ -1,0 +1,135 @@
+"""Newton's method from rough points in several arithmetics: error against time, step by step."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import flint
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.system import PolynomialSystem
+from nag.bench.reference import Reference
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import middle
+from nag.numerics.krawczyk import FineBox
+from nag.tracking.compiled import compile_rows
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.newton import refine
+
+# Relative error of the points that it begins at.
+ROUGH = 1e-4
+# Digits of balls, and points that are sharpened in them: each is one by itself.
+DIGITS = (32, 50, 100)
+MOST_IN_BALLS = 16
+# Seconds for which a curve's point is repeated; the fastest run counts.
+RUNS = 0.05
+
+
+@dataclass(frozen=True)
+class Sharpened:
+    """What so many steps gave: processor seconds for one point, and errors."""
+
+    steps: int
+    seconds: float
+    largest: float
+    median: float
+
+
+def sharpening(
+    system: PolynomialSystem, reference: Reference, seed: int = 0
+) -> dict[str, list[Sharpened]]:
+    """Curves by arithmetic: after one Newton step, two, and so on."""
+    rng = np.random.default_rng(seed)
+    shape = reference.high.shape
+    noise = rng.standard_normal(shape) + 1j * rng.standard_normal(shape)
+    sizes = np.maximum(np.abs(reference.high), 1e-3)
+    rough = reference.high + ROUGH * sizes * noise
+    curves = {
+        "double": _curve(_in_doubles(system, rough), reference, len(rough), 5),
+        "double, residuals in double-double": _curve(
+            _with_exact_residuals(system, rough), reference, len(rough), 5
+        ),
+    }
+    count = min(MOST_IN_BALLS, len(rough))
+    exact = BallPolynomials.of(system.polynomials, np.zeros((0, 1 + system.n)))
+    for digits in DIGITS:
+        name = f"balls of {digits} digits"
+        curves[name] = _ball_curve(exact, reference, rough[:count], digits)
+    return curves
+
+
+def _curve(
+    work: Callable[[int], np.ndarray], reference: Reference, count: int, most: int
+) -> list[Sharpened]:
+    found = []
+    places = np.arange(len(reference.high))
+    work(1)
+    for steps in range(1, most + 1):
+        best, begun = np.inf, time.process_time()
+        while time.process_time() - begun < RUNS:
+            begin = time.process_time()
+            points = work(steps)
+            best = min(best, time.process_time() - begin)
+        errors = reference.errors(points, places)
+        found.append(Sharpened(steps, best / count, float(errors.max()), float(np.median(errors))))
+    return found
+
+
+def _in_doubles(system: PolynomialSystem, rough: np.ndarray) -> Callable[[int], np.ndarray]:
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    jacobian = evaluator.placed_derivatives(system.n)
+
+    def work(steps: int) -> np.ndarray:
+        x = rough
+        for _ in range(steps):
+            x = x - np.linalg.solve(jacobian(x), evaluator.values(x)[..., None])[..., 0]
+        return x
+
+    return work
+
+
+def _with_exact_residuals(
+    system: PolynomialSystem, rough: np.ndarray
+) -> Callable[[int], np.ndarray]:
+    # One homogenising coordinate, which comes first.
+    rows = compile_rows(system.polynomials)
+    homotopy = Homotopy(rows, np.zeros((0, rows.N), dtype=complex))
+    start = np.hstack([np.ones((len(rough), 1)), rough])
+
+    def work(steps: int) -> np.ndarray:
+        x = refine(homotopy, None, start, iterations=steps).points
+        return x[:, 1:] / x[:, :1]
+
+    return work
+
+
+def _ball_curve(
+    exact: BallPolynomials, reference: Reference, rough: np.ndarray, digits: int
+) -> list[Sharpened]:
+    """Newton's method in balls, used by their midpoints."""
+    found = []
+    points = [[flint.acb(complex(z)) for z in x] for x in rough]
+    seconds, steps = 0.0, 0
+    with flint.ctx.workdps(digits):
+        while steps < 9 and (steps < 2 or found[-1].largest < found[-2].largest / 2):
+            begin = time.process_time()
+            for i, x in enumerate(points):
+                moves = (exact.jacobian(x).mid().inv().mid() * exact(x)).entries()
+                points[i] = [middle(a - b) for a, b in zip(x, moves, strict=True)]
+            seconds += time.process_time() - begin
+            steps += 1
+            errors = [_error(x, box) for x, box in zip(points, reference.boxes, strict=False)]
+            found.append(
+                Sharpened(steps, seconds / len(points), max(errors), float(np.median(errors)))
+            )
+    return found
+
+
+def _error(x: list[flint.acb], box: FineBox) -> float:
+    with flint.ctx.workdps(200):
+        off = max(float(abs(a - b).mid()) for a, b in zip(x, box.centre, strict=True))
+        size = max(float(abs(b).mid()) for b in box.centre)
+    return off / max(1.0, size)

@@ -1,0 +1,329 @@
+"""Speed against accuracy: a case in many settings, arithmetics and programs, beside a reference."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.bench.peer_points import peer_points, programs
+from nag.bench.reference import Found, Reference, ReferenceError, compared, joined
+from nag.bench.sharpening import Sharpened, sharpening
+from nag.decomposition import decompose
+from nag.solving.solve import solve
+from nag.tracking.settings import NAMED, Settings
+from nag.witness.witness import Decomposition
+
+FORMAT = "nag-speed-accuracy"
+VERSION = 1
+ORDERS = (3, 4, 6, 8)
+TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
+DIGITS = (16, 32, 64)
+SEEDS, PATIENCE = 5, 120.0
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A case to be measured.
+
+    Attributes:
+        degrees: for a decomposition, dimension, degree and number of the components known.
+    """
+
+    name: str
+    system: PolynomialSystem
+    decomposed: bool
+    degrees: tuple[tuple[int, int, int], ...] = ()
+
+
+@dataclass(frozen=True)
+class Point:
+    """What one setting gave.
+
+    Attributes:
+        name: which one of its curve.
+        seconds: processor time, median over seeds; steps: of all paths together, median, 0 where
+            they are not counted.
+        share: of the solutions, or components, that are right, mean over seeds.
+        false: points that are none, or are found twice, over all seeds.
+        largest, median: relative errors of the solutions found.
+    """
+
+    name: str
+    seconds: float
+    steps: int
+    share: float
+    false: int
+    largest: float
+    median: float
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Points that belong together.
+
+    Attributes:
+        kind: ``"settings"``, ``"order"``, ``"digits"`` or ``"peer"``.
+    """
+
+    kind: str
+    label: str
+    points: tuple[Point, ...]
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class Chart:
+    """All of one case.
+
+    Attributes:
+        what: ``"solutions"`` or ``"components"``; expected: their number.
+        certification: processor seconds of proving all of them; certified: how many were.
+        sharpened: errors after each Newton step, by arithmetic.
+    """
+
+    case: str
+    what: str
+    expected: int
+    seeds: int
+    curves: tuple[Curve, ...]
+    certified: int
+    certification: float
+    sharpened: dict[str, tuple[Sharpened, ...]]
+
+
+def settings_of_curves() -> Iterator[tuple[str, str, list[tuple[str, Settings | str]]]]:
+    """Kind, label and settings of our own curves."""
+    yield "settings", "settings", [(name, name) for name in NAMED]
+    default = NAMED["default"]
+    for order in ORDERS:
+        several = [
+            (f"{tolerance:.0e}", replace(default, order=order, tolerance=tolerance))
+            for tolerance in TOLERANCES
+        ]
+        yield "order", f"order {order}, tolerances 1e-1 to 1e-5", several
+    several = [(f"{digits} digits", replace(default, digits=digits)) for digits in DIGITS]
+    yield "digits", "ends in at most 16, 32, 64 digits", several
+
+
+def chart_of(
+    subject: Subject,
+    seeds: int = SEEDS,
+    peers: bool = True,
+    progress: Callable[[str], None] | None = None,
+) -> Chart:
+    """Measure a case.
+
+    Args:
+        progress: called with the name of each curve before it is measured.
+
+    Raises:
+        ReferenceError: if its solutions cannot be proved.
+    """
+    chart = (_components if subject.decomposed else _solutions)(subject, seeds, progress)
+    if not peers or subject.decomposed:
+        return chart
+    reference = _reference(subject)
+    others = []
+    for program in programs():
+        if progress is not None:
+            progress(program)
+        others.append(_peer(program, subject.system, reference))
+    return replace(chart, curves=(*chart.curves, *others))
+
+
+def _reference(subject: Subject) -> Reference:
+    found = solve(subject.system, settings="careful")
+    if not found.complete or any(s.multiplicity > 1 for s in found.solutions):
+        raise ReferenceError("not all solutions are simple and known")
+    expected = sum(count for _, _, count in subject.degrees)
+    if expected and len(found.solutions) != expected:
+        raise ReferenceError(f"{len(found.solutions)} solutions were found, {expected} are known")
+    none = np.zeros((0, 1 + subject.system.n), dtype=complex)
+    return Reference.of(subject.system, found.points, none)
+
+
+def _solutions(subject: Subject, seeds: int, progress: Callable[[str], None] | None) -> Chart:
+    from nag.solving.certificate import certify_solutions
+
+    system, reference = subject.system, _reference(subject)
+
+    def measured(seed: int, settings: Settings | str) -> tuple[float, int, Found]:
+        begin = time.process_time()
+        found = solve(system, seed=seed, settings=settings)
+        seconds = time.process_time() - begin
+        return seconds, found.paths.steps, compared(reference, found.points)
+
+    curves = _curves(measured, seeds, progress)
+    found = solve(system)
+    seconds, certificate = min(
+        (_timed(lambda: certify_solutions(found)) for _ in range(3)), key=lambda pair: pair[0]
+    )
+    sharpened = {k: tuple(v) for k, v in sharpening(system, reference).items()}
+    return Chart(
+        subject.name,
+        "solutions",
+        len(reference.high),
+        seeds,
+        tuple(curves),
+        certificate.simple,
+        seconds,
+        sharpened,
+    )
+
+
+def _timed(work: Callable[[], Any]) -> tuple[float, Any]:
+    begin = time.process_time()
+    result = work()
+    return time.process_time() - begin, result
+
+
+def _components(subject: Subject, seeds: int, progress: Callable[[str], None] | None) -> Chart:
+    from nag.witness.certificate import certify_decomposition
+
+    wanted = sorted(subject.degrees)
+
+    def measured(seed: int, settings: Settings | str) -> tuple[float, int, Found]:
+        begin = time.process_time()
+        found = decompose(subject.system, seed=seed, settings=settings)
+        seconds = time.process_time() - begin
+        return seconds, 0, _agreement(subject.system, found, wanted)
+
+    curves = _curves(measured, seeds, progress)
+    found = decompose(subject.system)
+    seconds, certificate = _timed(lambda: certify_decomposition(found))
+    return Chart(
+        subject.name,
+        "components",
+        sum(count for _, _, count in wanted),
+        seeds,
+        tuple(curves),
+        sum(c.all_proved for c in certificate.components),
+        seconds,
+        {},
+    )
+
+
+def _agreement(
+    system: PolynomialSystem, found: Decomposition, wanted: Sequence[tuple[int, int, int]]
+) -> Found:
+    """Components of the right dimension and degree, and errors of the witness points."""
+    left = {(d, g): count for d, g, count in wanted}
+    right = false = 0
+    errors: list[float] = []
+    for c in found.components:
+        key = c.dimension, c.degree
+        if left.get(key, 0) < c.orbit or c.note:
+            false += c.orbit
+            continue
+        left[key] -= c.orbit
+        right += c.orbit
+        try:
+            reference = Reference.of(system, c.points, c.slice.rows)
+        except ReferenceError:
+            continue
+        errors += reference.errors(c.points, np.arange(len(c.points))).tolist()
+    largest = max(errors, default=0.0)
+    middle = float(np.median(errors)) if errors else float("nan")
+    return Found(right / max(1, sum(count for _, _, count in wanted)), false, largest, middle)
+
+
+def _curves(
+    measured: Callable[[int, Settings | str], tuple[float, int, Found]],
+    seeds: int,
+    progress: Callable[[str], None] | None,
+) -> list[Curve]:
+    measured(0, "default")
+    curves = []
+    for kind, label, several in settings_of_curves():
+        if progress is not None:
+            progress(label)
+        points = []
+        for name, settings in several:
+            runs = [measured(seed, settings) for seed in range(seeds)]
+            seconds = float(np.median([r[0] for r in runs]))
+            steps = int(np.median([r[1] for r in runs]))
+            found = joined([r[2] for r in runs])
+            points.append(Point(name, seconds, steps, **asdict(found)))
+        curves.append(Curve(kind, label, tuple(points)))
+    return curves
+
+
+def _peer(program: str, system: PolynomialSystem, reference: Reference) -> Curve:
+    answer = peer_points(program, system, PATIENCE)
+    if answer.points is None:
+        return Curve("peer", program, (), answer.remark)
+    found = compared(reference, answer.points)
+    return Curve("peer", program, (Point(program, answer.seconds, 0, **asdict(found)),))
+
+
+def document(charts: Sequence[Chart]) -> dict[str, Any]:
+    """Charts as a JSON object."""
+    return {"format": FORMAT, "version": VERSION, "charts": [_plain(asdict(c)) for c in charts]}
+
+
+def _plain(value: Any) -> Any:
+    """Numbers to four digits, those that are not finite as None."""
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(v) for v in value]
+    if isinstance(value, float):
+        return float(f"{value:.4g}") if np.isfinite(value) else None
+    return value
+
+
+def read_charts(value: Any) -> list[Chart]:
+    """The charts that a document holds.
+
+    Raises:
+        ValueError: if it holds none.
+    """
+    try:
+        if value["format"] != FORMAT or value["version"] != VERSION:
+            raise ValueError(f'is not of the format "{FORMAT}", version {VERSION}')
+        return [_chart(chart) for chart in value["charts"]]
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"is not a document of charts: {error}") from None
+
+
+def _chart(value: dict[str, Any]) -> Chart:
+    curves = tuple(
+        Curve(**{**c, "points": tuple(Point(**_numbers(p)) for p in c["points"])})
+        for c in value["curves"]
+    )
+    sharpened = {
+        k: tuple(Sharpened(**_numbers(p)) for p in points)
+        for k, points in value["sharpened"].items()
+    }
+    return Chart(**{**value, "curves": curves, "sharpened": sharpened})
+
+
+def _numbers(value: dict[str, Any]) -> dict[str, Any]:
+    return {k: float("nan") if v is None else v for k, v in value.items()}
+
+
+def ratios(charts: Sequence[Chart], accuracy: float = 1e-12) -> list[list[str]]:
+    """Rows of a table: our time with default settings beside the other programs'.
+
+    Other programs are compared where they find all solutions to the accuracy, as we do.
+    """
+    lines = [["case", "found", "largest error", "seconds", "program", "found", "error", "ratio"]]
+    for chart in charts:
+        mine = next(p for c in chart.curves for p in c.points if p.name == "default")
+        head = [chart.case, f"{mine.share:.0%}", f"{mine.largest:.1e}", f"{mine.seconds:.4f}"]
+        others = [c for c in chart.curves if c.kind == "peer"]
+        for curve in others or [Curve("peer", "-", ())]:
+            if not curve.points:
+                lines.append([*head, curve.label, "-", "-", curve.remark or "-"])
+                continue
+            (p,) = curve.points
+            good = p.share == 1 and p.largest <= accuracy and mine.largest <= accuracy
+            ratio = f"{p.seconds / mine.seconds:.1f}"
+            told = ratio if good and mine.share == 1 else f"({ratio})"
+            lines.append([*head, p.name, f"{p.share:.0%}", f"{p.largest:.1e}", told])
+    return lines

@@ -1,0 +1,192 @@
+"""Charts of speed against accuracy: one of each case, and one of all beside other programs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from nag.bench.picture_file import STYLE, save
+from nag.bench.speed_accuracy import Chart, Curve, Point
+
+# Colours of different lightness, and marks, so that greyscale will do.
+COLOURS = ("#1b1b4b", "#b2182b", "#1f78b4", "#e08214", "#35978f", "#7b9e2f", "#c994c7", "#8c6d31")
+MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
+PEERS = {"M2": ("#555555", "<"), "phc": ("#999999", ">"), "bertini2": ("#222222", "d")}
+# Errors below this are drawn there: points are doubles.
+FLOOR = 1e-17
+ACCURATE = 1e-12
+
+
+def draw_case(chart: Chart, path: str) -> None:
+    """Error and share against time, error against steps, and arithmetics, of one case.
+
+    Raises:
+        OSError: if the file cannot be written.
+    """
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    with rc_context(STYLE | {"font.size": 8}):
+        figure = Figure(figsize=(8.4, 6.4))
+        top, bottom = figure.subplots(2, 2)
+        figure.subplots_adjust(0.085, 0.235, 0.985, 0.915, 0.24, 0.42)
+        noun = f"{chart.expected} {chart.what}"
+        title = f"{chart.case}: {noun}, {chart.seeds} seeds, one thread"
+        figure.suptitle(title, fontsize=10, weight="bold", y=0.975)
+        handles: dict[str, Any] = {}
+        for k, curve in enumerate(chart.curves):
+            style = _style(curve, k)
+            if curve.points:
+                handles[_label(curve)] = _error(top[0], curve, style, "seconds")
+                _share(top[1], curve, style)
+                if curve.kind != "peer" and curve.points[0].steps:
+                    _error(bottom[0], curve, style, "steps")
+        _axes(top[0], "processor time [s]", "relative error", "error: largest (filled), median")
+        _axes(top[1], "processor time [s]", f"share of {chart.what} [%]", "found right")
+        top[1].set_yscale("linear")
+        top[1].set_ylim(-4, 106)
+        if bottom[0].lines:
+            _axes(bottom[0], "steps of all paths", "relative error", "error against work")
+        else:
+            bottom[0].axis("off")
+        for axes in (top[0], bottom[0]):
+            # At least so many decades, so that rounding does not look like much.
+            low, high = axes.get_ylim()
+            axes.set_ylim(min(low, FLOOR), max(high, 1e-11))
+        arithmetic = _sharpening(bottom[1], chart)
+        _certification(top[0], chart)
+        figure.legend(
+            handles.values(), handles.keys(), loc="lower left", bbox_to_anchor=(0.06, 0.005),
+            ncols=2, fontsize=7, frameon=False,
+        )  # fmt: skip
+        if arithmetic:
+            figure.legend(
+                arithmetic.values(), arithmetic.keys(), loc="lower right",
+                bbox_to_anchor=(0.99, 0.005), fontsize=7, frameon=False,
+                title="Newton's method in", title_fontsize=7,
+            )  # fmt: skip
+        save(figure, path)
+
+
+def _label(curve: Curve) -> str:
+    if curve.kind == "settings":
+        return "settings " + ", ".join(p.name for p in curve.points)
+    return curve.label
+
+
+def _style(curve: Curve, k: int) -> dict[str, Any]:
+    if curve.kind == "peer":
+        colour, mark = PEERS.get(curve.label, ("#777777", "h"))
+        return {"color": colour, "marker": mark, "markersize": 7, "linestyle": ""}
+    dashes = {"settings": "-", "order": "--", "digits": ":"}[curve.kind]
+    return {"color": COLOURS[k], "marker": MARKS[k], "markersize": 4.5, "linestyle": dashes}
+
+
+def _error(axes: Any, curve: Curve, style: dict[str, Any], across: str) -> Any:
+    points = [p for p in curve.points if p.share > 0]
+    x = [getattr(p, across) for p in points]
+    largest = np.maximum([p.largest for p in points], FLOOR)
+    median = np.maximum([p.median for p in points], FLOOR)
+    (line,) = axes.plot(x, largest, linewidth=0.9, **style)
+    hollow = style | {"markerfacecolor": "none", "linestyle": ""}
+    axes.plot(x, median, linewidth=0.9, **hollow)
+    return line
+
+
+def _share(axes: Any, curve: Curve, style: dict[str, Any]) -> None:
+    x = [p.seconds for p in curve.points]
+    axes.plot(x, [100 * p.share for p in curve.points], linewidth=0.9, **style)
+
+
+def _axes(axes: Any, across: str, up: str, title: str) -> None:
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel(across)
+    axes.set_ylabel(up)
+    axes.set_title(title, fontsize=8)
+    axes.grid(True, alpha=0.3, linewidth=0.5)
+    if len(axes.get_xticks(minor=False)):
+        axes.tick_params(axis="x", which="minor", labelbottom=False)
+
+
+def _certification(axes: Any, chart: Chart) -> None:
+    """The time of proving all solutions, as a line across."""
+    if chart.certification > 0:
+        axes.axvline(chart.certification, color="#444444", linewidth=0.8, linestyle=(0, (1, 1)))
+        axes.annotate(
+            f"proof of {chart.certified}", (chart.certification, 1), xytext=(2, -2),
+            xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=6.5,
+            rotation=90, va="top", color="#444444",
+        )  # fmt: skip
+
+
+def _sharpening(axes: Any, chart: Chart) -> dict[str, Any]:
+    if not chart.sharpened:
+        axes.axis("off")
+        return {}
+    handles = {}
+    for k, (name, points) in enumerate(chart.sharpened.items()):
+        x = [1e6 * p.seconds for p in points]
+        y = [max(p.largest, 1e-110) for p in points]
+        style = {"color": COLOURS[k], "marker": MARKS[k], "markersize": 4, "linewidth": 0.9}
+        (handles[name],) = axes.plot(x, y, **style)
+    _axes(axes, "processor time for one solution [µs]", "largest relative error",
+          "Newton steps from errors of 1e-4, one after the other")  # fmt: skip
+    return handles
+
+
+def draw_all(charts: Sequence[Chart], path: str) -> None:
+    """Times of all cases beside other programs; filled where all is found to 1e-12.
+
+    Raises:
+        OSError: if the file cannot be written.
+    """
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+
+    with rc_context(STYLE | {"font.size": 8}):
+        figure = Figure(figsize=(7.6, 1.25 + 0.3 * len(charts)))
+        axes = figure.subplots()
+        figure.subplots_adjust(0.16, 0.62 / figure.get_figheight(), 0.74,
+                               1 - 0.3 / figure.get_figheight())  # fmt: skip
+        shown: dict[str, Any] = {}
+        for i, chart in enumerate(charts):
+            for name, style, point in _programs(chart):
+                full = point.share == 1 and point.largest <= ACCURATE
+                face = style["color"] if full else "none"
+                axes.plot(point.seconds, i, linestyle="", markerfacecolor=face, **style)
+                shown.setdefault(name, Line2D([], [], linestyle="", **style))
+            if chart.certification > 0:
+                style = {"color": "#444444", "marker": "|", "markersize": 9}
+                axes.plot(chart.certification, i, linestyle="", **style)
+                shown.setdefault("nag certify", Line2D([], [], linestyle="", **style))
+        axes.set_xscale("log")
+        axes.set_yticks(range(len(charts)), [chart.case for chart in charts])
+        axes.set_ylim(len(charts) - 0.5, -0.5)
+        axes.set_xlabel("processor time [s]")
+        axes.grid(True, axis="x", alpha=0.3, linewidth=0.5)
+        axes.set_title("filled: all found, every one to 1e-12", fontsize=8)
+        axes.legend(
+            shown.values(), shown.keys(), loc="upper left", bbox_to_anchor=(1.02, 1.0),
+            frameon=False, fontsize=8,
+        )  # fmt: skip
+        save(figure, path)
+
+
+def _programs(chart: Chart) -> list[tuple[str, dict[str, Any], Point]]:
+    found = []
+    marks = dict(zip(("fast", "default", "careful"), ("^", "o", "s"), strict=True))
+    for curve in chart.curves:
+        for point in curve.points:
+            if curve.kind == "settings":
+                style = {"color": "#b2182b", "marker": marks[point.name], "markersize": 6}
+                found.append((f"nag, {point.name}", style, point))
+            elif curve.kind == "peer":
+                colour, mark = PEERS.get(curve.label, ("#777777", "h"))
+                found.append(
+                    (curve.label, {"color": colour, "marker": mark, "markersize": 6}, point)
+                )
+    return found

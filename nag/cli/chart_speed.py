@@ -1,0 +1,152 @@
+"""``nag chart speed-accuracy``: cases in many settings, arithmetics and programs."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from nag.cli.arguments import UsageError, whole
+from nag.cli.chart_files import check_targets, write_picture, write_text
+
+if TYPE_CHECKING:
+    from nag.bench.speed_accuracy import Chart, Subject
+
+FOLDERS = (Path("cases"), Path("cases/benchmarks"), Path("cases/hard"))
+# A system of the atlas: eight pairs of solutions at distances of 1e-8.
+CLUSTER = "cluster"
+NAMES = (
+    "katsura-8",
+    "cyclic-6",
+    "noon-5",
+    "inverse-6r",
+    "stewart-gough",
+    "chemequ",
+    "bennett",
+    "bricard-cube",
+    CLUSTER,
+)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``nag chart speed-accuracy``."""
+    parser.add_argument(
+        "case",
+        nargs="*",
+        metavar="CASE",
+        help=f"case file, or its name without .toml (default: {', '.join(NAMES)}; the last one is "
+        "made here)",
+    )
+    parser.add_argument(
+        "--seeds", type=lambda t: whole(t, 1, 1000), default=5, help="seeds (default: 5)"
+    )
+    parser.add_argument(
+        "--no-peers", action="store_true", help="leave out M2, phc and bertini2, if installed"
+    )
+    parser.add_argument("--data", metavar="FILE", help="draw what is in FILE, without a run")
+    parser.add_argument("--json", metavar="FILE", help="write the data to FILE")
+    parser.add_argument(
+        "--picture",
+        metavar="FILE",
+        action="append",
+        help="draw all cases to FILE.svg or .png, and each one to FILE-CASE beside it (repeatable)",
+    )
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Measure or read; returns the lines to print and whether default settings found everything.
+
+    Raises:
+        UsageError: if a case cannot be read or measured, or a file cannot be read or written.
+    """
+    check_targets(options)
+    charts = _read(options.data) if options.data is not None else _run(options)
+
+    from nag.bench.speed_accuracy import document, ratios
+    from nag.bench.speed_accuracy_picture import draw_all, draw_case
+    from nag.files.json_text import lay_out
+    from nag.report.table import align
+
+    write_text(options.json, lay_out(document(charts)) + "\n")
+    for path in options.picture or ():
+        write_picture(path, lambda target: draw_all(charts, target))
+        stem, dot, kind = path.rpartition(".")
+        for chart in charts:
+            name = f"{stem}-{chart.case}{dot}{kind}"
+            write_picture(name, lambda target, chart=chart: draw_case(chart, target))
+    lines = align(ratios(charts), {0, 4})
+    lines += ["", "ratio: the other program's processor time over ours; in brackets where one of"]
+    lines.append("the two did not find all solutions to 1e-12.")
+    right = all(p.share == 1 for chart in charts for p in _default(chart))
+    return lines, right
+
+
+def _default(chart: Chart) -> list:
+    return [
+        p for c in chart.curves if c.kind == "settings" for p in c.points if p.name == "default"
+    ]
+
+
+def _read(path: str) -> list[Chart]:
+    from nag.bench.speed_accuracy import read_charts
+
+    try:
+        return read_charts(json.loads(Path(path).read_text("utf-8")))
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from None
+    except ValueError as error:
+        raise UsageError(f"{path}: {error}") from None
+
+
+def _run(options: argparse.Namespace) -> list[Chart]:
+    from nag.bench.reference import ReferenceError
+    from nag.bench.speed_accuracy import chart_of
+
+    subjects = [_subject(name) for name in options.case or NAMES]
+    charts = []
+    for subject in subjects:
+
+        def progress(curve: str, name: str = subject.name) -> None:
+            if not options.quiet:
+                print(f"{name}: {curve} ...", file=sys.stderr, flush=True)
+
+        try:
+            charts.append(chart_of(subject, options.seeds, not options.no_peers, progress))
+        except ReferenceError as error:
+            raise UsageError(f"{subject.name}: {error}") from None
+    return charts
+
+
+def _subject(name: str) -> Subject:
+    from nag.bench.speed_accuracy import Subject
+
+    if name == CLUSTER:
+        import numpy as np
+
+        from nag.bench.atlas.points import cluster
+
+        problem = cluster((3, 2, 8), np.random.default_rng(0))
+        return Subject(name, problem.system, False, ((0, 1, 16),))
+
+    from nag.files.cases import CaseError, read_case
+    from nag.mechanism.model import ModelError, model
+
+    path = Path(name)
+    if not name.endswith(".toml"):
+        found = [folder / f"{name}.toml" for folder in FOLDERS]
+        path = next((p for p in found if p.is_file()), found[0])
+    try:
+        case = read_case(path)
+        made = model(case.mechanism) if case.mechanism is not None else None
+    except (CaseError, ModelError) as error:
+        raise UsageError(str(error)) from None
+    except OSError as error:
+        raise UsageError(f"{path}: {error.strerror or error}") from None
+    formulation = made.formulation if made else None
+    truth = [t for t in case.truth if t.formulation in (None, formulation)]
+    degrees = tuple((t.dimension, t.degree, t.count) for t in truth)
+    system = made.system if made else case.system
+    return Subject(path.stem, system, any(d for d, _, _ in degrees), degrees)

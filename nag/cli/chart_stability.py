@@ -1,0 +1,109 @@
+"""``nag chart stability``: the atlas, its picture, and what changed since the one that is kept."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from nag.cli.arguments import SETTINGS, UsageError, whole
+from nag.cli.chart_files import check_targets, write_picture, write_text
+
+if TYPE_CHECKING:
+    from nag.bench.atlas.stability import Atlas, Row
+
+KEPT = Path(__file__).parents[1] / "bench" / "charts" / "stability.json"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``nag chart stability``."""
+    parser.add_argument(
+        "--family", action="append", metavar="NAME", help="run this family only (repeatable)"
+    )
+    parser.add_argument(
+        "--seeds", type=lambda t: whole(t, 1, 1000), default=20, help="seeds (default: 20)"
+    )
+    parser.add_argument(
+        "--limit",
+        type=lambda t: whole(t, 1, 3600),
+        default=10,
+        metavar="SECONDS",
+        help="processor time after which an answer counts as undecided (default: 10)",
+    )
+    parser.add_argument(
+        "--jobs", type=lambda t: whole(t, 1, 64), default=2, help="processes (default: 2)"
+    )
+    parser.add_argument("--settings", choices=SETTINGS, default="default")
+    parser.add_argument("--data", metavar="FILE", help="draw the atlas in FILE, without a run")
+    parser.add_argument("--json", metavar="FILE", help="write the counts to FILE")
+    parser.add_argument(
+        "--picture", metavar="FILE", action="append", help="draw to FILE.svg or .png (repeatable)"
+    )
+    parser.add_argument(
+        "--against", metavar="FILE", default=str(KEPT), help="an earlier atlas (default: the kept)"
+    )
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Run or read the atlas; returns the lines to print and whether no answer was wrong.
+
+    Raises:
+        UsageError: if there is no such family, or a file cannot be read or written.
+    """
+    check_targets(options)
+    before = _read(options.against) if Path(options.against).exists() else None
+    if before is None and options.against != str(KEPT):
+        raise UsageError(f"--against: {options.against}: there is no such file")
+    atlas = _read(options.data) if options.data is not None else _run(options)
+
+    from nag.bench.atlas.picture import draw
+    from nag.bench.atlas.stability import changes, document, table
+    from nag.files.json_text import lay_out
+    from nag.report.table import align, printable
+
+    write_text(options.json, lay_out(document(atlas)) + "\n")
+    for path in options.picture or ():
+        write_picture(path, lambda target: draw(atlas, target))
+    lines = align(table(atlas), {0})
+    for row in atlas.rows:
+        told = [(c.value, r) for c in row.cells for r in c.remarks if r.startswith("wrong")]
+        lines += [printable(f"{row.name} {value}: {remark}") for value, remark in told]
+    if before is not None and options.data is None:
+        told = list(changes(atlas, before))
+        lines += ["", *(told or ["nothing changed against the atlas that is kept"])]
+    return lines, atlas.wrong == 0
+
+
+def _read(path: str) -> Atlas:
+    from nag.bench.atlas.stability import read_atlas
+
+    try:
+        return read_atlas(Path(path).read_text("utf-8"))
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from None
+    except ValueError as error:
+        raise UsageError(f"{path}: {error}") from None
+
+
+def _run(options: argparse.Namespace) -> Atlas:
+    from nag.bench.atlas.families import CASES, FAMILIES
+    from nag.bench.atlas.stability import run_atlas
+
+    names = {f.name for f in FAMILIES}
+    for name in options.family or ():
+        if name not in names:
+            raise UsageError(f"--family: {name}: there are {', '.join(sorted(names))}")
+    families = [f for f in FAMILIES if not options.family or f.name in options.family]
+    if any(f.name == "moved" for f in families) and not CASES.is_dir():
+        raise UsageError(f"the family 'moved' needs the folder {CASES}; run it where that is")
+
+    def progress(row: Row) -> None:
+        if not options.quiet:
+            wrong = sum(c.wrong for c in row.cells)
+            print(f"{row.name}: {wrong} wrong", file=sys.stderr, flush=True)
+
+    return run_atlas(
+        families, options.seeds, options.limit, options.jobs, options.settings, progress
+    )

@@ -1,0 +1,80 @@
+"""The command ``nag check``: the statements of the founding papers, tested."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from nag.cli.arguments import UsageError, add_tracking, read_case_file
+
+if TYPE_CHECKING:
+    from nag.check.statement import Statement
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``nag check``."""
+    parser.add_argument(
+        "case", metavar="CASE", nargs="?", help="case file (TOML) of a mechanism of the papers"
+    )
+    parser.add_argument("--all", action="store_true", help="all statements of both papers")
+    add_tracking(parser)
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Decide the statements; the lines to print, and whether all are decided as expected.
+
+    Raises:
+        UsageError: for bad input, or a case that the papers say nothing of.
+    """
+    from nag.cli.progress import compilation_notice
+
+    started = time.perf_counter()
+    if options.all == (options.case is not None):
+        raise UsageError("give either a case file or --all, and not both")
+    case = None if options.all else read_case_file(options.case)
+    with compilation_notice(sys.stderr, options.quiet):
+        sections = _sections(case, options)
+        decided = [(title, _decided(title, statements, options)) for title, statements in sections]
+
+    from nag.report.statements import section, settled, summary
+    from nag.report.table import labelled
+
+    lines = [line for title, pairs in decided for line in section(title, pairs)]
+    pairs = [pair for _, rows in decided for pair in rows]
+    seconds = time.perf_counter() - started
+    run_text = f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"
+    lines += labelled([("answer", summary(pairs)), ("run", run_text)])
+    return lines, all(settled(*pair) for pair in pairs)
+
+
+def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:
+    from nag.check.subjects import WITH_CASES, everything, recognised
+    from nag.decomposition import decompose
+
+    def decomposed(system: Any) -> Any:
+        return decompose(
+            system, seed=options.seed, threads=options.threads, settings=options.settings
+        )
+
+    if case is None:
+        return everything(decomposed)
+    found = recognised(case, decomposed)
+    if found is None:
+        raise UsageError(
+            f"{options.case}: the papers give no components of it; "
+            f"they do of {', '.join(WITH_CASES)} (nag check --all)"
+        )
+    return [
+        (found.subject.title, found.subject.statements),
+        (f"{case.title}: decomposition", found.comparison),
+    ]
+
+
+def _decided(
+    title: str, statements: tuple[Statement, ...], options: argparse.Namespace
+) -> list[tuple[Statement, Any]]:
+    if not options.quiet:
+        print(f"{title} ...", file=sys.stderr, flush=True)
+    return [(statement, statement.verdict()) for statement in statements]

@@ -1,0 +1,295 @@
+"""The command ``nag eliminate``: exact equations of a component in some of its variables."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from nag.cli.arguments import UsageError, add_running, check_json, read_problem
+from nag.cli.witness_input import (
+    add_input,
+    component_number,
+    component_of,
+    doubts,
+    given,
+    is_export,
+    point_at,
+    write_document,
+)
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from nag.interpolation.image_ideal import ImageIdeal
+    from nag.interpolation.point_cloud import Ambient, Cloud
+    from nag.mechanism.model import Model
+
+FORMAT = "nag-elimination"
+MOST_DEGREE = 100
+
+
+def _degree(text: str) -> int:
+    digits = text.strip()
+    if not (digits.isascii() and digits.isdigit() and 0 < len(digits) < 10):
+        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a whole number from 1 up")
+    if not 1 <= int(digits) <= MOST_DEGREE:
+        raise argparse.ArgumentTypeError(f"{digits} is not between 1 and {MOST_DEGREE}")
+    return int(digits)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of ``nag eliminate``."""
+    add_input(parser)
+    add_running(parser)
+    parser.add_argument(
+        "--onto",
+        metavar="NAMES",
+        help="variables of the equations, with commas: a0,a2,c2 (default: essential ones)",
+    )
+    parser.add_argument(
+        "--component",
+        type=component_number,
+        metavar="K",
+        help="number of the component, in the order of `nag decompose` (default: 1, of a "
+        "mechanism the one through the reference configuration)",
+    )
+    parser.add_argument(
+        "--at",
+        metavar="POINT",
+        help='the component through an exact regular point instead: "x = 0, y = 1/2", the name '
+        "of a point of the case, or `reference`",
+    )
+    parser.add_argument(
+        "--degree",
+        type=_degree,
+        metavar="D",
+        help="all equations up to this degree (default: until they define the image)",
+    )
+    parser.add_argument(
+        "--polynomial", action="store_true", help="only polynomial maps to the other variables"
+    )
+
+
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """Eliminate and write the export; returns the lines to print and whether it is whole.
+
+    Raises:
+        UsageError: for bad input, or an export that cannot be written.
+    """
+    from nag.cli.progress import compilation_notice
+
+    started = time.perf_counter()
+    if options.json is not None:
+        check_json(options.json, options.case)
+    if options.at is not None and options.component is not None:
+        raise UsageError("--at: --component names a component already; give one of the two")
+    with compilation_notice(sys.stderr, options.quiet):
+        from nag.interpolation.image_ideal import image_ideal
+        from nag.interpolation.precise_samples import SourceError
+        from nag.interpolation.vanishing import InterpolationError
+
+        try:
+            origin, cloud, top, tail = _cloud(options)
+            onto = _onto(options.onto, cloud.ambient.system.variables)
+            found = image_ideal(cloud, onto, options.degree, options.polynomial)
+        except (SourceError, InterpolationError) as error:
+            raise UsageError(f"{options.case}: {error}") from None
+    complete = not found.note and not tail
+    if options.json is not None:
+        write_document(_document(found, origin, options, complete), options.json)
+    return _lines(found, origin["title"], top, tail, options, started), complete
+
+
+def _lines(
+    found: ImageIdeal,
+    title: str,
+    top: list[tuple[str, str]],
+    tail: list[tuple[str, str]],
+    options: argparse.Namespace,
+    started: float,
+) -> list[str]:
+    from nag.report.elimination import elimination_lines, essential_text, image_text
+    from nag.report.table import labelled, printable
+
+    head = [*top, ("onto", _onto_text(found))]
+    head += [("image", image_text(found)), ("essential", essential_text(found))]
+    points, worst = found.fresh
+    tail = [
+        *([("open", found.note)] if found.note else []),
+        *tail,
+        (
+            "checked",
+            f"at {points} fresh random points: equations and maps hold to {-worst:.0f} digits"
+            if found.generators or found.maps
+            else "nothing to check",
+        ),
+        (
+            "run",
+            f"seed {options.seed}, settings {options.settings}, "
+            + (f"coefficients recognised in {found.digits} digits, " if found.digits else "")
+            + f"{time.perf_counter() - started:.1f} s",
+        ),
+    ]
+    width = max(len(label) for label, _ in head + tail)
+    lines = [printable(title), "", *labelled(head, width), "", *elimination_lines(found), ""]
+    return [*lines, *labelled(tail, width)]
+
+
+def _onto_text(found: ImageIdeal) -> str:
+    names = ", ".join(found.names)
+    return f"{names}, degrees up to {found.degree}" if found.degree else names
+
+
+def _onto(text: str | None, variables: tuple[str, ...]) -> tuple[int, ...] | None:
+    """Indices of the variables that ``--onto`` names."""
+    from nag.algebra.tokens import nearest, quote
+
+    if text is None:
+        return None
+    names = [name.strip() for name in text.split(",")]
+    for name in names:
+        if name not in variables:
+            raise UsageError(
+                f"--onto: {quote(name)} is not one of the variables{nearest(name, variables)}; "
+                "`nag model` prints them, --formulation E has Euler parameters"
+            )
+    if len(set(names)) < len(names):
+        raise UsageError("--onto: a variable is given twice")
+    return tuple(variables.index(name) for name in names)
+
+
+Labelled = list[tuple[str, str]]
+
+
+def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled, Labelled]:
+    """Title and file of the case, the points, and what is said of them at the top and below."""
+    import numpy as np
+
+    from nag.interpolation.point_cloud import Ambient, Cloud
+    from nag.interpolation.precise_samples import source_of_component
+    from nag.report.answer import body_rows
+    from nag.witness.fibres import Tracker
+
+    rng = np.random.default_rng([options.seed, 4])
+    tracker = Tracker(options.settings, options.threads)
+    model, top = None, []
+    if not is_export(options.case):
+        if options.component is None and options.formulation is None:
+            options.formulation = _euler(options)
+        case, model = read_problem(options)
+        top = body_rows(model) if model is not None else []
+        if options.at is not None or (model is not None and options.component is None):
+            return _through_point(options, case, model, rng, tracker, top)
+    elif options.at is not None:
+        raise UsageError("--at: is for cases; of an export name a --component")
+    found = given(options)
+    number = options.component or 1
+    component = component_of(found, number, "--component")
+    system = found.decomposition.system
+    ambient = _ambient(model) if model is not None else Ambient.itself(system)
+    kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
+    top = [("component", f"{kind}, {component.status}"), *top]
+    tail = [*doubts(found), *([("open", component.note)] if component.note else [])]
+    cloud = Cloud(source_of_component(system, component), ambient, rng, tracker)
+    return {"title": found.title, "file": found.file}, cloud, top, tail
+
+
+def _euler(options: argparse.Namespace) -> str | None:
+    """Euler parameters for a mechanism, in which the papers write; nothing for a system."""
+    from nag.files.cases import CaseError, read_case
+
+    try:
+        return None if read_case(options.case).mechanism is None else "E"
+    except (CaseError, OSError):
+        return None
+
+
+def _through_point(
+    options: argparse.Namespace,
+    case: Any,
+    model: Model | None,
+    rng: np.random.Generator,
+    tracker: Any,
+    top: Labelled,
+) -> tuple[dict[str, str], Cloud, Labelled, Labelled]:
+    from pathlib import Path
+
+    from nag.files.problem import points_of, system_of
+    from nag.interpolation.point_cloud import Ambient, Cloud
+    from nag.interpolation.precise_samples import SourceError, source_at
+
+    system = system_of(case, model)
+    ambient = Ambient.itself(system) if model is None else _ambient(model)
+    points = dict(points_of(case, model)) if model is None else {"reference": model.reference}
+    name = options.at or "reference"
+    if name in points:
+        point = tuple(points[name])
+    else:
+        whole = point_at(name, ambient.system.variables)
+        point = tuple(whole[i] for i in ambient.kept)
+        if any(f(point) != x for f, x in zip(ambient.images, whole, strict=True)):
+            raise UsageError("--at: the point does not satisfy the equations")
+    try:
+        source = source_at(system, point, rng)
+    except SourceError as error:
+        what = "the reference configuration: " if name == "reference" else "--at: "
+        raise UsageError(f"{options.case}: {what}{error}; or name a --component") from None
+    which = "the reference configuration" if name == "reference" else name
+    top = [("component", f"through {which}, of dimension {source.dimension}"), *top]
+    origin = {"title": case.title, "file": Path(case.path).name}
+    return origin, Cloud(source, ambient, rng, tracker), top, []
+
+
+def _ambient(model: Model) -> Ambient:
+    """All variables of a model, where linear equations left only some in its system."""
+    from nag.interpolation.point_cloud import Ambient
+
+    elimination = getattr(model.form, "elimination", None)
+    if elimination is None:
+        return Ambient.itself(model.system)
+    names, kept = elimination.original_variables, elimination.kept
+    return Ambient.of(model.system, names, kept, elimination.images)
+
+
+def _document(
+    found: ImageIdeal, origin: dict[str, str], options: argparse.Namespace, complete: bool
+) -> dict[str, Any]:
+    """The export."""
+    from nag.report.elimination import whole_fraction
+
+    maps = []
+    for m, proof in zip(found.maps, found.map_proofs, strict=True):
+        above, below = (f.text(found.names) for f in whole_fraction(m))
+        variable = found.variables[m.variable]
+        maps.append(
+            {"variable": variable, "numerator": above, "denominator": below, "proof": proof}
+        )
+    return {
+        "format": FORMAT,
+        "version": 1,
+        "case": origin,
+        "seed": options.seed,
+        "settings": options.settings,
+        "complete": complete,
+        "variables": list(found.variables),
+        "onto": list(found.names),
+        "dimension": found.dimension,
+        "component_dimension": found.component_dimension,
+        "degree": found.degree,
+        "equations": [
+            {"polynomial": f.text(found.names), "proof": proof}
+            for f, proof in zip(found.generators, found.generator_proofs, strict=True)
+        ],
+        "maps": maps,
+        "missing": [found.variables[i] for i in found.missing],
+        "zeros": {"dimension": found.zeros[0], "degree": found.zeros[1]},
+        "cuts": found.cuts,
+        "defines": found.defines,
+        "digits": found.digits,
+        "fresh": {"points": found.fresh[0], "digits": max(0, round(-found.fresh[1]))}
+        if found.generators or found.maps
+        else None,
+        "note": found.note,
+    }

@@ -1,0 +1,114 @@
+"""Certificates as JSON, written only: whoever doubts one computes it again from the export.
+
+The format is ``nag-certificate``, version 1; its JSON Schema is in ``schema/`` beside this module.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from importlib import resources
+from typing import Any
+
+from nag.files.json_text import lay_out, pairs, real_or_null, system_document
+from nag.files.written_file import write_target
+from nag.numerics.certified_points import CertifiedPoints
+from nag.solving.certificate import SolutionsCertificate
+from nag.witness.certificate import DecompositionCertificate
+
+FORMAT = "nag-certificate"
+VERSION = 1
+# Decimal digits of the centres of boxes for which doubles do not suffice.
+DIGITS = 60
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of the format."""
+    name = f"{FORMAT}-{VERSION}.json"
+    return json.loads((resources.files("nag.files") / "schema" / name).read_text("utf-8"))
+
+
+def _points(points: CertifiedPoints) -> list[dict[str, Any]]:
+    boxes, errors, centres = points.boxes, points.errors(), pairs(points.boxes.centres)
+    documents = []
+    for i, proof in enumerate(points.proofs):
+        document: dict[str, Any] = {"proof": str(proof), "refuted": i in points.refuted}
+        if boxes.proved[i]:
+            document |= {
+                "centre": centres[i],
+                "inner": boxes.inner[i].tolist(),
+                "outer": boxes.outer[i].tolist(),
+                "error": real_or_null(float(errors[i])),
+                "digits": real_or_null(float(points.digits[i])),
+            }
+        if i in boxes.fine:
+            document["decimals"] = [
+                [z.real.str(DIGITS, radius=False), z.imag.str(DIGITS, radius=False)]
+                for z in boxes.fine[i].centre
+            ]
+        documents.append(document)
+    return documents
+
+
+def _reality(certificate: SolutionsCertificate) -> list[bool | None]:
+    return [
+        True if real else False if other else None
+        for real, other in zip(certificate.real, certificate.not_real, strict=True)
+    ]
+
+
+def solutions_document(certificate: SolutionsCertificate) -> dict[str, Any]:
+    """The certificate of solutions as a JSON object."""
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "of": "solutions",
+        "system": system_document(certificate.result.system),
+        "all_proved": certificate.all_proved,
+        "complete": certificate.complete,
+        "bound": certificate.bound,
+        "simple": certificate.simple,
+        "real": _reality(certificate),
+        "same": [list(pair) for pair in certificate.same],
+        "unknown": [list(pair) for pair in certificate.unknown],
+        "points": _points(certificate.points),
+    }
+
+
+def decomposition_document(certificate: DecompositionCertificate) -> dict[str, Any]:
+    """The certificate of a decomposition as a JSON object."""
+    components = [
+        {
+            "dimension": c.component.dimension,
+            "degree": c.component.degree,
+            "distinct": c.distinct,
+            "slice": {"A": pairs(c.component.slice.A), "b": pairs(c.component.slice.b)},
+            "points": _points(c.points),
+        }
+        for c in certificate.components
+    ]
+    bounds = sorted(certificate.bounds.items(), reverse=True)
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "of": "decomposition",
+        "system": system_document(certificate.decomposition.system),
+        "all_proved": certificate.all_proved,
+        "complete": certificate.complete,
+        "bound": certificate.most,
+        "degrees": [{"dimension": d, "at_least": int(k)} for d, k in bounds],
+        "components": components,
+    }
+
+
+def write_certificate(
+    certificate: SolutionsCertificate | DecompositionCertificate, path: str | os.PathLike[str]
+) -> None:
+    """Write the certificate to ``path`` in one step.
+
+    Raises:
+        nag.files.written_file.TargetError: if the file cannot be written.
+    """
+    solved = isinstance(certificate, SolutionsCertificate)
+    document = (solutions_document if solved else decomposition_document)(certificate)
+    write_target(path, lay_out(document) + "\n")

@@ -1,0 +1,210 @@
+"""Essential variables: those from which all others follow by a polynomial or rational map.
+
+T25 section 2.3, PT13 definition 2.1. A variable y is a rational function of the essential ones
+where a monomial times y is a combination of smaller monomials, with and without the factor y.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import inf
+
+import flint
+
+from nag.algebra.polynomial import Polynomial
+from nag.interpolation.point_cloud import Cloud, Exponents, monomial_values, real_rows
+from nag.interpolation.vanishing import (
+    DIGITS,
+    MORE_POINTS,
+    MOST_MONOMIALS,
+    Interpolated,
+    InterpolationError,
+    next_degree,
+    start,
+)
+from nag.numerics.rational_relations import Echelon, TooFewDigitsError
+
+# Largest degree of a numerator that is looked at, and while essential variables are chosen.
+MOST_DEGREE = 4
+CHOOSING_DEGREE = 2
+
+
+@dataclass(frozen=True, eq=False)
+class VariableMap:
+    """A variable as a quotient of polynomials in the essential ones.
+
+    Attributes:
+        variable: its index.
+        numerator, denominator: polynomials in the essential variables; the denominator is a
+            constant where the map is polynomial.
+    """
+
+    variable: int
+    numerator: Polynomial
+    denominator: Polynomial
+
+    @property
+    def polynomial(self) -> bool:
+        return self.denominator.degree == 0
+
+
+def known_to(cloud: Cloud, known: Interpolated, degree: int) -> Interpolated:
+    """What vanishes, up to a degree at least.
+
+    Raises:
+        InterpolationError: as `next_degree`.
+    """
+    while known.degree < degree:
+        known = next_degree(cloud, known)
+    return known
+
+
+def maps(
+    cloud: Cloud,
+    known: Interpolated,
+    targets: Sequence[int],
+    most_degree: int = MOST_DEGREE,
+    polynomial: bool = False,
+) -> tuple[VariableMap, ...]:
+    """Maps of least degree to those of the targets that have one, polynomial ones first.
+
+    Args:
+        known: the essential variables, with what is known to vanish.
+        most_degree: of the numerators.
+        polynomial: whether no other maps are looked for.
+
+    Raises:
+        InterpolationError: if the image's polynomials of low degree are not found.
+    """
+    found: list[VariableMap] = []
+    left = list(targets)
+    for degree in range(1, most_degree + 1):
+        if not left:
+            break
+        try:
+            known = known_to(cloud, known, degree)
+        except InterpolationError:
+            if degree == 1:
+                raise
+            break
+        standard = [e for e in known.standard if sum(e) <= degree]
+        lower = [] if polynomial else [e for e in standard if sum(e) < degree]
+        if len(standard) + len(lower) > MOST_MONOMIALS:
+            break
+        found += _of_degree(cloud, known.coordinates, standard, lower, left)
+        left = [y for y in left if all(m.variable != y for m in found)]
+    return tuple(sorted(found, key=lambda m: m.variable))
+
+
+def _of_degree(
+    cloud: Cloud,
+    coordinates: Sequence[int],
+    standard: Sequence[Exponents],
+    lower: Sequence[Exponents],
+    targets: Sequence[int],
+) -> list[VariableMap]:
+    """Maps with numerators among the monomials ``standard`` and denominators among ``lower``."""
+    found: dict[int, VariableMap | None] = {}
+    for digits in DIGITS:
+        count = (len(standard) + len(lower) + 1) // 2 + MORE_POINTS
+        points = cloud.balls(count, digits)
+        with flint.ctx.workdps(digits + 20):
+            values = monomial_values([[p[i] for i in coordinates] for p in points], standard)
+            echelon = Echelon(2 * count, digits)
+            try:
+                for e in standard:
+                    echelon.add(real_rows(values[e]))
+            except TooFewDigitsError:
+                continue
+            for y in (y for y in targets if y not in found):
+                try:
+                    factor = [p[y] for p in points]
+                    found[y] = _map(echelon, y, factor, values, standard, lower)
+                except TooFewDigitsError:
+                    continue
+        if len(found) == len(targets):
+            break
+    return [m for m in found.values() if m is not None]
+
+
+def _map(
+    echelon: Echelon,
+    variable: int,
+    factor: Sequence[flint.acb],
+    values: dict[Exponents, list[flint.acb]],
+    standard: Sequence[Exponents],
+    lower: Sequence[Exponents],
+) -> VariableMap | None:
+    k = len(standard[0])
+    one = Polynomial.constant(k, 1)
+    relation = echelon.relation(real_rows(factor))
+    if relation is not None:
+        return VariableMap(variable, _combination(k, standard, relation), one)
+    echelon = echelon.copy()
+    for i, e in enumerate(lower):
+        column = real_rows([x * y for x, y in zip(values[e], factor, strict=True)])
+        relation = echelon.add(column)
+        if relation is not None:
+            numerator = _combination(k, standard, relation[: len(standard)])
+            below = _combination(k, lower[:i], relation[len(standard) :])
+            return VariableMap(variable, numerator, Polynomial(k, {e: Fraction(1)}) - below)
+    return None
+
+
+def _combination(k: int, monomials: Sequence[Exponents], c: Sequence[Fraction]) -> Polynomial:
+    return Polynomial(k, dict(zip(monomials, c, strict=False)))
+
+
+def essential_variables(cloud: Cloud, polynomial: bool = False) -> tuple[int, ...]:
+    """A set of variables, none of which can be left out, that determine all others.
+
+    Linear combinations of earlier variables are left out first, then polynomials in the remaining
+    ones, then rational functions of them, the simplest first. Maps are looked at up to a numerator
+    of degree `CHOOSING_DEGREE`, so a choice of fewer variables may exist.
+
+    Args:
+        polynomial: whether rational functions are no reason to leave a variable out.
+    """
+    chosen = _linearly_independent(cloud)
+    for only in (True,) if polynomial else (True, False):
+        ranked = sorted((_complexity(cloud, chosen, i, only), -i) for i in chosen)
+        for complexity, i in ranked:
+            if complexity == inf:
+                break
+            if _complexity(cloud, chosen, -i, only) < inf:
+                chosen = [j for j in chosen if j != -i]
+    return tuple(chosen)
+
+
+def _complexity(cloud: Cloud, chosen: Sequence[int], variable: int, polynomial: bool) -> float:
+    """Number of terms of the map to one of the chosen variables from the others; inf if none."""
+    rest = [i for i in chosen if i != variable]
+    if not rest or cloud.image_dimension(rest) < cloud.source.dimension:
+        return inf
+    try:
+        found = maps(cloud, start(rest), [variable], CHOOSING_DEGREE, polynomial)
+    except InterpolationError:
+        return inf
+    if not found:
+        return inf
+    return len(found[0].numerator.terms) + len(found[0].denominator.terms)
+
+
+def _linearly_independent(cloud: Cloud) -> list[int]:
+    n, digits = cloud.ambient.system.n, DIGITS[0]
+    count = (n + 2) // 2 + MORE_POINTS
+    points = cloud.balls(count, digits)
+    chosen = []
+    with flint.ctx.workdps(digits + 20):
+        echelon = Echelon(2 * count, digits)
+        echelon.add(real_rows([flint.acb(1)] * count))
+        for i in range(n):
+            try:
+                dependent = echelon.add(real_rows([p[i] for p in points])) is not None
+            except TooFewDigitsError:
+                dependent = False
+            if not dependent:
+                chosen.append(i)
+    return chosen

@@ -1,0 +1,260 @@
+"""The image of a component in some of the variables: its equations, and the way back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.hilbert import dimension_and_degree
+from nag.algebra.polynomial import Polynomial
+from nag.interpolation.essential import VariableMap, essential_variables, maps
+from nag.interpolation.point_cloud import Cloud
+from nag.interpolation.proof import (
+    FRESH_POINTS,
+    Substitution,
+    cleared_map,
+    equations_ideal,
+    largest_value,
+    proved_by_reduction,
+    substitution,
+)
+from nag.interpolation.vanishing import (
+    DIGITS,
+    Interpolated,
+    InterpolationError,
+    TooManyMonomialsError,
+    leading_monomial,
+    next_degree,
+    primitive,
+    start,
+)
+from nag.witness.cutting import numerical_corank
+
+# Where no degree is asked for, no higher one is looked at.
+MOST_DEGREE = 12
+# Degrees beyond the one that makes a curve a component of the zeros, while there are not more
+# independent functions than this, to learn whether it is the only one.
+MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
+SMALL = 1e-5
+
+
+@dataclass(frozen=True, eq=False)
+class ImageIdeal:
+    """What is known of the closure of the image of a component.
+
+    Polynomials have rational coefficients: of a component that is not kept by the conjugation of
+    complex numbers, it is the image together with its conjugate.
+
+    Attributes:
+        variables: names of all variables.
+        coordinates: indices of those that the image is in.
+        dimension: of the image.
+        component_dimension: of the component.
+        degree: degree up to which all polynomials that vanish were found.
+        generators: polynomials in the ``coordinates`` with coprime whole coefficients.
+        generator_proofs: for each, ``"substitution"``, ``"reduction"`` (proofs) or ``"points"``.
+        maps: for those of the other variables that have one.
+        map_proofs: likewise.
+        zeros: dimension of the generators' common zeros, or a bound of it where it is not that of
+            the image, and a bound of their degree.
+        cuts: whether the image is a component of these.
+        defines: whether it is certain that these are the image but for sets of lower dimension.
+        digits: in which the coefficients were recognised.
+        fresh: number of points, and the decimal logarithm of the largest value there, of a test
+            of everything at new points.
+        note: why degrees are missing; empty otherwise.
+    """
+
+    variables: tuple[str, ...]
+    coordinates: tuple[int, ...]
+    dimension: int
+    component_dimension: int
+    degree: int
+    generators: tuple[Polynomial, ...]
+    generator_proofs: tuple[str, ...]
+    maps: tuple[VariableMap, ...]
+    map_proofs: tuple[str, ...]
+    zeros: tuple[int, int]
+    cuts: bool
+    defines: bool
+    digits: int
+    fresh: tuple[int, float]
+    note: str = ""
+
+    @property
+    def missing(self) -> tuple[int, ...]:
+        """Variables without a map."""
+        known = {*self.coordinates, *(m.variable for m in self.maps)}
+        return tuple(i for i in range(len(self.variables)) if i not in known)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the coordinates."""
+        return tuple(self.variables[i] for i in self.coordinates)
+
+
+def image_ideal(
+    cloud: Cloud,
+    coordinates: Sequence[int] | None = None,
+    degree: int | None = None,
+    polynomial_maps: bool = False,
+    progress: Callable[[str], None] | None = None,
+) -> ImageIdeal:
+    """Equations of the image of a component, and maps from there to the other variables.
+
+    Args:
+        coordinates: indices of variables; essential ones are chosen if there are none.
+        degree: highest degree of the equations; by default the one from which on these define the
+            image, or at least cut it down to its dimension.
+        polynomial_maps: whether only polynomial maps to the other variables are looked for.
+        progress: told what comes next.
+
+    Raises:
+        InterpolationError: if coefficients are not rational.
+        SourceError: if points cannot be sampled.
+    """
+    tell = progress or (lambda _: None)
+    if coordinates is None:
+        tell("choosing essential variables")
+        coordinates = essential_variables(cloud, polynomial_maps)
+    coordinates = tuple(coordinates)
+    dimension = cloud.image_dimension(coordinates)
+    tell("interpolating equations")
+    known, note = _equations(cloud, coordinates, dimension, degree)
+    tell("interpolating maps")
+    others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
+    found: tuple[VariableMap, ...] = ()
+    if dimension == cloud.source.dimension:
+        found = maps(cloud, known, others, polynomial=polynomial_maps)
+    generators = tuple(primitive(f) for f in known.generators)
+    tell("proving")
+    n = cloud.ambient.system.n
+    statements = [f.with_variables(n, coordinates) for f in generators]
+    statements += [cleared_map(m, n, coordinates) for m in found]
+    proofs = _proofs(cloud, known, found, statements)
+    worst = largest_value(cloud, statements, 2 * max(known.digits, DIGITS[0]))
+    return ImageIdeal(
+        variables=cloud.ambient.system.variables,
+        coordinates=coordinates,
+        dimension=dimension,
+        component_dimension=cloud.source.dimension,
+        degree=known.degree,
+        generators=generators,
+        generator_proofs=tuple(proofs[: len(generators)]),
+        maps=found,
+        map_proofs=tuple(proofs[len(generators) :]),
+        zeros=_zeros(known),
+        cuts=_cuts(cloud, known, dimension),
+        defines=_defines(known, dimension),
+        digits=known.digits,
+        fresh=(FRESH_POINTS, worst),
+        note=note,
+    )
+
+
+def _equations(
+    cloud: Cloud, coordinates: tuple[int, ...], dimension: int, degree: int | None
+) -> tuple[Interpolated, str]:
+    """All equations up to a degree, and why some are missing."""
+    known, k = start(coordinates), len(coordinates)
+    if dimension == k:
+        return known, ""
+    last = cut_at = degree or MOST_DEGREE
+    while known.degree < last:
+        try:
+            known = next_degree(cloud, known)
+        except TooManyMonomialsError as error:
+            if not known.degree:
+                raise
+            return known, "" if cut_at < MOST_DEGREE and degree is None else str(error)
+        if degree is not None or not _cuts(cloud, known, dimension):
+            continue
+        cut_at = min(cut_at, known.degree)
+        enough = dimension > 1 or len(known.standard) > ENOUGH_MONOMIALS
+        if enough or _defines(known, dimension):
+            return known, ""
+        last = min(last, cut_at + MORE_DEGREES)
+    cut = _cuts(cloud, known, dimension)
+    missing = f"equations up to degree {known.degree} do not cut out the image"
+    return known, "" if cut or degree is not None else missing
+
+
+def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
+    """Whether the generators' gradients at a random point leave the image's tangents alone."""
+    k = len(known.coordinates)
+    if dimension == k or len(known.generators) < k - dimension:
+        return dimension == k
+    point = cloud.samples(1)[0].x
+    base = [cloud.ambient.images[i](list(point), complex) for i in known.coordinates]
+    rows = [[f.derivative(i)(base, complex) for i in range(k)] for f in known.generators]
+    gradients = np.array([np.array(row) / max(1e-300, np.linalg.norm(row)) for row in rows])
+    singular = np.linalg.svd(gradients.reshape(len(rows), k), compute_uv=False)
+    return numerical_corank(singular, k, SMALL) == dimension
+
+
+def _zeros(known: Interpolated) -> tuple[int, int]:
+    """Dimension of the equations' common zeros, and a bound of their degree.
+
+    Those of the leading monomials that are known. The zeros lie in no smaller dimension than the
+    image; where the dimensions agree, their degree is at most that of these monomials.
+    """
+    monomials = [leading_monomial(f) for f in known.basis]
+    return dimension_and_degree(monomials, len(known.coordinates))
+
+
+def _defines(known: Interpolated, dimension: int) -> bool:
+    """Whether it is certain that the image is all of the zeros but for sets of lower dimension.
+
+    The image is irreducible and lies among them, so it is enough that dimension and degree agree.
+    A hypersurface's equation of least degree is irreducible. The degree of a curve is at least the
+    number of functions that one degree more adds (its hyperplane section has no fewer conditions).
+    """
+    k, zeros = len(known.coordinates), _zeros(known)
+    if zeros[0] != dimension:
+        return False
+    if dimension >= k - 1 or zeros[1] == 1:
+        return True
+    return dimension == 1 and known.counts[-1] - known.counts[-2] >= zeros[1]
+
+
+def _proofs(
+    cloud: Cloud,
+    known: Interpolated,
+    found: Sequence[VariableMap],
+    statements: Sequence[Polynomial],
+) -> list[str]:
+    """What each statement, a polynomial in all variables that vanishes, rests on."""
+    if not statements:
+        return []
+    base = _base(cloud, known, found) or _essential_base(cloud)
+    ideal = equations_ideal(cloud) if base is None else None
+    proofs = []
+    for f in statements:
+        if base is not None and base.proves(f):
+            proofs.append("substitution")
+        elif ideal is not None and proved_by_reduction(cloud, ideal, f):
+            proofs.append("reduction")
+        else:
+            proofs.append("points")
+    return proofs
+
+
+def _essential_base(cloud: Cloud) -> Substitution | None:
+    """The component as the image of its projection to essential variables, if that is proved."""
+    if cloud.source.exact is None:
+        return None
+    try:
+        coordinates = essential_variables(cloud)
+        dimension = cloud.image_dimension(coordinates)
+        known, _ = _equations(cloud, coordinates, dimension, None)
+        others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
+        found = maps(cloud, known, others)
+    except InterpolationError:
+        return None
+    return _base(cloud, known, found)
+
+
+def _base(cloud: Cloud, known: Interpolated, found: Sequence[VariableMap]) -> Substitution | None:
+    return substitution(cloud, known.coordinates, known.generators, known.basis, found)

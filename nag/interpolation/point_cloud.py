@@ -1,0 +1,145 @@
+"""As many random points of a component, in as many digits, as an interpolation asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import flint
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.interpolation.precise_samples import SPARE, Sample, Source, samples
+from nag.numerics.digits import number
+from nag.witness.cutting import numerical_corank
+from nag.witness.fibres import Tracker
+from nag.witness.slices import padded
+
+# A singular value beside the largest, from which a tangent direction is lost in the projection.
+SMALL = 1e-5
+
+Exponents = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Ambient:
+    """The variables that polynomials are looked for in, as polynomials in those of a system.
+
+    Attributes:
+        system: the equations in all these variables: those of the system, and what makes the
+            others out of its variables.
+        kept: place of each variable of the smaller system among them.
+        images: each variable as a polynomial in the smaller system's variables.
+    """
+
+    system: PolynomialSystem
+    kept: tuple[int, ...]
+    images: tuple[Polynomial, ...]
+
+    @classmethod
+    def of(
+        cls,
+        system: PolynomialSystem,
+        names: Sequence[str],
+        kept: Sequence[int],
+        images: Sequence[Polynomial],
+    ) -> Ambient:
+        """The variables ``names``, of which ``system`` keeps those at ``kept``."""
+        n = len(names)
+        equations = [f.with_variables(n, kept) for f in system.polynomials]
+        for i, image in enumerate(images):
+            if i not in kept:
+                equations.append(Polynomial.variable(n, i) - image.with_variables(n, kept))
+        whole = PolynomialSystem(tuple(names), tuple(equations))
+        return cls(whole, tuple(kept), tuple(images))
+
+    @classmethod
+    def itself(cls, system: PolynomialSystem) -> Ambient:
+        """The variables of the system and no others."""
+        plain = replace(system, nonzero=(), groups=())
+        return cls(plain, tuple(range(system.n)), Polynomial.variables(system.n))
+
+
+class Cloud:
+    """Random points of a component, found when they are asked for and kept.
+
+    Attributes:
+        source: what they are sampled from.
+        ambient: the variables in which they are given.
+    """
+
+    def __init__(
+        self, source: Source, ambient: Ambient, rng: np.random.Generator, tracker: Tracker
+    ) -> None:
+        self.source, self.ambient = source, ambient
+        self._rng, self._tracker = rng, tracker
+        self._samples: list[Sample] = []
+        self._balls: dict[int, list[list[flint.acb]]] = {}
+
+    @property
+    def count(self) -> int:
+        """How many points are there so far."""
+        return len(self._samples)
+
+    def samples(self, count: int) -> list[Sample]:
+        """The first ``count`` points."""
+        missing = count - len(self._samples)
+        if missing > 0:
+            self._samples += samples(self.source, missing, self._rng, self._tracker)
+        return self._samples[:count]
+
+    def balls(self, count: int, digits: int) -> list[list[flint.acb]]:
+        """The first ``count`` points in all variables, as balls of so many digits."""
+        known = self._balls.setdefault(digits, [])
+        for sample in self.samples(count)[len(known) :]:
+            point = sample.balls(digits)
+            with flint.ctx.workdps(digits + SPARE):
+                known.append([flint.acb(f(point, number)) for f in self.ambient.images])
+        return known[:count]
+
+    def image_dimension(self, coordinates: Sequence[int]) -> int:
+        """Dimension of the closure of the component's image in some of the variables."""
+        sample = self.samples(1)[0]
+        tangent = _tangent(sample)
+        derivatives = np.zeros((len(coordinates), len(sample.x)), dtype=complex)
+        for row, i in enumerate(coordinates):
+            image = self.ambient.images[i]
+            for j in image.support:
+                derivatives[row, j] = image.derivative(j)(list(sample.x), complex)
+        singular = np.linalg.svd(derivatives @ tangent, compute_uv=False)
+        d = tangent.shape[1]
+        return d - numerical_corank(singular, d, SMALL)
+
+
+def _tangent(sample: Sample) -> np.ndarray:
+    """Orthonormal basis of the tangent space at a point, shape ``(n, d)``."""
+    jacobian = sample.cut.evaluator.jacobian(sample.z)
+    rows = padded(sample.rows, 1 + len(sample.z))[:, 1:]
+    directions = np.linalg.inv(np.vstack([jacobian, rows]))[: len(sample.x), len(jacobian) :]
+    q, _ = np.linalg.qr(directions)
+    return q
+
+
+def monomial_values(
+    points: Sequence[Sequence[flint.acb]], monomials: Sequence[Exponents]
+) -> dict[Exponents, list[flint.acb]]:
+    """Values of monomials at points, each by one product from the one below it."""
+    one = (0,) * len(points[0])
+    values = {one: [flint.acb(1)] * len(points)}
+
+    def value(e: Exponents) -> list[flint.acb]:
+        if e not in values:
+            i = next(i for i, k in enumerate(e) if k)
+            below = value((*e[:i], e[i] - 1, *e[i + 1 :]))
+            values[e] = [x * p[i] for x, p in zip(below, points, strict=True)]
+        return values[e]
+
+    for e in monomials:
+        value(e)
+    return values
+
+
+def real_rows(column: Sequence[flint.acb]) -> list[flint.arb]:
+    """Real and imaginary parts: polynomials with real coefficients vanish at both or neither."""
+    return [z.real for z in column] + [z.imag for z in column]

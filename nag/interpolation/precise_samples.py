@@ -1,0 +1,203 @@
+"""Random points of a component in as many digits as are asked for.
+
+One regular point of a component is enough to begin with: it moves with the slice through it to
+random slices, and Newton's method on the equations that cut the component there does the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import flint
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.number import Number
+from nag.algebra.system import PolynomialSystem
+from nag.numerics.digits import number
+from nag.witness.cutting import ON, Cut, Equations, find_cut, sharpen
+from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.membership import component_fibres
+from nag.witness.slices import padded, random_rows, rows_through, unit_complex
+from nag.witness.witness import WitnessSet
+
+ATTEMPTS = 4
+# Digits beyond those asked for in which Newton's method computes.
+SPARE = 25
+# Each step of Newton's method with a Jacobian in doubles gains at least this many digits.
+GAIN = 4
+
+
+class SourceError(ValueError):
+    """Points that cannot be sampled from; the message is one line."""
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """Regular points of one component, with the equations that cut it there.
+
+    Attributes:
+        system: the equations of the component and perhaps of others.
+        rows: the slice that the points lie on.
+        fibres: the points.
+        exact: the one point that was given exactly; None for witness points.
+    """
+
+    system: PolynomialSystem
+    rows: np.ndarray
+    fibres: tuple[Fibre, ...]
+    exact: tuple[Fraction, ...] | None = None
+
+    @property
+    def dimension(self) -> int:
+        return len(self.rows)
+
+
+def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Source:
+    """The witness points of a component.
+
+    Raises:
+        SourceError: if the coefficients are irrational or nothing moves.
+    """
+    _check_rational(system)
+    if component.dimension == 0:
+        raise SourceError("the component is a point; there is nothing to eliminate from")
+    return Source(system, component.slice.rows, tuple(component_fibres(system, component)))
+
+
+def source_at(
+    system: PolynomialSystem, point: Sequence[Number], rng: np.random.Generator
+) -> Source:
+    """The one component through an exact point where the equations are regular.
+
+    Raises:
+        SourceError: if the coefficients or the point are irrational, or the point is no zero, is
+            isolated, or is not regular.
+    """
+    _check_rational(system)
+    if not all(isinstance(x, Fraction) for x in point):
+        raise SourceError("the point has irrational coordinates; only rational ones are taken")
+    if any(f(point) != 0 for f in system.polynomials):
+        raise SourceError("the point does not satisfy the equations")
+    dimension = system.n - jacobian_rank(system, point)
+    if dimension == 0:
+        raise SourceError("the point is isolated; there is nothing to eliminate from")
+    x = np.array([complex(float(c)) for c in point])
+    rows = rows_through(rng, dimension, x)
+    found = find_cut(Equations(system.polynomials, system.n), rows, x, 1e-15, rng, False)
+    if found is None:
+        raise SourceError("the point is too near to a singular one")
+    cut, z = found
+    fibre = Fibre(cut, dimension, z[None])
+    return Source(system, rows, (fibre,), tuple(Fraction(c) for c in point))
+
+
+def _check_rational(system: PolynomialSystem) -> None:
+    if not system.exact:
+        raise SourceError(
+            "the equations have irrational coefficients; only rational ones are taken"
+        )
+
+
+def jacobian_rank(system: PolynomialSystem, point: Sequence[Fraction]) -> int:
+    """Rank of the Jacobian at a rational point, exactly."""
+    rows = [[f(point) for f in row] for row in system.jacobian]
+    entries = [flint.fmpq(x.numerator, x.denominator) for row in rows for x in row]
+    return int(flint.fmpq_mat(len(rows), system.n, entries).rank()) if rows else 0
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """A point, in doubles, and what defines it: equations and a slice of doubles.
+
+    Attributes:
+        z: affine, with the unknowns that deflation added.
+    """
+
+    cut: Cut
+    rows: np.ndarray
+    z: np.ndarray
+
+    @property
+    def x(self) -> np.ndarray:
+        return self.z[: self.cut.n]
+
+    def balls(self, digits: int) -> list[flint.acb]:
+        """The coordinates as balls of radius ``10^-digits``, relative above one.
+
+        Raises:
+            SourceError: if Newton's method does not converge.
+        """
+        scales = [max(abs(float(c)) for c in f.terms.values()) for f in self.cut.polynomials]
+        rows = padded(self.rows, 1 + len(self.z))
+        jacobian = self.cut.evaluator.jacobian(self.z)
+        inverse = np.linalg.inv(np.vstack([jacobian, rows[:, 1:]]))
+        with flint.ctx.workdps(digits + SPARE):
+            point = [flint.acb(complex(x)) for x in self.z]
+            slices = [[flint.acb(complex(c)) for c in row] for row in rows]
+            small = flint.arb(10) ** (-digits - SPARE // 2)
+            for _ in range(4 + digits // GAIN):
+                values = [
+                    f(point, number) / s for f, s in zip(self.cut.polynomials, scales, strict=True)
+                ]
+                for row in slices:
+                    values.append(sum((c * x for c, x in zip(row[1:], point, strict=True)), row[0]))
+                values = [_middle(v) for v in values]
+                size = max((abs(v).mid() for v in values), default=flint.arb(0))
+                if size < small:
+                    break
+                step = inverse @ np.array([complex(v / size) for v in values])
+                point = [
+                    _middle(x - size * flint.acb(complex(d)))
+                    for x, d in zip(point, step, strict=True)
+                ]
+            else:
+                raise SourceError("Newton's method does not converge at a sampled point")
+            radius = flint.arb(10) ** -digits
+            return [_widened(x, radius * (1 + abs(x).mid())) for x in point[: self.cut.n]]
+
+
+def _middle(z: flint.acb) -> flint.acb:
+    z = flint.acb(z)
+    return flint.acb(z.real.mid(), z.imag.mid())
+
+
+def _widened(z: flint.acb, radius: flint.arb) -> flint.acb:
+    part = flint.arb(0, radius.mid())
+    return flint.acb(z.real + part, z.imag + part)
+
+
+def samples(source: Source, count: int, rng: np.random.Generator, tracker: Tracker) -> list[Sample]:
+    """Independent random points of the component.
+
+    Raises:
+        SourceError: if paths fail again and again, or end where the equations do not hold.
+    """
+    d, n = source.dimension, source.system.n
+    owners = [(fibre, i) for fibre in source.fibres for i in range(len(fibre))]
+    evaluator = Evaluator.of(source.system.polynomials, n)
+    found: list[Sample] = []
+    while len(found) < count:
+        for attempt in range(ATTEMPTS):
+            fibre, i = owners[int(rng.integers(len(owners)))]
+            target, gamma = random_rows(rng, d, n), complex(unit_complex(rng))
+            one = fibre.only(np.arange(len(fibre)) == i)
+            how = Tracker("careful" if attempt else tracker.settings, tracker.threads)
+            moved = move(one, source.rows, target, gamma, how)
+            if not moved.regular[0]:
+                continue
+            sharpened = sharpen(fibre.cut.evaluator, target, moved.points[0])
+            if sharpened.converged:
+                break
+        else:
+            raise SourceError(f"{ATTEMPTS} paths to one point failed")
+        x = sharpened.z[:n]
+        if evaluator.residuals(x[None]).max(initial=0.0) > ON:
+            raise SourceError(
+                "some equations hold at the point alone and not on what moves through it: it is "
+                "singular; name a component"
+            )
+        found.append(Sample(fibre.cut, target, sharpened.z))
+    return found

@@ -1,0 +1,233 @@
+"""Polynomials with rational coefficients that vanish on the image of a component, by interpolation.
+
+Monomials are taken in ascending order, that of degrees and then the reverse lexicographic one. One
+whose values at random points are a combination of those before it is the leading monomial of an
+element of the reduced Groebner basis, and its multiples need not be looked at (Moeller & Buchberger
+1982). Numbers of points are chosen larger than there are monomials.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import comb, gcd, lcm
+
+import flint
+
+from nag.algebra.multipliers import order
+from nag.algebra.polynomial import Polynomial
+from nag.interpolation.point_cloud import Cloud, Exponents, monomial_values, real_rows
+from nag.numerics.rational_relations import Echelon, TooFewDigitsError
+
+# Digits that are tried one after the other.
+DIGITS = (100, 250, 700)
+# More monomials cost more time than anybody waits for.
+MOST_MONOMIALS = 400
+# Entries of a matrix of multiples of equations.
+MOST_ENTRIES = 4_000_000
+# Points beyond those that make the columns as long as they are many.
+MORE_POINTS = 6
+
+
+class InterpolationError(ValueError):
+    """Polynomials that are not found, with the reason in one line."""
+
+
+class TooManyMonomialsError(InterpolationError):
+    """A degree with more monomials than are looked at."""
+
+
+@dataclass(frozen=True, eq=False)
+class Interpolated:
+    """All polynomials up to some degree that vanish on the image.
+
+    Attributes:
+        coordinates: indices of the variables that they are in.
+        degree: the largest degree that was looked at.
+        basis: the elements up to that degree of the reduced Groebner basis of the image's ideal
+            in the graded reverse lexicographic order, leading coefficients one.
+        generators: those of them that no combination, without cancelling terms of higher degree,
+            of those before them gives.
+        counts: for each degree from 0 on the number of independent functions on the image that
+            are polynomials of at most this degree.
+        standard: monomials up to ``degree`` that no leading monomial divides, ascending.
+        digits: in which the coefficients were recognised.
+    """
+
+    coordinates: tuple[int, ...]
+    degree: int
+    basis: tuple[Polynomial, ...]
+    generators: tuple[Polynomial, ...]
+    counts: tuple[int, ...]
+    standard: tuple[Exponents, ...]
+    digits: int
+
+
+def monomials_of_degree(n: int, degree: int) -> list[Exponents]:
+    """All monomials of a degree in ``n`` variables, ascending in reverse lexicographic order."""
+    if n == 0:
+        return [()] if degree == 0 else []
+    found = [
+        (*head, last)
+        for last in range(degree, -1, -1)
+        for head in monomials_of_degree(n - 1, degree - last)
+    ]
+    return found
+
+
+def start(coordinates: Sequence[int]) -> Interpolated:
+    """What is known of degree 0: no constant vanishes."""
+    one = (0,) * len(coordinates)
+    return Interpolated(tuple(coordinates), 0, (), (), (1,), (one,), 0)
+
+
+def columns_at(
+    cloud: Cloud, coordinates: Sequence[int], monomials: Sequence[Exponents], digits: int, more: int
+) -> dict[Exponents, list[flint.arb]]:
+    """Real columns of the monomials' values, for ``more`` columns beside these."""
+    count = (len(monomials) + more + 1) // 2 + MORE_POINTS
+    points = [[p[i] for i in coordinates] for p in cloud.balls(count, digits)]
+    values = monomial_values(points, monomials)
+    return {e: real_rows(values[e]) for e in monomials}
+
+
+def next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
+    """The polynomials of one degree more.
+
+    Raises:
+        TooManyMonomialsError: if there are too many monomials.
+        InterpolationError: if coefficients are not rational.
+    """
+    k, degree = len(known.coordinates), known.degree + 1
+    leading = [leading_monomial(f) for f in known.basis]
+    total = len(known.standard) + comb(k + degree - 1, degree)
+    if comb(k + degree - 1, degree) > 100 * MOST_MONOMIALS:
+        raise _too_many(total, degree, k)
+    candidates = [
+        e for e in monomials_of_degree(k, degree) if not any(divides(m, e) for m in leading)
+    ]
+    if len(known.standard) + len(candidates) > MOST_MONOMIALS:
+        raise _too_many(len(known.standard) + len(candidates), degree, k)
+    for digits in DIGITS:
+        if digits < known.digits:
+            continue
+        try:
+            standard, relations = _split(cloud, known, candidates, digits)
+            break
+        except TooFewDigitsError:
+            continue
+    else:
+        raise InterpolationError(
+            f"the polynomials of degree {degree} have coefficients that are not recognised as "
+            f"rational numbers in {DIGITS[-1]} digits: the component is not defined over the "
+            "rational numbers"
+        )
+    generators = list(known.generators)
+    new = []
+    for lead, coefficients in relations:
+        terms = {e: -c for e, c in zip(standard, coefficients, strict=False) if c}
+        new.append(Polynomial(k, {lead: Fraction(1), **terms}))
+    generators += _new_generators(generators, new, degree)
+    return Interpolated(
+        known.coordinates,
+        degree,
+        (*known.basis, *new),
+        tuple(generators),
+        (*known.counts, len(standard)),
+        tuple(standard),
+        digits,
+    )
+
+
+def _too_many(count: int, degree: int, variables: int) -> TooManyMonomialsError:
+    return TooManyMonomialsError(
+        f"{count} monomials of degree up to {degree} in {variables} variables are more than "
+        f"{MOST_MONOMIALS}; project to fewer variables or take a lower degree"
+    )
+
+
+def _split(
+    cloud: Cloud, known: Interpolated, candidates: Sequence[Exponents], digits: int
+) -> tuple[list[Exponents], list[tuple[Exponents, list[Fraction]]]]:
+    """The candidates that are independent, after those known to be, and the others' relations."""
+    together = [*known.standard, *candidates]
+    with flint.ctx.workdps(digits + 20):
+        columns = columns_at(cloud, known.coordinates, together, digits, 0)
+        echelon = Echelon(len(columns[together[0]]), digits)
+        standard, relations = [], []
+        for e in together:
+            relation = echelon.add(columns[e])
+            if relation is None:
+                standard.append(e)
+            else:
+                relations.append((e, relation))
+    return standard, relations
+
+
+def leading_monomial(f: Polynomial) -> Exponents:
+    """The largest monomial in the graded reverse lexicographic order."""
+    return max(f.terms, key=order)
+
+
+def divides(e: Exponents, f: Exponents) -> bool:
+    """Whether the monomial with exponents ``e`` divides the one with ``f``."""
+    return all(a <= b for a, b in zip(e, f, strict=True))
+
+
+def primitive(f: Polynomial) -> Polynomial:
+    """The multiple with coprime whole coefficients, the leading one positive."""
+    factor = Fraction(lcm(*(c.denominator for c in f.terms.values())))
+    whole = [int(c * factor) for c in f.terms.values()]
+    common = gcd(*whole)
+    sign = 1 if f.terms[leading_monomial(f)] > 0 else -1
+    return f * (sign * factor / common)
+
+
+def _new_generators(
+    known: Sequence[Polynomial], new: Sequence[Polynomial], degree: int
+) -> list[Polynomial]:
+    """Those of ``new``, all of one degree, that do not lie in the span of multiples of the others.
+
+    Multiples of ``known`` by monomials count up to ``degree``; ranks are exact.
+
+    Raises:
+        TooManyMonomialsError: if there are too many multiples.
+    """
+    if not known or not new:
+        return list(new)
+    k = known[0].n
+    columns = comb(k + degree, degree)
+    count = sum(comb(k + degree - f.degree, k) for f in known) + len(new)
+    if count * columns > MOST_ENTRIES:
+        raise TooManyMonomialsError(
+            f"{columns} monomials of degree up to {degree} in {k} variables are too many to tell "
+            "which equations are multiples of others; project to fewer variables or take a lower "
+            "degree"
+        )
+    rows = []
+    for f in known:
+        for e in (e for d in range(degree - f.degree + 1) for e in monomials_of_degree(k, d)):
+            rows.append(f * Polynomial(k, {e: Fraction(1)}))
+    place: dict[Exponents, int] = {}
+    for f in (*rows, *new):
+        for e in f.terms:
+            place.setdefault(e, len(place))
+    rank, most = _rank(rows, place), _rank([*rows, *new], place)
+    kept: list[Polynomial] = []
+    for f in new:
+        if rank + len(kept) == most:
+            break
+        if _rank([*rows, *kept, f], place) > rank + len(kept):
+            kept.append(f)
+    return kept
+
+
+def _rank(polynomials: Sequence[Polynomial], place: dict[Exponents, int]) -> int:
+    entries = []
+    for f in map(primitive, polynomials):
+        row = [0] * len(place)
+        for e, c in f.terms.items():
+            row[place[e]] = int(c)
+        entries += row
+    return int(flint.fmpz_mat(len(polynomials), len(place), entries).rank())

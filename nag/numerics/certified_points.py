@@ -1,0 +1,208 @@
+"""Points of a zero set on a slice, each proved to be next to exactly one zero as far as can be.
+
+Krawczyk's test needs as many equations as unknowns. Of more equations, as many are proved to have a
+simple zero there, and the others, which no numbers can prove to vanish, are evaluated at it to many
+digits; where one of them does not vanish, the point is proved to be no zero. Where a point is
+singular, the zero of deflated equations is proved in the same way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+
+import flint
+import numpy as np
+from scipy.linalg import qr
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.deflated_system import deflated_zero, vanishing_digits
+from nag.numerics.digits import middle, number
+from nag.numerics.discs import UP
+from nag.numerics.krawczyk import BITS, Boxes, FineBox, box_about, boxes_of, enter_box
+from nag.numerics.singular_point import Place, analyse
+
+# Zeros further from a point than its accuracy, times this, or this much, are not meant by it.
+SLACK, NEAR = 1e3, 1e-6
+# Digits to which the equations that were not needed for a proof must vanish.
+EVIDENCE = 60.0
+
+
+class Proof(StrEnum):
+    """What is proved of a point.
+
+    `SIMPLE`: all equations have exactly one zero in the box, and it is simple. `PART`: so have as
+    many of the equations as there are unknowns, and the others vanish there to so many digits.
+    `DEFLATED`: so have deflated equations, in more unknowns. `EXACT`: the zero is multiple, and
+    rational. `NONE`: nothing.
+    """
+
+    SIMPLE = "simple"
+    PART = "part"
+    DEFLATED = "deflated"
+    EXACT = "exact"
+    NONE = "none"
+
+
+@dataclass(frozen=True, eq=False)
+class CertifiedPoints:
+    """What is proved of points.
+
+    Attributes:
+        points: complex, shape ``(P, n)``.
+        proofs: one for each point.
+        boxes: of the zeros; proved where the proof is not `NONE`.
+        digits: to which equations that were not needed vanish, shape ``(P,)``; infinite where
+            there are none.
+        refuted: indices of points next to a zero of as many equations as unknowns that is proved
+            to be none of all of them.
+    """
+
+    points: np.ndarray
+    proofs: tuple[Proof, ...]
+    boxes: Boxes
+    digits: np.ndarray
+    refuted: tuple[int, ...]
+
+    def having(self, *proofs: Proof) -> np.ndarray:
+        """Indices of the points with one of these proofs."""
+        return np.array([i for i, p in enumerate(self.proofs) if p in proofs], dtype=np.int64)
+
+    def errors(self) -> np.ndarray:
+        """Proved bounds of the distances of points from their zeros, relative, shape ``(P,)``.
+
+        Distances and sizes are those of the largest coordinates, sizes at least one; infinite
+        where nothing is proved.
+        """
+        off = (np.abs(self.points - self.boxes.centres) + self.boxes.inner) * UP
+        sizes = np.maximum(1.0, np.abs(self.points).max(axis=1, initial=0.0))
+        return np.where(self.boxes.proved, off.max(axis=1, initial=0.0) / sizes * UP, np.inf)
+
+
+def certify_points(
+    polynomials: Sequence[Polynomial],
+    slices: np.ndarray,
+    points: np.ndarray,
+    accuracy: np.ndarray,
+    singular: np.ndarray,
+) -> CertifiedPoints:
+    """Prove what can be proved of points of a zero set on a slice.
+
+    Args:
+        polynomials: exact, in ``n`` variables.
+        slices: linear equations, rows on ``(1, x)``, whose doubles are exact, shape ``(d, 1 + n)``.
+        points: complex, shape ``(P, n)``.
+        accuracy: estimated relative errors of the points, shape ``(P,)``.
+        singular: which of the points are known to be singular, shape ``(P,)``.
+    """
+    equations = [f for f in polynomials if f]
+    P, n = points.shape
+    reach = np.maximum(NEAR, SLACK * np.nan_to_num(accuracy, nan=0.0))
+    blank = np.full((P, n), np.inf)
+    boxes = Boxes(points.copy(), blank, blank.copy(), np.zeros(P, dtype=bool), {})
+    proofs, digits = [Proof.NONE] * P, np.full(P, np.inf)
+    refuted: list[int] = []
+    tested = np.flatnonzero(~singular & np.isfinite(points).all(axis=1))
+    if len(equations) + len(slices) == n:
+        _enter(boxes, tested, boxes_of(equations, slices, points[tested], reach[tested]))
+        for i in np.flatnonzero(boxes.proved).tolist():
+            proofs[i] = Proof.SIMPLE
+    elif len(equations) + len(slices) > n and len(tested):
+        rows = _independent(equations, slices, points[tested[0]])
+        square = [equations[i] for i in rows]
+        _enter(boxes, tested, boxes_of(square, slices, points[tested], reach[tested]))
+        others = [f for i, f in enumerate(equations) if i not in set(rows)]
+        for i in np.flatnonzero(boxes.proved).tolist():
+            digits[i], zero = _others(square, others, slices, points[i])
+            if not zero:
+                refuted.append(i)
+            if digits[i] >= EVIDENCE:
+                proofs[i] = Proof.PART
+            else:
+                boxes.proved[i] = False
+    for i in np.flatnonzero(~boxes.proved).tolist():
+        if i not in refuted:
+            _singular(equations, slices, boxes, proofs, digits, i, float(accuracy[i]))
+    return CertifiedPoints(points, tuple(proofs), boxes, digits, tuple(refuted))
+
+
+def _enter(boxes: Boxes, places: np.ndarray, found: Boxes) -> None:
+    boxes.centres[places], boxes.outer[places] = found.centres, found.outer
+    boxes.inner[places], boxes.proved[places] = found.inner, found.proved
+    boxes.fine.update({int(places[i]): box for i, box in found.fine.items()})
+
+
+def _independent(
+    equations: Sequence[Polynomial], slices: np.ndarray, point: np.ndarray
+) -> list[int]:
+    """Equations that determine the point on the slice, as many as are needed."""
+    jacobian = Evaluator.of(equations, len(point)).jacobian(point)
+    sizes = np.linalg.norm(jacobian, axis=1)
+    jacobian /= np.where(sizes > 0, sizes, 1.0)[:, None]
+    if len(slices):
+        q, _ = np.linalg.qr(slices[:, 1:].conj().T)
+        jacobian = jacobian - (jacobian @ q) @ q.conj().T
+    _, _, order = qr(jacobian.T, pivoting=True, mode="economic")
+    return sorted(order[: len(point) - len(slices)].tolist())
+
+
+def _others(
+    square: Sequence[Polynomial],
+    others: Sequence[Polynomial],
+    slices: np.ndarray,
+    point: np.ndarray,
+) -> tuple[float, bool]:
+    """Digits to which other equations vanish at a proved zero, and whether they may be zero."""
+    start = [flint.acb(complex(z)) for z in point]
+    box = box_about(BallPolynomials.of(square, slices), start, (BITS[-1],))
+    if box is None:
+        return 0.0, True
+    rest = BallPolynomials.of(others, np.zeros((0, 1 + len(point)), dtype=complex))
+    found = vanishing_digits(rest, box)
+    return found, found > 0
+
+
+def _singular(
+    equations: Sequence[Polynomial],
+    slices: np.ndarray,
+    boxes: Boxes,
+    proofs: list[Proof],
+    digits: np.ndarray,
+    i: int,
+    accuracy: float,
+) -> None:
+    """What is proved of a point that may be singular; enters it at place ``i``."""
+    rng = np.random.default_rng(0)
+    point = boxes.centres[i]
+    if not np.isfinite(point).all():
+        return
+    error = max(accuracy, 1e-15) if np.isfinite(accuracy) else NEAR
+    end = analyse(equations, point, error, rng, slices if len(slices) else None)
+    if end.place is not Place.ISOLATED or not end.digits:
+        return
+    if end.rational is not None and not len(slices):
+        values = [f(end.rational) for f in equations]
+        if any(values):
+            return
+        enter_box(boxes, i, _rational_box(end.rational))
+        proofs[i], digits[i] = Proof.EXACT, np.inf
+        return
+    found = deflated_zero(equations, slices, end.digits, rng)
+    if found is None or found.vanishing < EVIDENCE:
+        return
+    proofs[i], digits[i] = Proof.DEFLATED, found.vanishing if found.left else np.inf
+    box, n = found.box, len(point)
+    # Of the deflated equations the zero is the only one in its box, of the given ones it need not.
+    enter_box(boxes, i, FineBox(box.centre[:n], (flint.arb(0),) * n, box.inner[:n]))
+
+
+def _rational_box(point: Sequence[Fraction]) -> FineBox:
+    with flint.ctx.workprec(BITS[-1]):
+        exact = [number(c) for c in point]
+        centre = tuple(middle(z) for z in exact)
+        off = tuple(flint.acb(abs(z - c)).abs_upper() for z, c in zip(exact, centre, strict=True))
+    return FineBox(centre, (flint.arb(0),) * len(point), off)

@@ -1,0 +1,137 @@
+"""Deflation by kernel vectors: exact equations that a singular zero is part of a regular zero of.
+
+To the equations F(x) = 0 are added F'(x) v = 0 and as many linear conditions R v = e_1 as F' has
+corank at the zero, in twice as many unknowns; the multiplicity of the zero becomes less, and what
+remains singular is deflated again. The new equations are exact like the old ones, so that a simple
+zero of as many of them as there are unknowns can be proved by Krawczyk's test.
+
+References:
+    Leykin, Verschelde & Zhao, Newton's method with deflation for isolated singularities, 2006;
+    Dayton & Zeng, Computing the multiplicity structure in solving polynomial systems, 2005.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import flint
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import log_norm, middle
+from nag.numerics.krawczyk import BITS, FineBox, box_about
+from nag.numerics.pivots import pivots
+
+# Digits in which ranks are taken, and below which an entry is zero (decimal logarithm).
+DIGITS, ZERO = 150, -50.0
+MOST_UNKNOWNS = 64
+
+
+@dataclass(frozen=True, eq=False)
+class DeflatedZero:
+    """A proved simple zero of deflated equations.
+
+    Attributes:
+        box: of the zero, in the given variables first.
+        rounds: how often the equations were deflated.
+        left: number of equations that were not needed for the proof.
+        vanishing: decimal digits to which these vanish there.
+    """
+
+    box: FineBox
+    rounds: int
+    left: int
+    vanishing: float
+
+
+def deflated_zero(
+    polynomials: Sequence[Polynomial],
+    slices: np.ndarray,
+    digits: Sequence[tuple[str, str]],
+    rng: np.random.Generator,
+) -> DeflatedZero | None:
+    """Prove a zero of deflated equations next to a singular zero; None if that does not succeed.
+
+    Args:
+        polynomials: exact, in ``n`` variables.
+        slices: further linear equations, rows on ``(1, x)``, whose doubles are exact.
+        digits: of the zero, real and imaginary parts as decimals, a hundred of them.
+    """
+    equations, rows = list(polynomials), slices
+    with flint.ctx.workdps(DIGITS):
+        point = [middle(flint.acb(flint.arb(re), flint.arb(im))) for re, im in digits]
+        rounds = 0
+        while len(point) <= MOST_UNKNOWNS:
+            system = BallPolynomials.of(equations, rows)
+            entries = [[middle(z) for z in row] for row in system.jacobian(point).tolist()]
+            chosen, columns = pivots(lambda _, m=entries: m, len(point), 0, ZERO)
+            if len(columns) == len(point):
+                return _proved(system, point, chosen, rounds)
+            found = _deflated(equations, rows, entries, point, chosen, rng)
+            if found is None:
+                return None
+            equations, rows, point = found
+            rounds += 1
+    return None
+
+
+def _deflated(
+    equations: Sequence[Polynomial],
+    slices: np.ndarray,
+    jacobian: list[list[flint.acb]],
+    point: list[flint.acb],
+    chosen: Sequence[int],
+    rng: np.random.Generator,
+) -> tuple[list[Polynomial], np.ndarray, list[flint.acb]] | None:
+    """The equations with a kernel vector as further unknowns, and the zero with it."""
+    n = len(point)
+    places = list(range(n))
+    lifted = [f.with_variables(2 * n, places) for f in equations]
+    v = [Polynomial.variable(2 * n, n + j) for j in range(n)]
+    for f in equations:
+        slopes = [f.derivative(j).with_variables(2 * n, places) for j in range(n)]
+        lifted.append(sum((g * w for g, w in zip(slopes, v, strict=True)), start=v[0] * 0))
+    blank = np.zeros((len(slices), n), dtype=complex)
+    rows = [np.hstack([slices, blank])]
+    rows.append(np.hstack([blank[:, :1], blank, slices[:, 1:]]))
+    conditions = rng.integers(-9, 10, (n - len(chosen), n)) + 1j * rng.integers(
+        -9, 10, (n - len(chosen), n)
+    )
+    one = np.zeros((len(conditions), 1 + n), dtype=complex)
+    one[:1, 0] = -1.0
+    rows.append(np.hstack([one, conditions]))
+    matrix = [jacobian[i] for i in chosen]
+    matrix += [[flint.acb(complex(c)) for c in row] for row in conditions]
+    right = [flint.acb(int(i == len(chosen))) for i in range(n)]
+    try:
+        kernel = flint.acb_mat(matrix).solve(flint.acb_mat(n, 1, right)).entries()
+    except ZeroDivisionError:
+        return None
+    return [f for f in lifted if f], np.vstack(rows), point + [middle(z) for z in kernel]
+
+
+def _proved(
+    system: BallPolynomials, point: list[flint.acb], chosen: Sequence[int], rounds: int
+) -> DeflatedZero | None:
+    """Krawczyk's test for the chosen rows, and the values of the others in the box."""
+    square = system.rows_of(chosen)
+    box = box_about(square, point, (BITS[-1],))
+    if box is None:
+        return None
+    rest = [i for i in range(len(system.rows)) if i not in set(chosen)]
+    return DeflatedZero(box, rounds, len(rest), vanishing_digits(system.rows_of(rest), box))
+
+
+def vanishing_digits(system: BallPolynomials, box: FineBox) -> float:
+    """Decimal digits to which rows vanish at all points of the inner box; 0 if one does not."""
+    with flint.ctx.workprec(BITS[-1]):
+        x = [
+            z + flint.acb(flint.arb(0, r), flint.arb(0, r))
+            for z, r in zip(box.centre, box.inner, strict=True)
+        ]
+        values = system(x).entries()
+        if not all(z.contains(0) for z in values):
+            return 0.0
+        return max(0.0, -log_norm(flint.acb(z.abs_upper()) for z in values))

@@ -1,0 +1,332 @@
+"""Krawczyk's test: boxes that are proved to hold exactly one zero, for many points at once.
+
+For a box X of discs about x and any matrix Y near the inverse Jacobian, all zeros in X lie in
+``K(X) = x - Y F(x) + (1 - Y F'(X)) (X - x)``; if K(X) lies in the interior of X, there is exactly
+one zero in X, and it is simple. In doubles first, with bounds of all rounding errors, for all
+points together; in balls of more digits where that does not suffice.
+
+References:
+    Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken, 1969;
+    Rump, Verification methods: rigorous results using floating-point arithmetic, 2010 (the
+    inflation of the box); Burr, Lee & Leykin, Effective certification of approximate solutions,
+    2019.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import flint
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import log_norm, middle
+from nag.numerics.discs import (
+    LEAST,
+    UP,
+    DiscPolynomials,
+    Discs,
+    magnitude,
+    matrix_product,
+)
+
+# A box that is not mapped into itself is enlarged so many times; how much each side exceeds that
+# of the image, and the side of a coordinate that is zero, relative to the largest.
+INFLATIONS = 4
+WIDER, LEAST_SIDE = 2.0, 2.0**-60
+# Boxes are made larger afterwards, by this factor at a time, so that they tell zeros apart.
+GROWTH, GROWN = 1024.0, 1
+# Points that are tested at once, by entries of their Jacobians.
+BLOCK = 2**20
+# Bits of the balls, one after the other, and Newton steps in each.
+BITS = (128, 256, 512)
+STEPS = 12
+# Sides of boxes of balls, beside the coordinates and the largest of them: powers of two.
+FIRST_SIDE, SIDES_APART, LAST_SIDE = -16, 16, 24
+# Times that a box is replaced by its image, in which its zero lies.
+SMALLER = 12
+
+
+@dataclass(frozen=True, eq=False)
+class FineBox:
+    """A box of more digits than doubles have.
+
+    Attributes:
+        centre: exact numbers.
+        outer: radii of a box about it that holds exactly one zero.
+        inner: radii of a box about it that this zero lies in.
+    """
+
+    centre: tuple[flint.acb, ...]
+    outer: tuple[flint.arb, ...]
+    inner: tuple[flint.arb, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Boxes:
+    """Boxes about points, products of discs, each for one of ``P`` points in ``n`` variables.
+
+    Attributes:
+        centres: complex, shape ``(P, n)``.
+        outer: radii of boxes that hold exactly one zero, which is simple; shape ``(P, n)``.
+        inner: radii of boxes that this zero lies in.
+        proved: for which points there is such a box, shape ``(P,)``.
+        fine: the boxes of points for which doubles did not suffice; `inner` holds their zeros
+            all the same, and `outer` is 0 where doubles about the centre cannot say it.
+    """
+
+    centres: np.ndarray
+    outer: np.ndarray
+    inner: np.ndarray
+    proved: np.ndarray
+    fine: dict[int, FineBox]
+
+
+def boxes_of(
+    polynomials: Sequence[Polynomial],
+    slices: np.ndarray,
+    points: np.ndarray,
+    reach: np.ndarray,
+) -> Boxes:
+    """Prove a simple zero next to each point.
+
+    Args:
+        polynomials: exact, in ``n`` variables.
+        slices: further linear equations, rows on ``(1, x)``, whose doubles are exact; shape
+            ``(n - len(polynomials), 1 + n)``.
+        points: complex, shape ``(P, n)``.
+        reach: how far from the points zeros may be to count, relative to their size, ``(P,)``.
+    """
+    found = boxes_in_doubles(polynomials, slices, points)
+    sizes = np.maximum(1.0, np.abs(points).max(axis=1, initial=0.0))
+    found.proved[~(found.inner.max(axis=1, initial=0.0) < reach * sizes)] = False
+    left = np.flatnonzero(~found.proved)
+    if not len(left):
+        return found
+    system = BallPolynomials.of(polynomials, slices)
+    for i in left.tolist():
+        fine = box_in_balls(system, points[i], float(reach[i]))
+        if fine is not None:
+            enter_box(found, i, fine)
+    return found
+
+
+def boxes_in_doubles(
+    polynomials: Sequence[Polynomial], slices: np.ndarray, points: np.ndarray
+) -> Boxes:
+    """The boxes that doubles suffice to prove."""
+    P, n = points.shape
+    none = np.zeros(P, dtype=bool)
+    boxes = Boxes(points.copy(), np.full((P, n), np.inf), np.full((P, n), np.inf), none, {})
+    try:
+        system = DiscPolynomials.of(polynomials, slices)
+    except OverflowError:
+        return boxes
+    size = max(1, BLOCK // max(1, system.slopes.matrix.shape[0]))
+    for first in range(0, P, size):
+        block = slice(first, first + size)
+        with np.errstate(all="ignore"):
+            outer, inner, proved = _tested(system, points[block])
+        boxes.outer[block], boxes.inner[block], boxes.proved[block] = outer, inner, proved
+    return boxes
+
+
+def _tested(
+    system: DiscPolynomials, points: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Outer and inner radii about points, and for which of them they are proved."""
+    P, n = points.shape
+    exact = Discs(points, np.zeros(points.shape))
+    inverse = _inverses(system.jacobian(exact).mid)
+    step = _step(inverse, system(exact))
+    sides = np.abs(points).max(axis=1, initial=0.0)[:, None] * LEAST_SIDE
+    outer = WIDER * step + np.maximum(sides, 1e-300)
+    inner, proved = np.full((P, n), np.inf), np.zeros(P, dtype=bool)
+    left = np.flatnonzero(np.isfinite(outer).all(axis=1))
+    for _ in range(INFLATIONS):
+        if not len(left):
+            break
+        image = _image(system, points[left], outer[left], inverse[left], step[left])
+        good = (image < outer[left]).all(axis=1)
+        done = left[good]
+        proved[done], inner[done] = True, image[good]
+        left, image = left[~good], image[~good]
+        outer[left] = WIDER * image
+        left = left[np.isfinite(outer[left]).all(axis=1)]
+    _grow(system, points, inverse, step, outer, proved)
+    return outer, inner, proved
+
+
+def _grow(
+    system: DiscPolynomials,
+    points: np.ndarray,
+    inverse: np.ndarray,
+    step: np.ndarray,
+    outer: np.ndarray,
+    proved: np.ndarray,
+) -> None:
+    """Larger boxes for the points that are proved, while each still holds one zero."""
+    left = np.flatnonzero(proved)
+    for _ in range(GROWN):
+        wider = GROWTH * outer[left]
+        image = _image(system, points[left], wider, inverse[left], step[left])
+        good = (image < wider).all(axis=1)
+        left = left[good]
+        outer[left] = wider[good]
+
+
+def _inverses(matrices: np.ndarray) -> np.ndarray:
+    """Inverses, not exact; not finite where there is none."""
+    usable = np.isfinite(matrices).all(axis=(1, 2))
+    found = np.full(matrices.shape, np.nan, dtype=complex)
+    try:
+        found[usable] = np.linalg.inv(matrices[usable])
+    except np.linalg.LinAlgError:
+        for i in np.flatnonzero(usable):
+            try:
+                found[i] = np.linalg.inv(matrices[i])
+            except np.linalg.LinAlgError:
+                continue
+    return found
+
+
+def _step(inverse: np.ndarray, values: Discs) -> np.ndarray:
+    """Upper bounds of the entries of ``Y F(x)``, shape ``(P, n)``."""
+    moved, error = matrix_product(inverse, values.mid[..., None])
+    error = error + magnitude(inverse) @ values.rad[..., None] * UP
+    return (magnitude(moved) + error)[..., 0] * UP
+
+
+def _image(
+    system: DiscPolynomials,
+    points: np.ndarray,
+    radii: np.ndarray,
+    inverse: np.ndarray,
+    step: np.ndarray,
+) -> np.ndarray:
+    """Upper bounds of the distances of K(X) from the points, shape ``(P, n)``."""
+    slopes = system.jacobian(Discs(points, radii))
+    rest, error = matrix_product(inverse, slopes.mid)
+    rest -= np.eye(points.shape[1])
+    size = magnitude(rest) + error + magnitude(inverse) @ slopes.rad * UP
+    return (step + (size @ radii[..., None])[..., 0]) * UP
+
+
+def box_in_balls(system: BallPolynomials, point: np.ndarray, reach: float) -> FineBox | None:
+    """The box of a simple zero within ``reach`` of the point, relative to its size, or None."""
+    if not np.isfinite(point).all():
+        return None
+    start = [flint.acb(complex(z)) for z in point]
+    box = box_about(system, start)
+    bound = reach * max(1.0, float(np.abs(point).max(initial=0.0)))
+    if box is None or not all(abs(a - b) < bound for a, b in zip(start, box.centre, strict=True)):
+        return None
+    return box
+
+
+def box_about(
+    system: BallPolynomials, start: Sequence[flint.acb], ladder: Sequence[int] = BITS
+) -> FineBox | None:
+    """The box of the simple zero that Newton's method finds from a point, or None.
+
+    Args:
+        ladder: bits of the balls, tried one after the other.
+    """
+    for bits in ladder:
+        with flint.ctx.workprec(bits):
+            x = _newton(system, start)
+            box = None if x is None else _ball_box(system, x)
+            if box is not None:
+                return box
+    return None
+
+
+def _newton(system: BallPolynomials, start: Sequence[flint.acb]) -> list[flint.acb] | None:
+    """Where Newton's method comes to rest from a point; None at a singular matrix."""
+    x, last = list(start), np.inf
+    for _ in range(STEPS):
+        try:
+            moves = (system.jacobian(x).mid().inv().mid() * system(x)).entries()
+        except ZeroDivisionError:
+            return None
+        x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
+        size = log_norm(map(middle, moves))
+        # A step that is no shorter than the one before it is rounding.
+        if size >= last or size == -np.inf:
+            break
+        last = size
+    return x
+
+
+def _ball_box(system: BallPolynomials, x: list[flint.acb]) -> FineBox | None:
+    """Krawczyk's test in balls about ``x``, for boxes from large to small."""
+    try:
+        inverse = system.jacobian(x).mid().inv().mid()
+    except ZeroDivisionError:
+        return None
+    step = [z.abs_upper() for z in (inverse * system(x)).entries()]
+    scale = max([abs(z).mid() for z in x if abs(z).mid() > 0], default=flint.arb(1))
+    alike = [scale] * len(x)
+    for exponent in range(FIRST_SIDE, -flint.ctx.prec + LAST_SIDE, -SIDES_APART):
+        part = flint.arb(2) ** exponent
+        # Sides of one size, and sides as the coordinates have them.
+        for sizes in (alike, [abs(z).mid() + scale * part for z in x]):
+            outer = [(size * part).mid() for size in sizes]
+            image = _ball_image(system, x, outer, inverse, step)
+            if all(a < r for a, r in zip(image, outer, strict=True)):
+                return FineBox(tuple(x), tuple(outer), _shrunk(system, x, image, inverse, step))
+    return None
+
+
+def _shrunk(
+    system: BallPolynomials,
+    x: list[flint.acb],
+    sides: list[flint.arb],
+    inverse: flint.acb_mat,
+    step: list[flint.arb],
+) -> tuple[flint.arb, ...]:
+    """Sides of the smallest box that the zero is seen to lie in."""
+    for _ in range(SMALLER):
+        last, sides = sides, _ball_image(system, x, sides, inverse, step)
+        if not any(2 * a < b for a, b in zip(sides, last, strict=True)):
+            break
+    return tuple(sides)
+
+
+def _ball_image(
+    system: BallPolynomials,
+    x: list[flint.acb],
+    sides: list[flint.arb],
+    inverse: flint.acb_mat,
+    step: list[flint.arb],
+) -> list[flint.arb]:
+    """Upper bounds of the distances of K(X) from ``x``."""
+    n = len(x)
+    box = [z + flint.acb(flint.arb(0, r), flint.arb(0, r)) for z, r in zip(x, sides, strict=True)]
+    product = inverse * system.jacobian(box)
+    result = []
+    for i in range(n):
+        total = step[i]
+        for j in range(n):
+            total = total + abs(product[i, j] - int(i == j)) * sides[j]
+        result.append(flint.acb(total).abs_upper())
+    return result
+
+
+def enter_box(boxes: Boxes, i: int, fine: FineBox) -> None:
+    """Enter a box of balls for point ``i``."""
+    boxes.fine[i] = fine
+    boxes.proved[i] = True
+    centre = np.array([complex(z) for z in fine.centre])
+    boxes.centres[i] = centre
+    off = [abs(z - complex(c)) for z, c in zip(fine.centre, centre, strict=True)]
+    boxes.inner[i] = [above(o + r) for o, r in zip(off, fine.inner, strict=True)]
+    room = [r - o for o, r in zip(off, fine.outer, strict=True)]
+    boxes.outer[i] = [max(0.0, float(r.lower()) / UP) for r in room]
+
+
+def above(value: flint.arb) -> float:
+    """A double that is no less."""
+    return float(value.upper()) * UP + LEAST

@@ -1,0 +1,108 @@
+"""Certificates as text."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+
+import numpy as np
+
+from nag.numerics.certified_points import CertifiedPoints, Proof
+from nag.report.table import magnitude, printable
+from nag.solving.certificate import SolutionsCertificate
+from nag.witness.certificate import DecompositionCertificate
+
+Rows = list[tuple[str, str]]
+
+WORDS = {
+    Proof.SIMPLE: "simple zeros of all equations, one in each box",
+    Proof.PART: "simple zeros of as many equations as unknowns, the others vanishing there to "
+    "{digits} digits, which is evidence and no proof",
+    Proof.DEFLATED: "singular, as simple zeros of deflated equations",
+    Proof.EXACT: "singular, as exact rational zeros",
+    Proof.NONE: "not proved",
+}
+
+
+def solution_rows(certificate: SolutionsCertificate, seconds: float) -> Rows:
+    """What is proved of solutions, as labelled lines."""
+    points, proved = certificate.points, certificate.points.boxes.proved
+    rows = _points_rows([points], "solutions")
+    real, complex_ = int(certificate.real.sum()), int(certificate.not_real.sum())
+    text = f"{real} proved real, {complex_} proved not real"
+    open_ = int(proved.sum()) - real - complex_
+    rows.append(("reality", text + (f", {open_} open" if open_ else "")))
+    rows += _distinct_rows(certificate.same, certificate.unknown)
+    lost = int((proved & ~certificate.nonzero).sum())
+    if lost:
+        rows.append(("doubt", f"{lost} may be zeros of what must not vanish"))
+    if certificate.bound is not None:
+        number = f"{certificate.bound_name}, {certificate.bound}"
+        if certificate.complete:
+            rows.append(("complete", f"proved: there are no more isolated zeros than {number}"))
+        else:
+            text = f"not proved: {certificate.simple} simple zeros, at least, of at most {number}"
+            rows.append(("complete", text))
+    rows.append(_cost([points], seconds))
+    return rows
+
+
+def decomposition_rows(certificate: DecompositionCertificate, seconds: float) -> Rows:
+    """What is proved of a decomposition, as labelled lines."""
+    groups = [c.points for c in certificate.components]
+    rows = _points_rows(groups, "witness points")
+    together = [c for c in certificate.components if not c.distinct]
+    if together:
+        rows.append(("doubt", f"points of {len(together)} components were not told apart"))
+    for dimension, bound in sorted(certificate.bounds.items(), reverse=True):
+        if bound:
+            text = (
+                f"dimension {dimension}: the degrees of all components add up to {bound} at least"
+            )
+            rows.append(("proved", text))
+    if certificate.complete:
+        text = f"proved: the degrees of all components add up to {certificate.most} at most"
+        rows.append(("complete", text))
+    rows.append(_cost(groups, seconds))
+    return rows
+
+
+def _points_rows(groups: Iterable[CertifiedPoints], what: str) -> Rows:
+    groups = list(groups)
+    counts = Counter(p for g in groups for p in g.proofs)
+    total = sum(counts.values())
+    proved = total - counts[Proof.NONE]
+    rows = [("certified", f"{proved} of {total} {what}")]
+    digits = min((float(g.digits[g.having(Proof.PART)].min(initial=np.inf)) for g in groups),
+                 default=np.inf)  # fmt: skip
+    many = f"{digits:.0f}" if np.isfinite(digits) else "all"
+    rows += [("", f"{counts[p]} {WORDS[p].format(digits=many)}") for p in Proof if counts[p]]
+    refuted = sum(len(g.refuted) for g in groups)
+    if refuted:
+        rows.append(("refuted", f"{refuted} {what} are proved to be no zeros of all equations"))
+    errors = [g.errors()[g.boxes.proved] for g in groups]
+    largest = max((float(e.max()) for e in errors if len(e)), default=0.0)
+    if proved:
+        text = f"no point is further from its zero than {magnitude(largest)}, relative to its size"
+        rows.append(("error", text))
+    return rows
+
+
+def _distinct_rows(same: tuple[tuple[int, int], ...], unknown: tuple[tuple[int, int], ...]) -> Rows:
+    rows = []
+    for label, pairs, text in (
+        ("repeated", same, "are the same zero"),
+        ("doubt", unknown, "were not told apart"),
+    ):
+        if pairs:
+            i, j = pairs[0]
+            more = f", and {len(pairs) - 1} more pairs" if len(pairs) > 1 else ""
+            rows.append((label, f"solutions {i + 1} and {j + 1} {text}{more}"))
+    return rows or [("distinct", "proved zeros are proved to be distinct")]
+
+
+def _cost(groups: list[CertifiedPoints], seconds: float) -> tuple[str, str]:
+    fine = sum(len(g.boxes.fine) for g in groups)
+    proved = sum(int(g.boxes.proved.sum()) for g in groups)
+    text = f"{proved - fine} boxes in doubles, {fine} in balls of more digits"
+    return ("proof", printable(f"{text}, {seconds:.3f} s"))

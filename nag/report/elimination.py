@@ -1,0 +1,102 @@
+"""The equations of a component's image and the maps to its other variables, as text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from nag.algebra.polynomial import Polynomial
+from nag.interpolation.essential import VariableMap
+from nag.interpolation.image_ideal import ImageIdeal
+from nag.interpolation.vanishing import primitive
+from nag.report.table import labelled
+
+PROOFS = {
+    "substitution": (
+        "proved: with maps to all variables put in, the system's equations lie in the ideal of "
+        "equations in essential variables, which are regular at the exact point, and so do these"
+    ),
+    "reduction": (
+        "proved: a power of each, times a polynomial that does not vanish on the component, lies "
+        "in the ideal of the system's equations"
+    ),
+    "points": "not proved; they hold at fresh random points, see below",
+}
+
+
+def elimination_lines(found: ImageIdeal) -> list[str]:
+    """Equations, what they rest on, the maps and the variables without one."""
+    lines = ["equations"]
+    texts = [f"{f.text(found.names)} = 0" for f in found.generators]
+    lines += _with_proofs(texts, found.generator_proofs) or ["  none"]
+    if found.maps:
+        lines += ["", "maps"]
+        lines += _with_proofs([map_text(found, m) for m in found.maps], found.map_proofs)
+    return lines
+
+
+def _with_proofs(texts: Sequence[str], proofs: Sequence[str]) -> list[str]:
+    lines = []
+    for kind, explanation in PROOFS.items():
+        chosen = [text for text, proof in zip(texts, proofs, strict=True) if proof == kind]
+        if chosen:
+            lines += [*(f"  {text}" for text in chosen), *labelled([("  ", explanation)])]
+    return lines
+
+
+def map_text(found: ImageIdeal, m: VariableMap) -> str:
+    """``b2 = a2/(2*a0)``."""
+    name = found.variables[m.variable]
+    if m.polynomial:
+        return f"{name} = {(m.numerator / m.denominator.constant_value).text(found.names)}"
+    above, below = whole_fraction(m)
+    texts = [f.text(found.names) for f in (above, below)]
+    shown = [
+        f"({t})" if len(f.terms) > 1 or "*" in t else t
+        for f, t in zip((above, below), texts, strict=True)
+    ]
+    return f"{name} = {shown[0]}/{shown[1]}"
+
+
+def whole_fraction(m: VariableMap) -> tuple[Polynomial, Polynomial]:
+    """Numerator and denominator with whole coefficients, coprime ones together."""
+    k = m.numerator.n
+    # One polynomial that holds both: the denominator times a variable of its own, the first one.
+    joined = {(0, *e): c for e, c in m.numerator.terms.items()}
+    joined |= {(1 + m.numerator.degree, *e): c for e, c in m.denominator.terms.items()}
+    terms = primitive(Polynomial(k + 1, joined)).terms
+    above = Polynomial(k, {e[1:]: c for e, c in terms.items() if not e[0]})
+    below = Polynomial(k, {e[1:]: c for e, c in terms.items() if e[0]})
+    return above, below
+
+
+def essential_text(found: ImageIdeal) -> str:
+    """Whether the variables determine all others."""
+    names = ", ".join(found.names)
+    are, them = ("is", "it") if len(found.names) == 1 else ("are", "them")
+    if found.missing:
+        missing = ", ".join(found.variables[i] for i in found.missing)
+        if found.dimension < found.component_dimension:
+            return f"{names} {are} not essential: the image has a smaller dimension"
+        return f"{names} {are} not shown to be essential: no map was found to {missing}"
+    if not found.maps:
+        return f"{names} {are} all the variables"
+    if all(m.polynomial for m in found.maps):
+        kind = f"polynomials in {them}"
+    else:
+        kind = f"rational functions of {them}"
+    return f"{names} {are} essential: all other variables are {kind}"
+
+
+def image_text(found: ImageIdeal) -> str:
+    """Dimension and degree of the image, and whether its equations are all there."""
+    text = f"dimension {found.dimension}"
+    if found.dimension == len(found.coordinates):
+        return f"{text}: no polynomial vanishes on it"
+    if found.defines:
+        return (
+            f"{text}, degree {found.zeros[1]}: the equations have no other zeros but for sets of "
+            "lower dimension"
+        )
+    if found.cuts:
+        return f"{text}: a component of the equations' common zeros; there may be others"
+    return f"{text}: equations of higher degree are missing"

@@ -1,0 +1,129 @@
+"""What is proved of solutions: a zero in a box about each, distinct, real or not, and all of them.
+
+References:
+    Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken, 1969;
+    Breiding, Rose & Timme, Certifying zeros of polynomial systems using interval arithmetic, 2023.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.numerics.box_relations import overlaps, real_zeros
+from nag.numerics.certified_points import CertifiedPoints, Proof, certify_points
+from nag.numerics.discs import DiscPolynomials, Discs, magnitude
+from nag.solving.solutions import SolveResult
+from nag.solving.start.multihomogeneous import best_groups
+from nag.solving.start.target import Target
+from nag.solving.start.total_degree import bezout
+
+
+@dataclass(frozen=True, eq=False)
+class SolutionsCertificate:
+    """What is proved of the solutions of a system.
+
+    Attributes:
+        result: the solutions.
+        points: what is proved of each of them.
+        real, not_real: which of them are proved real, and which not real; shape ``(k,)``.
+        same, unknown: pairs of indices with the same zero, and of which that is not known; all
+            other pairs of proved zeros are proved distinct.
+        nonzero: which solutions are proved to be no zeros of `PolynomialSystem.nonzero`, ``(k,)``.
+        bound: no system of these monomials has more isolated zeros, or None for a system of more
+            equations than unknowns; bound_name: which number that is.
+    """
+
+    result: SolveResult
+    points: CertifiedPoints
+    real: np.ndarray
+    not_real: np.ndarray
+    same: tuple[tuple[int, int], ...]
+    unknown: tuple[tuple[int, int], ...]
+    nonzero: np.ndarray
+    bound: int | None
+    bound_name: str
+
+    @property
+    def simple(self) -> int:
+        """Number of distinct simple zeros of all equations that are proved."""
+        simple = set(self.points.having(Proof.SIMPLE).tolist())
+        doubled = {j for i, j in [*self.same, *self.unknown] if i in simple and j in simple}
+        return len(simple - doubled)
+
+    @property
+    def distinct(self) -> bool:
+        """Whether all proved zeros are proved distinct."""
+        return not self.same and not self.unknown
+
+    @property
+    def all_proved(self) -> bool:
+        """Whether something is proved of each solution, and each pair is distinct."""
+        return Proof.NONE not in self.points.proofs and self.distinct
+
+    @property
+    def complete(self) -> bool:
+        """Whether it is proved that there are no other isolated solutions."""
+        return self.bound is not None and self.simple == self.bound and self.all_proved
+
+
+def certify_solutions(result: SolveResult) -> SolutionsCertificate:
+    """Prove what can be proved of the solutions of a system."""
+    system = result.system
+    none = np.zeros((0, 1 + system.n), dtype=complex)
+    accuracy = np.array([s.accuracy for s in result.solutions], dtype=float)
+    multiple = np.array([s.multiplicity > 1 for s in result.solutions], dtype=bool)
+    points = certify_points(system.polynomials, none, result.points, accuracy, multiple)
+    same, unknown = overlaps(points.boxes)
+    real, not_real = real_zeros(points.boxes)
+    bound, name = bound_of_zeros(system)
+    return SolutionsCertificate(
+        result=result,
+        points=points,
+        real=real,
+        not_real=not_real,
+        same=tuple(same),
+        unknown=tuple(unknown),
+        nonzero=_nonzero(system.nonzero, points),
+        bound=bound,
+        bound_name=name,
+    )
+
+
+def bound_of_zeros(system: PolynomialSystem) -> tuple[int | None, str]:
+    """A number that isolated zeros cannot exceed, by Bezout's theorem, and its name.
+
+    The product of the degrees, or the coefficient that belongs to groups of variables (Morgan &
+    Sommese 1987); both are integers that are computed exactly.
+    """
+    equations = [f for f in system.polynomials if f]
+    if not equations or len(equations) != system.n:
+        return None, ""
+    if any(f.degree == 0 for f in equations):
+        return 0, "a constant that is not zero"
+    target = Target(system.n, tuple(dict(f.terms) for f in equations))
+    total = bezout(target)
+    groups, number = best_groups(target, system.groups)
+    if number < total:
+        sizes = ", ".join(str(len(g)) for g in groups)
+        return number, f"Bezout's number in groups of {sizes}"
+    return total, "Bezout's number"
+
+
+def _nonzero(polynomials: tuple[Polynomial, ...], points: CertifiedPoints) -> np.ndarray:
+    """At which proved zeros none of the polynomials vanishes."""
+    boxes = points.boxes
+    if not polynomials:
+        return boxes.proved.copy()
+    n = points.points.shape[1]
+    try:
+        system = DiscPolynomials.of(polynomials, np.zeros((0, 1 + n), dtype=complex))
+    except OverflowError:
+        return np.zeros(len(points.points), dtype=bool)
+    with np.errstate(all="ignore"):
+        values = system(Discs(boxes.centres, boxes.inner))
+        away = (magnitude(values.mid) > values.rad * 2).all(axis=1)
+    return boxes.proved & away

@@ -1,0 +1,174 @@
+"""Bennett's mechanisms B_H: orientations and Bennett's variety, T25 section 6."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from nag.symbolic.bennett_geometry import Parameters, abbreviations
+
+Quaternion = Sequence[Any]
+
+
+def orientations(m: Parameters) -> list[tuple[Any, ...]]:
+    """Lemma 6.1: a_init, b_init and c_init."""
+    m0, m1, m2 = m
+    s = abbreviations(m)
+    n0, n1, n2 = m0**2 + 1, m1**2 + 1, m1**2 + m2**2
+    a = (m1, m1**2, s["q5"] / n0, (m0**2 + 2 * m0 * m1 - 1) / n0)
+    b = (
+        m1 * (m2**2 - 1) * s["q0"],
+        m1 * (m2**2 - 1) * s["q1"],
+        (1 - m2) * (m1**2 - m2) * s["q1"]
+        + 2 * s["q2"]
+        - 8 * n2 * (m1**2 * m0 + m2 * m1 + m2 * m0 - m1) / n0,
+        (1 - m2) * (m1**2 - m2) * s["q0"]
+        + 2 * s["q3"]
+        + 8 * n2 * (m2 * m1 * m0 - m1**2 - m1 * m0 - m2) / n0,
+    )
+    c = (-m1 * m2, -(m2**2), m1 * m2, m1**2)
+    return [
+        tuple(x / n1 for x in a),
+        tuple(x / (n1 * n2 * s["q"]) for x in b),
+        tuple(x / n2 for x in c),
+    ]
+
+
+def along_link_1(m: Parameters, a: Quaternion) -> list[Any]:
+    """Proof of lemma 6.1: the basis of v^1 = r R(a) e^1, lexicographic with a3 > a2 > a1 > a0."""
+    m0, m1, _ = m
+    return [
+        (m1**2 + 1) * (a[0] ** 2 + a[1] ** 2) - m1**2,
+        2 * a[0] * m0 + a[1] * (1 - m0**2) + m1 * a[2] * (m0**2 + 1),
+        a[0] * (1 - m0**2) - 2 * a[1] * m0 + m1 * a[3] * (m0**2 + 1),
+    ]
+
+
+def along_link_3(m: Parameters, c: Quaternion) -> list[Any]:
+    """Proof of lemma 6.1: the solutions of v^3 = r R(c) e^1."""
+    _, m1, m2 = m
+    return [
+        c[0] ** 2 + c[1] ** 2 - m2**2 / (m1**2 + m2**2),
+        c[2] + m1 / m2 * c[1],
+        c[3] + m1 / m2 * c[0],
+    ]
+
+
+def product_13(m: Parameters) -> tuple[Any, Any]:
+    """Equation (13): kappa_0, the denominator of lemma 6.1, and kappa_0 kappa_1 as printed."""
+    m0, m1, m2 = m
+    n0, n1, n2 = m0**2 + 1, m1**2 + 1, m1**2 + m2**2
+    q = m0**2 * (m2 - 1) ** 2 + (m2 + 1) ** 2
+    return n1 * n2 * q, m1**2 * (m2**2 - 1) ** 2 * n0 * n1 * n2 * q
+
+
+def component_a(m: Parameters, a: Quaternion) -> list[Any]:
+    """Equation (14): J_a, where q5 is not 0."""
+    m0, m1, _ = m
+    q5 = abbreviations(m)["q5"]
+    n0, n1 = m0**2 + 1, m1**2 + 1
+    return [
+        a[1] - m1 * a[0],
+        q5 * a[3] - (m0**2 + 2 * m0 * m1 - 1) * a[2],
+        n1 * q5**2 * a[0] ** 2 + n1 * n0**2 * a[2] ** 2 - q5**2,
+    ]
+
+
+def component_c(m: Parameters, c: Quaternion) -> list[Any]:
+    """Equation (15): J_c."""
+    _, m1, m2 = m
+    n2 = m1**2 + m2**2
+    return [
+        m1 * c[1] - m2 * c[0],
+        m2 * c[3] - m1 * c[2],
+        m2**2 * n2 * c[0] ** 2 + m1**2 * n2 * c[2] ** 2 - m1**2 * m2**2,
+    ]
+
+
+def variety(m: Parameters, a0: Any, a2: Any, c0: Any, c2: Any) -> list[Any]:
+    """Equation (17): g_0, g_1 and g_3, the generators of I_benn."""
+    m0, m1, m2 = m
+    q5 = abbreviations(m)["q5"]
+    n0, n1, n2 = m0**2 + 1, m1**2 + 1, m1**2 + m2**2
+    return [
+        a0**2 + n0**2 / q5**2 * a2**2 - 1 / n1,
+        m2**2 * c0**2 + m1**2 * c2**2 - m1**2 * m2**2 / n2,
+        m1 * n0 * c2 * a2 + q5 * c0 * a0,
+    ]
+
+
+def g_4(m: Parameters, a0: Any, c0: Any) -> tuple[Any, Any]:
+    """g_4 as in (17), and as it stands before (18)."""
+    _, m1, m2 = m
+    n1, n2 = m1**2 + 1, m1**2 + m2**2
+    first = (m2**2 - 1) * n1 * n2 * c0**2 * a0**2
+    return (
+        first - m2**2 * n2 * c0**2 - m1**2 * m2**2 * n1 * a0**2 + m1**2 * m2**2,
+        first - m2**2 * (n2 * c0**2 + m1**2 * n1 * a0**2 - m1**2),
+    )
+
+
+def gamma_4(m: Parameters) -> Any:
+    """What gamma_4 of g_5 = b_0^2 - gamma_4 (..) must be by (18)."""
+    _, m1, m2 = m
+    t0 = coefficients(m)[0]
+    return t0**2 * m2**2 / ((m2**2 - 1) * (m1**2 + 1) * (m1**2 + m2**2))
+
+
+def g_5(m: Parameters, a0: Any, c0: Any, b0: Any) -> Any:
+    """g_5, with that gamma_4."""
+    _, m1, m2 = m
+    inner = (m1**2 + m2**2) * c0**2 + m1**2 * (m1**2 + 1) * a0**2 - m1**2
+    return b0**2 - gamma_4(m) * inner
+
+
+def coefficients(m: Parameters) -> tuple[Any, ...]:
+    """t_0 to t_5 of (18) and (19)."""
+    m0, m1, _ = m
+    q5 = abbreviations(m)["q5"]
+    t0, t1, t2, t4 = coefficients_without_q5(m)
+    _, _, m2 = m
+    t3 = m1 * (m2 - 1) * (m0**2 - 1) - 2 * m0 * (m2 + m1**2)
+    t5 = (m2 + m1**2) * (m0**2 - 1) + 2 * m0 * m1 * (m2 - 1)
+    return t0, t1, t2, t3 / (m1 * q5), t4, t5 / (m1 * q5)
+
+
+def coefficients_without_q5(m: Parameters) -> tuple[Any, ...]:
+    """t_0, t_1, t_2 and t_4, which are there for q5 = 0 as well."""
+    m0, m1, m2 = m
+    s = abbreviations(m)
+    q, q4 = s["q"], s["q4"]
+    t0, t1 = ((m2**2 - 1) * s[k] / (m1 * m2 * q) for k in ("q0", "q1"))
+    t2 = m1 * (m2 - 1) * (q4**2 - 4 * m0**2) + 4 * m0 * q4 * (m1**2 + m2)
+    t4 = (m1**2 + m2) * (q4**2 - 4 * m0**2) - 4 * m0 * m1 * (m2 - 1) * q4
+    denominator = m2 * (m0**2 + 1) * q
+    return t0, t1, t2 / denominator, t4 / denominator
+
+
+def essential_to_all(m: Parameters, a0: Any, a2: Any, c0: Any, c2: Any) -> list[tuple[Any, ...]]:
+    """(16), (18), (19) and f_0 to f_7 (with bars): all of a, b, c from the essential ones."""
+    m0, m1, m2 = m
+    q5 = abbreviations(m)["q5"]
+    t0, t1, t2, t3, t4, t5 = coefficients(m)
+    a = (a0, m1 * a0, a2, (m0**2 + 2 * m0 * m1 - 1) / q5 * a2)
+    b = (t0 * a0 * c0, t1 * a0 * c0, t2 * a0 * c2 + t3 * a2 * c0, t4 * a0 * c2 + t5 * a2 * c0)
+    c = (c0, m2 / m1 * c0, c2, m1 / m2 * c2)
+    return [a, b, c]
+
+
+def under_the_root(m: Parameters, cos: Any, sin: Any) -> Any:
+    """q_6 of the parametrisation."""
+    _, m1, m2 = m
+    return (m1**2 + m2**2) * (m2**2 * sin**2 + cos**2)
+
+
+def parametrisation(m: Parameters, cos: Any, sin: Any, root1: Any, root6: Any) -> tuple[Any, ...]:
+    """After (20): a0, a2, c0, c2; ``root1`` is sqrt(m1^2 + 1), ``root6`` is sqrt(q_6)."""
+    m0, m1, m2 = m
+    q5 = abbreviations(m)["q5"]
+    return (
+        cos / root1,
+        -q5 * sin / ((m0**2 + 1) * root1),
+        m1 * m2 * sin / root6,
+        m2 * cos / root6,
+    )

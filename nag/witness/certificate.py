@@ -1,0 +1,150 @@
+"""What is proved of a decomposition: lower bounds of degrees, by simple zeros on the slices.
+
+A simple zero of all equations on a slice of codimension d lies on a component of dimension d, and
+on no other, so that as many distinct ones as there are on a slice are a lower bound of the sum of
+the degrees in that dimension. On different slices only points of different factors of the equations
+are counted together. Which of them lie on one component rests on paths, not on proof.
+
+Reference: Fulton, Intersection theory, 1998, example 8.4.6: the degrees of all components together
+are at most the product of the equations' degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import prod
+
+import numpy as np
+
+from nag.algebra.factoring import factored
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.box_relations import overlaps
+from nag.numerics.certified_points import CertifiedPoints, Proof, certify_points
+from nag.numerics.discs import DiscPolynomials, Discs
+from nag.numerics.krawczyk import Boxes
+from nag.witness.witness import Decomposition, WitnessSet
+
+# The factor of each equation that a component lies in.
+Signature = tuple[Polynomial, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class ComponentCertificate:
+    """What is proved of the witness points of one component.
+
+    Attributes:
+        component: the component, one of its orbit.
+        points: what is proved of each point.
+        distinct: whether all proved zeros are proved distinct.
+    """
+
+    component: WitnessSet
+    points: CertifiedPoints
+    distinct: bool
+
+    @property
+    def all_proved(self) -> bool:
+        """Whether something is proved of each point, and each pair is distinct."""
+        return Proof.NONE not in self.points.proofs and self.distinct
+
+
+@dataclass(frozen=True, eq=False)
+class DecompositionCertificate:
+    """What is proved of a decomposition.
+
+    Attributes:
+        decomposition: the components.
+        components: what is proved of each.
+        bounds: by dimension, a number that the sum of the degrees of the components of that
+            dimension is proved not to be below.
+        most: the sum of the degrees of all components is at most this.
+    """
+
+    decomposition: Decomposition
+    components: tuple[ComponentCertificate, ...]
+    bounds: dict[int, int]
+    most: int
+
+    @property
+    def all_proved(self) -> bool:
+        """Whether something is proved of each point of each component."""
+        return all(c.all_proved for c in self.components)
+
+    @property
+    def complete(self) -> bool:
+        """Whether it is proved that there are no other components."""
+        return bool(self.components) and sum(self.bounds.values()) == self.most
+
+
+def certify_decomposition(decomposition: Decomposition) -> DecompositionCertificate:
+    """Prove what can be proved of the witness points of all components."""
+    system = decomposition.system
+    equations = [f for f in system.polynomials if f]
+    certificates = []
+    # Components of different factors are distinct; points on one slice are compared.
+    apart: dict[tuple[int, Signature], dict[bytes, list[CertifiedPoints]]] = {}
+    for component in decomposition.components:
+        rows = component.slice.rows
+        singular = np.full(component.degree, component.corank > component.dimension)
+        accuracy = np.full(component.degree, component.accuracy)
+        points = certify_points(equations, rows, component.points, accuracy, singular)
+        same, unknown = overlaps(points.boxes)
+        certificates.append(ComponentCertificate(component, points, not same and not unknown))
+        key = component.dimension, _signature(equations, points)
+        apart.setdefault(key, {}).setdefault(rows.tobytes(), []).append(points)
+    bounds = dict.fromkeys((c.dimension for c in decomposition.components), 0)
+    for (dimension, signature), slices in apart.items():
+        if signature is not None:
+            bounds[dimension] += max(map(_distinct_simple, slices.values()))
+    most = prod(f.degree for f in equations)
+    return DecompositionCertificate(decomposition, tuple(certificates), bounds, most)
+
+
+def _signature(equations: Sequence[Polynomial], points: CertifiedPoints) -> Signature | None:
+    """The one factor of each equation that vanishes at the points; None if that is not proved.
+
+    Only that of the component can, where the points are not on another one as well.
+    """
+    boxes, chosen = points.boxes, points.having(Proof.SIMPLE)
+    inner = Discs(boxes.centres[chosen], boxes.inner[chosen])
+    signature = []
+    for f in equations:
+        factors = [p for p, _ in factored(f)]
+        if len(factors) > 1:
+            factors = [p for p in factors if not _away(p, inner)]
+        if len(factors) != 1:
+            return None
+        signature.append(factors[0])
+    return tuple(signature)
+
+
+def _away(f: Polynomial, boxes: Discs) -> bool:
+    """Whether a polynomial is proved to have no zero in any of the boxes."""
+    try:
+        system = DiscPolynomials.of([f], np.zeros((0, 1 + f.n), dtype=complex))
+    except OverflowError:
+        return False
+    with np.errstate(all="ignore"):
+        values = system(boxes)
+        return bool((np.abs(values.mid) > 2 * values.rad).all())
+
+
+def _distinct_simple(groups: list[CertifiedPoints]) -> int:
+    """Number of simple zeros of points on one slice that are proved and proved distinct."""
+    parts = [(g, g.having(Proof.SIMPLE)) for g in groups]
+    fine, start = {}, 0
+    for g, chosen in parts:
+        fine |= {
+            start + k: g.boxes.fine[i] for k, i in enumerate(chosen.tolist()) if i in g.boxes.fine
+        }
+        start += len(chosen)
+    boxes = Boxes(
+        np.concatenate([g.boxes.centres[i] for g, i in parts]),
+        np.concatenate([g.boxes.outer[i] for g, i in parts]),
+        np.concatenate([g.boxes.inner[i] for g, i in parts]),
+        np.concatenate([g.boxes.proved[i] for g, i in parts]),
+        fine,
+    )
+    same, unknown = overlaps(boxes)
+    return start - len({j for _, j in [*same, *unknown]})

@@ -1,0 +1,113 @@
+"""The atlas counts answers by what is known exactly, and tells what changed."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from exact_counts import zero_set
+
+from nag.bench.atlas.families import FAMILIES, Family
+from nag.bench.atlas.linkages import bricard_violated
+from nag.bench.atlas.stability import (
+    Atlas,
+    Cell,
+    Row,
+    changes,
+    document,
+    family_named,
+    read_atlas,
+    run_atlas,
+)
+from nag.cli import main
+from nag.numerics.box_relations import overlaps
+from nag.numerics.discs import DiscPolynomials, Discs
+from nag.numerics.krawczyk import boxes_of
+from nag.solving.solve import solve
+
+
+def test_families_have_names_of_their_own() -> None:
+    names = [f.name for f in FAMILIES]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda f: f.name)
+def test_each_value_is_a_system_of_the_method_and_the_same_for_a_seed(family: Family) -> None:
+    for value in family.values:
+        first, second = (family.make(value, np.random.default_rng(5)) for _ in range(2))
+        assert first.system == second.system
+        assert family.method in first.methods
+
+
+@pytest.mark.parametrize("name", ["tangent", "hyperbola", "cubic", "circles", "touching", "unity"])
+def test_what_is_known_of_a_family_is_exact(name: str) -> None:
+    family = family_named(name)
+    for value in family.values[:4]:
+        problem = family.make(value, np.random.default_rng(3))
+        exact = zero_set(problem.system) if problem.system.n < 3 else None
+        assert exact is None or exact.agrees(problem.truth)
+
+
+def test_the_violated_cube_has_six_proved_configurations() -> None:
+    system = bricard_violated(4, np.random.default_rng(0)).system
+    found = solve(replace(system, nonzero=()))
+    slices = np.zeros((0, 1 + system.n), dtype=complex)
+    boxes = boxes_of(system.polynomials, slices, found.points, np.full(len(found.points), 1e-6))
+    assert boxes.proved.all()
+    assert overlaps(boxes) == ([], [])
+    values = DiscPolynomials.of(system.nonzero, slices)(Discs(boxes.centres, boxes.inner))
+    assert int((np.abs(values.mid) > 2 * values.rad).all(axis=1).sum()) == 6
+
+
+def _atlas(right: int, undecided: int, wrong: int) -> Atlas:
+    cell = Cell(2, right=right, undecided=undecided, wrong=wrong, seconds=0.5, remarks=("x",))
+    return Atlas(
+        "default", right + undecided + wrong, 10.0, (Row("a", "b", "c", "solve", (cell,)),)
+    )
+
+
+def test_an_atlas_reads_back_equal() -> None:
+    atlas = _atlas(1, 2, 3)
+    assert read_atlas(json.dumps(document(atlas))) == atlas
+
+
+def test_a_step_back_is_told_and_the_same_share_is_not() -> None:
+    before = _atlas(20, 0, 0)
+    assert list(changes(_atlas(2, 0, 0), before)) == []
+    assert list(changes(_atlas(1, 0, 1), before)) == [
+        "a 2: WORSE, 1 of 2 wrong, were 0 of 20",
+        "a 2: WORSE, 1 of 2 right, were 20 of 20",
+    ]
+    assert [line.split(",")[0] for line in changes(before, _atlas(1, 1, 0))] == ["a 2: better"]
+
+
+def test_answers_are_counted_over_seeds() -> None:
+    atlas = run_atlas([replace(family_named("unity"), values=(2, 10))], seeds=2, limit=20.0)
+    assert [(c.value, c.right, c.answers) for c in atlas.rows[0].cells] == [(2, 2, 2), (10, 2, 2)]
+
+
+def test_the_kept_atlas_is_drawn_without_a_run(tmp_path: Path, capsys) -> None:
+    pytest.importorskip("matplotlib")
+    kept = Path(__file__).parents[1] / "nag" / "bench" / "charts" / "stability.json"
+    target = tmp_path / "atlas.svg"
+    main(["chart", "stability", "--data", str(kept), "--picture", str(target)])
+    assert "right" in capsys.readouterr().out
+    assert target.read_text().startswith("<?xml")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--family", "nothing"],
+        ["--data", "/nowhere/atlas.json"],
+        ["--picture", "atlas.txt"],
+        ["--seeds", "0"],
+        ["--against", "/nowhere/atlas.json"],
+    ],
+)
+def test_bad_arguments_are_one_line(arguments: list[str], capsys) -> None:
+    assert main(["chart", "stability", *arguments]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1

@@ -1,0 +1,263 @@
+"""Certificates hold what is true, and nothing is proved that is not."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.cli import main
+from nag.decomposition import decompose
+from nag.files.cases import read_case
+from nag.files.certificate_export import schema
+from nag.files.export import write_decomposition
+from nag.files.solutions_export import write_solutions
+from nag.numerics.box_relations import overlaps, real_zeros
+from nag.numerics.certified_points import Proof, certify_points
+from nag.numerics.discs import DiscPolynomials, Discs, product
+from nag.numerics.krawczyk import boxes_in_doubles, boxes_of
+from nag.solving.certificate import certify_solutions
+from nag.solving.solve import solve
+from nag.witness.certificate import certify_decomposition
+
+CASES = Path(__file__).parents[1] / "cases"
+x, y = Polynomial.variables(2)
+NO_SLICE = np.zeros((0, 3), dtype=complex)
+
+numbers = st.floats(-1e6, 1e6, allow_subnormal=False).filter(lambda v: v == 0 or abs(v) > 1e-6)
+radii = st.floats(0, 1e3, allow_subnormal=False)
+directions = st.sampled_from([(1, 0), (0, 1), (-1, 0), (0, -1), (Fraction(3, 5), Fraction(4, 5))])
+
+
+def exactly(z: complex) -> tuple[Fraction, Fraction]:
+    return Fraction(z.real), Fraction(z.imag)
+
+
+def times(a, b):
+    return a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]
+
+
+def within(z, disc: Discs) -> bool:
+    """Whether an exact number lies in a disc of arrays of one element."""
+    mid, rad = exactly(complex(disc.mid.item())), Fraction(disc.rad.item())
+    return (z[0] - mid[0]) ** 2 + (z[1] - mid[1]) ** 2 <= rad**2
+
+
+@given(numbers, numbers, radii, directions, numbers, numbers, radii, directions)
+@settings(derandomize=True, deadline=None)
+def test_the_disc_of_a_product_holds_the_exact_products(a, b, r, d, c, e, s, f) -> None:
+    first, second = complex(a, b), complex(c, e)
+    disc = product(
+        Discs(np.array([first]), np.array([r])), Discs(np.array([second]), np.array([s]))
+    )
+    for p, q in ((0, 0), (1, 1), (1, -1)):
+        left = tuple(u + p * Fraction(r) * v for u, v in zip(exactly(first), d, strict=True))
+        right = tuple(u + q * Fraction(s) * v for u, v in zip(exactly(second), f, strict=True))
+        assert within(times(left, right), disc)
+
+
+@given(st.lists(numbers, min_size=4, max_size=4), radii, directions)
+@settings(derandomize=True, deadline=None)
+def test_the_disc_of_a_polynomial_holds_its_exact_values(parts, r, d) -> None:
+    f = x**3 * y / 7 - 5 * x * y**2 + Fraction(1, 3)
+    slope = f.derivative(0)
+    point = np.array([[complex(*parts[:2]), complex(*parts[2:])]])
+    system = DiscPolynomials.of([f], NO_SLICE)
+    box = Discs(point, np.array([[r, r]]))
+    values, jacobian = system(box), system.jacobian(box)
+    shifted = [
+        tuple(u + Fraction(r) * v for u, v in zip(exactly(complex(z)), d, strict=True))
+        for z in point[0]
+    ]
+    for g, found in (
+        (f, Discs(values.mid[0], values.rad[0])),
+        (slope, Discs(jacobian.mid[0, 0, :1], jacobian.rad[0, 0, :1])),
+    ):
+        assert within(exact_value(g, shifted), found)
+
+
+def exact_value(f: Polynomial, point) -> tuple[Fraction, Fraction]:
+    total = (Fraction(0), Fraction(0))
+    for e, c in f.terms.items():
+        value = (c, Fraction(0))
+        for z, k in zip(point, e, strict=True):
+            for _ in range(k):
+                value = times(value, z)
+        total = (total[0] + value[0], total[1] + value[1])
+    return total
+
+
+def test_boxes_hold_the_rational_zeros_that_they_are_proved_for() -> None:
+    zeros = [(Fraction(i, 3), Fraction(j, 7)) for i in (1, 2, 4) for j in (-1, 5)]
+    f = (3 * x - 1) * (3 * x - 2) * (3 * x - 4)
+    g = (7 * y + 1) * (7 * y - 5) + f
+    points = np.array([[float(a), float(b)] for a, b in zeros], dtype=complex)
+    found = boxes_in_doubles([f, g], NO_SLICE, points)
+    assert found.proved.all()
+    for k, zero in enumerate(zeros):
+        inside = [
+            abs(Fraction(c.real) - v) <= Fraction(r)
+            for c, r, v in zip(found.centres[k], found.inner[k], zero, strict=True)
+        ]
+        assert all(inside)
+        others = [z for z in zeros if z != zero]
+        assert not any(
+            all(
+                abs(Fraction(c.real) - v) <= Fraction(r)
+                for c, r, v in zip(found.centres[k], found.outer[k], z, strict=True)
+            )
+            for z in others
+        )
+
+
+@pytest.mark.parametrize("point", [(0.5, 0.5), (1 + 1e-3, 1), (np.nan, 1), (np.inf, 0), (0, 0)])
+def test_no_box_is_proved_away_from_zeros(point: tuple[float, float]) -> None:
+    equations = [x**2 + y**2 - 2, x - y]
+    reach = np.array([1e-6])
+    found = boxes_of(equations, NO_SLICE, np.array([point], dtype=complex), reach)
+    assert not found.proved.any()
+
+
+def test_multiple_zeros_are_not_proved_simple() -> None:
+    equations = [(x - y) ** 2, x + y - 2]
+    found = boxes_of(equations, NO_SLICE, np.ones((1, 2), dtype=complex), np.array([1e-6]))
+    assert not found.proved.any()
+
+
+def test_points_at_one_zero_are_seen_to_be_one() -> None:
+    points = np.array([[1, 1], [1 + 1e-15, 1], [-1, -1]], dtype=complex)
+    boxes = boxes_of([x**2 + y**2 - 2, x - y], NO_SLICE, points, np.full(3, 1e-6))
+    assert boxes.proved.all()
+    assert overlaps(boxes) == ([(0, 1)], [])
+
+
+def test_real_and_complex_zeros_are_told_apart() -> None:
+    root = 2**0.5
+    points = np.array([[root, 1], [root + 1e-17j, 1], [1e-9j, 0]], dtype=complex)
+    equations = [(x**2 - 2) * (x**2 + Fraction(1, 10**18)), y - x**2 + 1]
+    points[2, 1] = points[2, 0] ** 2 - 1
+    boxes = boxes_of(equations, NO_SLICE, points, np.full(3, 1e-6))
+    real, complex_ = real_zeros(boxes)
+    assert boxes.proved.all()
+    assert real.tolist() == [True, True, False]
+    assert complex_.tolist() == [False, False, True]
+
+
+def test_zeros_nearer_than_doubles_see_are_not_proved_from_doubles() -> None:
+    # Both zeros have the same nearest doubles; a box about these would hold two.
+    equations = [(x - 1) ** 2 - Fraction(1, 10**40), y - x]
+    points = np.ones((2, 2), dtype=complex)
+    assert not boxes_of(equations, NO_SLICE, points, np.full(2, 1e-9)).proved.any()
+
+
+def test_a_zero_of_some_equations_only_is_refuted() -> None:
+    equations = [x**2 - 1, y**2 - 1, x + y - 2 + (x - 1) * Fraction(1, 10**9)]
+    points = np.array([[1, 1], [-1, 1]], dtype=complex)
+    found = certify_points(equations, NO_SLICE, points, np.full(2, 1e-16), np.zeros(2, dtype=bool))
+    assert found.proofs == (Proof.PART, Proof.NONE)
+    assert found.refuted == (1,)
+
+
+@pytest.mark.parametrize(
+    ("equations", "proof"),
+    [
+        ([(x - y) ** 3, x**2 + y**2 - 2], Proof.EXACT),
+        ([(x - y) ** 3, x**2 + y**2 - 3], Proof.DEFLATED),
+        ([x**2 - 2, y**2 - x * y + Fraction(1, 2)], Proof.DEFLATED),
+    ],
+)
+def test_multiple_solutions_are_proved_by_exact_values_or_deflation(
+    equations: list[Polynomial], proof: Proof
+) -> None:
+    result = solve(PolynomialSystem(("x", "y"), equations))
+    certificate = certify_solutions(result)
+    multiple = [p for p, s in zip(certificate.points.proofs, result.solutions, strict=True)
+                if s.multiplicity > 1]  # fmt: skip
+    assert multiple
+    assert set(multiple) == {proof}
+    assert certificate.all_proved
+    assert not certificate.complete
+
+
+def test_all_solutions_of_katsura_are_certified_and_there_are_no_others() -> None:
+    system = read_case(CASES / "benchmarks" / "katsura-6.toml").system
+    certificate = certify_solutions(solve(system))
+    assert certificate.simple == certificate.bound == 64
+    assert not certificate.points.boxes.fine
+    assert certificate.complete
+    assert (certificate.real | certificate.not_real).all()
+
+
+def test_a_solution_listed_twice_is_found_out() -> None:
+    result = solve(PolynomialSystem(("x", "y"), (x**2 + y**2 - 2, x - y)), start="total")
+    twice = replace(result, solutions=(*result.solutions, result.solutions[0]))
+    certificate = certify_solutions(twice)
+    assert certificate.same == ((0, 2),)
+    assert certificate.simple == 2
+    assert not certificate.all_proved
+    assert not certificate.complete
+
+
+def test_degrees_of_components_are_bounded_from_below_by_proved_points() -> None:
+    system = PolynomialSystem(("x", "y"), ((x**2 + y**2 - 1) * (x - 2 * y),))
+    certificate = certify_decomposition(decompose(system))
+    assert certificate.bounds == {1: 3}
+    assert certificate.complete
+    assert certificate.all_proved
+
+
+def test_points_of_a_double_curve_bound_no_degree() -> None:
+    certificate = certify_decomposition(decompose(read_case(CASES / "gonzalez.toml").system))
+    proofs = [p for c in certificate.components for p in c.points.proofs]
+    assert proofs.count(Proof.SIMPLE) == 8
+    assert proofs.count(Proof.DEFLATED) == 4
+    assert certificate.bounds == {1: 8}
+
+
+def test_the_command_certifies_exports_of_both_kinds(tmp_path: Path, capsys) -> None:
+    system = PolynomialSystem(("x", "y"), (x**2 + y**2 - 2, x * y - 1))
+    solved, decomposed = tmp_path / "solved.json", tmp_path / "decomposed.json"
+    write_solutions(solve(system), solved)
+    write_decomposition(decompose(PolynomialSystem(("x", "y"), (x * y - 1,))), decomposed)
+    for export, line in (
+        (solved, "2 of 2 solutions"),
+        (decomposed, "2 of 2 witness points"),
+    ):
+        target = tmp_path / f"certificate-{export.name}"
+        assert main(["certify", str(export), "--json", str(target)]) == 0
+        assert line in capsys.readouterr().out
+        jsonschema.validate(json.loads(target.read_text()), schema())
+    jsonschema.Draft202012Validator.check_schema(schema())
+
+
+def test_a_point_that_is_no_solution_makes_the_certificate_incomplete(tmp_path, capsys) -> None:
+    export = tmp_path / "solved.json"
+    result = solve(PolynomialSystem(("x", "y"), (x**2 + y**2 - 3, x * y - 1)))
+    moved = replace(result.solutions[0], point=result.solutions[0].point + 0.01)
+    write_solutions(replace(result, solutions=(moved, *result.solutions[1:])), export)
+    assert main(["certify", str(export)]) == 1
+    assert "1 not proved" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("content", ["", "[]", "{}", '{"format": "nag-solutions"}'])
+def test_what_is_no_export_is_one_line(tmp_path: Path, capsys, content: str) -> None:
+    export = tmp_path / "export.json"
+    export.write_text(content)
+    assert main(["certify", str(export)]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+@pytest.mark.parametrize("command", ["solve", "decompose"])
+def test_answers_are_certified_on_request(command: str, capsys) -> None:
+    case = CASES / ("benchmarks/katsura-6.toml" if command == "solve" else "slider-crank.toml")
+    assert main([command, str(case), "--certify", "--quiet"]) == 0
+    assert "\ncertified" in capsys.readouterr().out
