@@ -2,9 +2,9 @@
 
 Over a joint's half-angle with c^2 + s^2 = 0 a curve of configurations has ends at which the product
 of the joints' rotations vanishes: there at least one other joint's half-angle is of this kind, too.
-The two are connected, a configuration that moves the one moves the other; the number of conjugate
-pairs of such ends is their connection number. A joint's connection numbers add up to the degree of
-the curve over it.
+They are connected; the number of conjugate pairs of such ends is their connection number. A joint's
+connection numbers, with the orders to which its norm vanishes, add up to the degree of the curve
+over it.
 
 Reference:
     Hegedus, Schicho & Schroecker, The theory of bonds: a new method for the analysis of linkages,
@@ -14,13 +14,17 @@ Reference:
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
 from typing import Any
 
 import numpy as np
 
+from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import direction, dot
+from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
 from nag.witness.fibres import Fibre, Tracker, move
@@ -30,14 +34,37 @@ from nag.witness.witness import WitnessSet
 
 # Distances from an end, relative to the coordinate's size, at which the joints' norms are compared.
 NEAR, NEARER = 1e-3, 1e-5
-# A norm vanishes at an end if it falls with at least this power of the distance; the least power
-# that is possible is the inverse of the number of points that come together.
-FALLING = 0.05
+# Norms fall with a power of the distance that is a ratio of orders.
+LARGEST_ORDER, UNCLEAR = 6, 0.03
 ATTEMPTS = 3
+
+
+_Kind = tuple[tuple[str, int], ...]
 
 
 class BondError(ValueError):
     """Bonds that could not be determined, with the reason."""
+
+
+@dataclass(frozen=True)
+class Bond:
+    """Conjugate pairs of ends of a curve that are alike.
+
+    Attributes:
+        joints: names of the joints that are connected, in the order of the loop.
+        orders: to which order the norm of each one's half-angle vanishes.
+        count: number of pairs.
+    """
+
+    joints: tuple[str, ...]
+    orders: tuple[int, ...]
+    count: int
+
+    def __str__(self) -> str:
+        text = "-".join(self.joints)
+        if max(self.orders) > 1:
+            text += f" of orders {', '.join(map(str, self.orders))}"
+        return f"{text} ({self.count})" if self.count > 1 else text
 
 
 @dataclass(frozen=True)
@@ -46,34 +73,85 @@ class Bonds:
 
     Attributes:
         joints: names of the joints, in the order of the loop.
-        connections: connection number of each set of joints (mostly pairs) that is connected.
+        bonds: the connected sets of joints, mostly pairs.
         degrees: for each joint that the model keeps, the number of configurations in which it has a
             given angle.
     """
 
     joints: tuple[str, ...]
-    connections: Mapping[tuple[str, ...], int]
+    bonds: tuple[Bond, ...]
     degrees: Mapping[str, int]
 
     @property
     def consistent(self) -> bool:
-        """Whether the connection numbers of each kept joint add up to its degree."""
-        return all(
-            sum(k for names, k in self.connections.items() if joint in names) == degree
-            for joint, degree in self.degrees.items()
-        )
+        """Whether the orders at each kept joint add up to its degree."""
+        found: Counter[str] = Counter()
+        for bond in self.bonds:
+            for name, order in zip(bond.joints, bond.orders, strict=True):
+                found[name] += order * bond.count
+        return all(found[joint] == degree for joint, degree in self.degrees.items())
 
     def __str__(self) -> str:
-        if not self.connections:
-            return "none"
-        parts = []
-        for names, number in self.connections.items():
-            parts.append("-".join(names) + (f" ({number})" if number > 1 else ""))
-        return ", ".join(parts)
+        return ", ".join(map(str, self.bonds)) or "none"
+
+
+@dataclass(frozen=True)
+class _Loop:
+    """A loop of revolute joints with equations in half-angles.
+
+    Attributes:
+        system: the equations; ``nonzero`` are the norms of the kept half-angles.
+        joints: names of the joints, in the order of the loop.
+        kept: names of those that have a variable, in the order of the variables.
+        squares: squared lengths of the axes' vectors.
+        half_angles: (c, s) of all joints at a solution.
+    """
+
+    system: PolynomialSystem
+    joints: tuple[str, ...]
+    kept: tuple[str, ...]
+    squares: Mapping[str, float]
+    half_angles: Callable[[Sequence[complex]], Mapping[str, tuple[complex, complex]]]
+
+
+def _loop(given: Model | DHModel) -> _Loop:
+    """The loop of a model.
+
+    Raises:
+        ValueError: if it has none of this kind.
+    """
+    if isinstance(given, DHModel):
+        rows = given.loop.rows
+        if len(given.loop.open) < len(rows):
+            raise ValueError("bonds are for loops with all joints open")
+        names = tuple(row.name for row in rows)
+        kept = tuple(rows[i].name for i in given.kept)
+        return _Loop(given.system, names, kept, dict.fromkeys(names, 1.0), given.half_angles)
+    form = given.form
+    if not isinstance(form, HalfAngleModel) or len(form.closures) != 1:
+        raise ValueError("bonds are for single loops in formulation H")
+    if any(joint.type != "revolute" for joint in given.structure.joints):
+        raise ValueError("bonds are for loops of revolute joints")
+    axes = {joint.name: direction(joint.axis) for joint in given.structure.joints}
+    return _Loop(
+        given.system,
+        tuple(joint.name for joint in given.structure.loops[0].joints),
+        tuple(factor.joint for factor in form.charts.plain),
+        {name: float(dot(axis, axis)) for name, axis in axes.items()},
+        lambda point: {name: cs for name, (cs,) in form.coordinates(list(point)).items()},
+    )
+
+
+def has_bonds(given: object) -> bool:
+    """Whether something is a model of a loop that has bonds."""
+    try:
+        return isinstance(given, Model | DHModel) and bool(_loop(given).joints)
+    except ValueError:
+        return False
 
 
 def bonds(
-    model: Model,
+    model: Model | DHModel,
     component: WitnessSet,
     *,
     seed: int = 0,
@@ -90,55 +168,43 @@ def bonds(
         BondError: if paths fail.
         ValueError: if the model or the component is another one.
     """
-    form = model.form
-    if not isinstance(form, HalfAngleModel) or len(form.closures) != 1:
-        raise ValueError("bonds are for single loops in formulation H")
-    if any(joint.type != "revolute" for joint in model.structure.joints):
-        raise ValueError("bonds are for loops of revolute joints")
+    loop = _loop(model)
     if component.dimension != 1:
         raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
     rng = np.random.default_rng([seed, 10])
-    search = _Ends(model, form, component, rng, Tracker(settings, threads))
-    kept = search.kept
-    order = tuple(joint.name for joint in model.structure.loops[0].joints)
-    found: dict[tuple[str, ...], dict[str, int]] = {}
+    search = _Ends(loop, component, rng, Tracker(settings, threads))
+    order = loop.joints
+    found: dict[_Kind, set[Fraction]] = {}
     degrees: dict[str, int] = {}
-    for i, joint in enumerate(kept):
+    for i, joint in enumerate(loop.kept):
         ends, degrees[joint] = search.over(i)
-        for names, number in ends.items():
-            found.setdefault(names, {})[joint] = number
-    connections = {}
-    for names in sorted(found, key=lambda s: [order.index(name) for name in s]):
-        numbers = set(found[names].values())
-        if len(numbers) > 1 or numbers.pop() % 2:
+        for kind, number in ends.items():
+            # So many paths as the order come together at each of two conjugate ends.
+            found.setdefault(kind, set()).add(Fraction(number, 2 * dict(kind)[joint]))
+    pairs = []
+    for kind in sorted(found, key=lambda kind: [order.index(name) for name, _ in kind]):
+        (count, *others) = found[kind]
+        names, orders = zip(*kind, strict=True)
+        if others or count.denominator > 1:
             raise BondError(f"the ends of joints {', '.join(names)} do not fit together")
-        connections[names] = next(iter(found[names].values())) // 2
-    return Bonds(order, connections, degrees)
+        pairs.append(Bond(names, orders, int(count)))
+    return Bonds(order, tuple(pairs), degrees)
 
 
 class _Ends:
     """Ends of a curve over a joint's half-angles of norm zero."""
 
     def __init__(
-        self,
-        model: Model,
-        form: HalfAngleModel,
-        component: WitnessSet,
-        rng: np.random.Generator,
-        tracker: Tracker,
+        self, loop: _Loop, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
     ) -> None:
-        self.form, self.component, self.rng, self.tracker = form, component, rng, tracker
-        self.nonzero, self.n = model.system.nonzero, model.system.n
-        self.fibres = component_fibres(model.system, component)
-        owner = {e.factor: name for name, es in form.elements.items() for e in es if e.factor}
-        self.kept = tuple(owner[factor] for factor in form.charts.plain)
-        axes = {joint.name: direction(joint.axis) for joint in model.structure.joints}
-        self.squares = {name: float(dot(axis, axis)) for name, axis in axes.items()}
+        self.loop, self.component, self.rng, self.tracker = loop, component, rng, tracker
+        self.n = loop.system.n
+        self.fibres = component_fibres(loop.system, component)
 
-    def over(self, i: int) -> tuple[Counter[tuple[str, ...]], int]:
-        """For each set of joints how many ends over kept joint ``i`` have it, and its degree."""
+    def over(self, i: int) -> tuple[Counter[_Kind], int]:
+        """How many paths to ends over kept joint ``i`` there are of each kind, and its degree."""
         coefficients = [complex(float(self._coefficient(i, k))) for k in (2, 1, 0)]
-        ends: Counter[tuple[str, ...]] = Counter()
+        ends: Counter[_Kind] = Counter()
         degree = -1
         for root in np.roots(coefficients):
             names = self._at(i, complex(root))
@@ -149,9 +215,11 @@ class _Ends:
         return ends, degree
 
     def _coefficient(self, i: int, k: int) -> Any:
-        return self.nonzero[i].terms.get(tuple(k * int(j == i) for j in range(self.n)), 0)
+        return self.loop.system.nonzero[i].terms.get(
+            tuple(k * int(j == i) for j in range(self.n)), 0
+        )
 
-    def _at(self, i: int, root: complex) -> list[tuple[str, ...]]:
+    def _at(self, i: int, root: complex) -> list[_Kind]:
         """The joints whose norms vanish, for each end over a root."""
         size, turn = abs(root) + 1e-3, complex(unit_complex(self.rng))
         result = []
@@ -178,17 +246,26 @@ class _Ends:
         row[0, 0], row[0, 1 + i] = -value, 1
         return row
 
-    def _vanishing(self, x: np.ndarray, y: np.ndarray) -> tuple[str, ...]:
+    def _vanishing(self, x: np.ndarray, y: np.ndarray) -> _Kind:
+        """The joints whose norms vanish at the end that two points lead to, with the orders."""
         first, second = self._norms(x), self._norms(y)
-        least = FALLING * np.log(NEARER / NEAR)
-        loop = [joint.name for joint in self.form.structure.loops[0].joints]
-        return tuple(name for name in loop if np.log(second[name] / first[name]) < least)
+        powers: dict[str, Fraction] = {}
+        for name in self.loop.joints:
+            slope = float(np.log(second[name] / first[name]) / np.log(NEARER / NEAR))
+            power = Fraction(slope).limit_denominator(LARGEST_ORDER)
+            if abs(float(power) - slope) > UNCLEAR:
+                raise BondError(f"the order to which joint {name} vanishes is not clear")
+            if power > 0:
+                powers[name] = power
+        unit = lcm(*(power.denominator for power in powers.values()))
+        orders = {name: int(power * unit) for name, power in powers.items()}
+        return tuple((name, order // gcd(*orders.values())) for name, order in orders.items())
 
     def _norms(self, point: np.ndarray) -> dict[str, float]:
         """Of each joint's half-angle, relative to its size."""
         result = {}
-        for name, ((c, s),) in self.form.coordinates(list(point)).items():
-            square = self.squares[name]
+        for name, (c, s) in self.loop.half_angles(list(point)).items():
+            square = self.loop.squares[name]
             size = abs(c) ** 2 + square * abs(s) ** 2
             result[name] = max(float(abs(c * c + square * s * s) / size), 1e-300)
         return result
