@@ -177,7 +177,7 @@ def test_threads_and_repeated_runs_give_the_same_text(tmp_path, capsys) -> None:
     first, second = (eliminated(tmp_path, *argv, "--threads", n) for n in ("1", "2"))
     assert first == second
     out = capsys.readouterr().out
-    assert "variables  cosine and sine c1, s1 of B1, c2, s2 of B2, c3, s3 of B3" in out
+    assert "bodies     cosine and sine c1, s1 of B1, c2, s2 of B2, c3, s3 of B3" in out
     assert "c1^2 + s1^2 - 1 = 0" in out
 
 

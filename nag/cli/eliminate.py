@@ -78,7 +78,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    from nag.cli.progress import compilation_notice
+    from nag.cli.progress import compilation_notice, progress_line
 
     started = time.perf_counter()
     if options.json is not None:
@@ -93,7 +93,8 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         try:
             origin, cloud, top, tail = _cloud(options)
             onto = _onto(options.onto, cloud.ambient.system.variables)
-            found = image_ideal(cloud, onto, options.degree, options.polynomial)
+            with progress_line(sys.stderr, options.quiet) as progress:
+                found = image_ideal(cloud, onto, options.degree, options.polynomial, progress)
         except (SourceError, InterpolationError) as error:
             raise UsageError(f"{options.case}: {error}") from None
     complete = not found.note and not tail
@@ -169,7 +170,7 @@ def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled
 
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import source_of_component
-    from nag.report.answer import body_rows
+    from nag.report.variables import body_rows
     from nag.witness.fibres import Tracker
 
     rng = np.random.default_rng([options.seed, 4])
@@ -247,7 +248,7 @@ def _ambient(model: Model) -> Ambient:
     from nag.interpolation.point_cloud import Ambient
 
     elimination = getattr(model.form, "elimination", None)
-    if elimination is None:
+    if elimination is None or elimination.system.variables != model.system.variables:
         return Ambient.itself(model.system)
     names, kept = elimination.original_variables, elimination.kept
     return Ambient.of(model.system, names, kept, elimination.images)

@@ -100,7 +100,7 @@ def image_ideal(
     coordinates: Sequence[int] | None = None,
     degree: int | None = None,
     polynomial_maps: bool = False,
-    progress: Callable[[str], None] | None = None,
+    progress: Callable[[str, int, int], None] | None = None,
 ) -> ImageIdeal:
     """Equations of the image of a component, and maps from there to the other variables.
 
@@ -109,27 +109,27 @@ def image_ideal(
         degree: highest degree of the equations; by default the one from which on these define the
             image, or at least cut it down to its dimension.
         polynomial_maps: whether only polynomial maps to the other variables are looked for.
-        progress: told what comes next.
+        progress: called with a stage's name, its number and the number of stages.
 
     Raises:
         InterpolationError: if coefficients are not rational.
         SourceError: if points cannot be sampled.
     """
-    tell = progress or (lambda _: None)
+    tell = progress or (lambda *_: None)
     if coordinates is None:
-        tell("choosing essential variables")
+        tell("choosing essential variables", 0, 4)
         coordinates = essential_variables(cloud, polynomial_maps)
     coordinates = tuple(coordinates)
     dimension = cloud.image_dimension(coordinates)
-    tell("interpolating equations")
+    tell("interpolating equations", 1, 4)
     known, note = _equations(cloud, coordinates, dimension, degree)
-    tell("interpolating maps")
+    tell("interpolating maps", 2, 4)
     others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
     found: tuple[VariableMap, ...] = ()
     if dimension == cloud.source.dimension:
         found = maps(cloud, known, others, polynomial=polynomial_maps)
     generators = tuple(primitive(f) for f in known.generators)
-    tell("proving")
+    tell("proving", 3, 4)
     n = cloud.ambient.system.n
     statements = [f.with_variables(n, coordinates) for f in generators]
     statements += [cleared_map(m, n, coordinates) for m in found]

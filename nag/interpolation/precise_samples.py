@@ -59,12 +59,17 @@ def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Sour
     """The witness points of a component.
 
     Raises:
-        SourceError: if the coefficients are irrational or nothing moves.
+        SourceError: if the coefficients are irrational, nothing moves, or the points are singular
+            in a way that deflation does not mend.
     """
     _check_rational(system)
     if component.dimension == 0:
         raise SourceError("the component is a point; there is nothing to eliminate from")
-    return Source(system, component.slice.rows, tuple(component_fibres(system, component)))
+    try:
+        fibres = component_fibres(system, component)
+    except ValueError as error:
+        raise SourceError(str(error)) from None
+    return Source(system, component.slice.rows, tuple(fibres))
 
 
 def source_at(
@@ -133,7 +138,10 @@ class Sample:
         scales = [max(abs(float(c)) for c in f.terms.values()) for f in self.cut.polynomials]
         rows = padded(self.rows, 1 + len(self.z))
         jacobian = self.cut.evaluator.jacobian(self.z)
-        inverse = np.linalg.inv(np.vstack([jacobian, rows[:, 1:]]))
+        try:
+            inverse = np.linalg.inv(np.vstack([jacobian, rows[:, 1:]]))
+        except np.linalg.LinAlgError:
+            raise SourceError("a sampled point is singular to rounding") from None
         with flint.ctx.workdps(digits + SPARE):
             point = [flint.acb(complex(x)) for x in self.z]
             slices = [[flint.acb(complex(c)) for c in row] for row in rows]

@@ -20,6 +20,7 @@ from nag.report.table import (
     system_line,
     title_line,
 )
+from nag.report.variables import body_rows, eliminated_lines
 from nag.witness.expansion import expanded
 from nag.witness.witness import Decomposition, Status
 
@@ -138,38 +139,9 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     if system.groups:
         groups = ("(" + ", ".join(system.variables[i] for i in g) + ")" for g in system.groups)
         lines += ["groups", "  " + ", ".join(groups)]
-    lines += _eliminated_lines(model)
+    if model is not None:
+        lines += eliminated_lines(model)
     for name, point in points_of(case, model):
         values = zip(system.variables, point, strict=True)
         lines += [printable(name), "  " + ", ".join(f"{v} = {number_text(x)}" for v, x in values)]
     return lines if model is None else lines + joint_lines(model) + alternative_lines(model)
-
-
-def _eliminated_lines(model: Model | None) -> list[str]:
-    """The variables that linear equations eliminate, in those of the system."""
-    elimination = getattr(model.form, "elimination", None) if model is not None else None
-    if elimination is None or len(elimination.kept) == len(elimination.images):
-        return []
-    texts = [
-        f"{name} = {image.text(elimination.system.variables)}"
-        for i, (name, image) in enumerate(
-            zip(elimination.original_variables, elimination.images, strict=True)
-        )
-        if i not in elimination.kept
-    ]
-    return ["eliminated", "  " + ", ".join(texts)]
-
-
-def body_rows(model: Model) -> list[tuple[str, str]]:
-    """Which variables belong to which body, those that are eliminated included; none for H."""
-    elimination = getattr(model.form, "elimination", None)
-    if elimination is None:
-        return []
-    names, bodies = elimination.original_variables, model.structure.moving
-    each = len(names) // len(bodies)
-    parts = []
-    for i, body in enumerate(bodies):
-        own = names[each * i : each * i + each]
-        parts.append(f"{f'{own[0]} to {own[-1]}' if each > 2 else ', '.join(own)} of {body}")
-    kind = "Euler parameters" if each == 4 else "cosine and sine"
-    return [("variables", f"{kind} {', '.join(parts)}")]

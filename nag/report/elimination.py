@@ -47,7 +47,8 @@ def map_text(found: ImageIdeal, m: VariableMap) -> str:
     """``b2 = a2/(2*a0)``."""
     name = found.variables[m.variable]
     if m.polynomial:
-        return f"{name} = {(m.numerator / m.denominator.constant_value).text(found.names)}"
+        (below,) = m.denominator.terms.values()
+        return f"{name} = {(m.numerator / below).text(found.names)}"
     above, below = whole_fraction(m)
     texts = [f.text(found.names) for f in (above, below)]
     shown = [
