@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, Literal
 
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
@@ -87,8 +88,7 @@ def mobility(
     point: Sequence[Number] | None = None,
     *,
     formulation: str = "auto",
-    components: bool = True,
-    curves: bool = False,
+    detail: Literal["local", "components", "curves"] = "components",
     seed: int = 0,
     threads: int = 1,
     settings: str = "default",
@@ -103,9 +103,8 @@ def mobility(
         point: in the model's variables (``nag.model(mechanism).system.variables``), exact or
             doubles.
         formulation: of a mechanism's model, as for `nag.model`.
-        components: whether to decompose the configuration space as well, to know the components
-            through the configuration; it takes longer.
-        curves: whether to work out genus and bonds of the curves through the configuration.
+        detail: ``"local"`` for what needs no decomposition, ``"components"`` for the components
+            through the configuration as well, ``"curves"`` for genus and bonds of curves, too.
         seed, threads, settings: of the decomposition.
 
     Raises:
@@ -127,12 +126,17 @@ def mobility(
     at = subject.reference if point is None else tuple(point)
     if at is None:
         raise ValueError("the parts are not assembled; give a point, an assembly of them")
-    found = local_dimension(subject.system, at, seed=seed)
+    return _report(subject, at, detail, {"seed": seed, "threads": threads, "settings": settings})
+
+
+def _report(
+    subject: Subject, at: Sequence[Number], detail: str, options: dict[str, Any]
+) -> MobilityReport:
+    found = local_dimension(subject.system, at, seed=options["seed"])
     free, tangent = subject.free, found.tangent_dimension
-    options = {"seed": seed, "threads": threads, "settings": settings}
-    through, doubt = _components(subject, at, **options) if components or curves else (None, "")
+    through, doubt = (None, "") if detail == "local" else _components(subject, at, **options)
     motions = []
-    if curves and through is not None:
+    if detail == "curves" and through is not None:
         motions = [_curve(subject, c, **options) for c in through if c.dimension == 1]
     known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
     return MobilityReport(
