@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from linkages import case, closed_chain, general_loop
 
-from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition import decompose
 from nag.files.modes_export import document
 from nag.mechanism.assembly_modes import all_modes
@@ -165,7 +164,7 @@ def test_the_export_of_all_modes_holds_every_combination_once(bricard_in_all_mod
 
 def test_the_euler_model_of_the_reference_mode_agrees_for_bennett():
     m = model(case("bennett"), "E")
-    signs = [SignedPermutation.of_signs(s) for s in m.symmetries]
+    signs = m.symmetries
     whole = degree_counts(decompose(m.system, symmetries=signs).components)
     carried = decompose_modes(case("bennett"), coordinates="euler").classes[0]
     assert degree_counts(carried.decomposition.components) == whole == {(1, 8): 2}

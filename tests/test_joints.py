@@ -7,7 +7,6 @@ from linkages import closed_chain, exact, loops_of_all_joints, residual
 
 import nag
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
 from nag.mechanism.axes import space_of
@@ -90,7 +89,7 @@ def test_loops_of_all_joints_have_their_mobility_and_lift_to_all_constraints(nam
     assert space_of(m.structure.joints) == m.space == space
     assert set(m.system(m.reference)) <= {0}
     assert set(m.unreduced(m.unreduced_point(m.lift(m.reference)))) == {0}
-    signs = [SignedPermutation.of_signs(s) for s in m.symmetries]
+    signs = m.symmetries
     answer = decompose(m.system, symmetries=signs)
     assert answer.complete
     assert {c.dimension for c in answer.components} == {dimension}

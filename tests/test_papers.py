@@ -95,7 +95,7 @@ def test_half_angles_and_euler_parameters_of_bennett_agree_signs_counted() -> No
     configuration = half.lift(list(half_answer.components[0].points[0]))
     point = np.array(euler.project(configuration), dtype=complex)
     for chosen in product((False, True), repeat=3):
-        flips = [s for s, used in zip(euler.symmetries, chosen, strict=True) if used]
+        flips = [s.signs for s, used in zip(euler.symmetries, chosen, strict=True) if used]
         turned = point * np.prod([np.ones(len(point)), *flips], axis=0)
         for k in components_through(euler_answer, turned):
             hits[k] += 1

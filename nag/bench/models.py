@@ -9,7 +9,6 @@ from dataclasses import asdict, dataclass, replace
 from math import prod
 from typing import Any
 
-from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
 from nag.mechanism.graph import Mechanism
@@ -127,7 +126,7 @@ def _decomposed(
     for warm in (False, True):
         begin = time.process_time()
         made = model(mechanism, "E" if formulation == "unreduced" else formulation)
-        signs = [SignedPermutation.of_signs(s) for s in made.symmetries]
+        signs = made.symmetries
         if formulation == "unreduced":
             answer = decompose(made.unreduced)
         else:

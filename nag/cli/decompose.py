@@ -22,6 +22,7 @@ from nag.cli.sweep import sweep_of
 if TYPE_CHECKING:
     from nag.decomposition.superset import Progress
     from nag.files.cases import Case
+    from nag.files.export import Origin
     from nag.mechanism.model import Model
     from nag.witness.witness import Decomposition
 
@@ -108,30 +109,17 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
             from nag.cli.all_modes import run_all_modes
 
             return run_all_modes(arguments, case, started, progress)
-        decomposition = _decomposed(arguments, case, model, progress)
-        if arguments.coordinates == "euler" and model is not None and model.formulation != "E":
-            from nag.mechanism.coordinates import euler_decomposition
-
-            model, decomposition = euler_decomposition(
-                model, decomposition, threads=arguments.threads
-            )
+        model, decomposition = _decomposed(arguments, case, model, progress)
         if arguments.expand:
             decomposition = expanded(decomposition)
         points = through_points(decomposition, points_of(case, model), arguments.threads)
 
-    from nag.files.export import write_decomposition
     from nag.files.problem import origin
-    from nag.files.written_file import TargetError
     from nag.report.answer import answer_lines
     from nag.report.table import labelled
 
     decomposition = accounted(decomposition, points)
-    failure = None
-    if arguments.json is not None:
-        try:
-            write_decomposition(decomposition, arguments.json, origin(case, model))
-        except TargetError as error:
-            failure = f"--json: {error}"
+    failure = _unwritten(decomposition, arguments.json, origin(case, model))
     seconds = time.perf_counter() - started
     lines = answer_lines(decomposition, case, model, points, seconds)
     if failure is not None:
@@ -140,6 +128,19 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         return lines, decomposition.complete
     certificate, rows = certified(decomposition)
     return [*lines, "", *labelled(rows)], decomposition.complete and certificate.all_proved
+
+
+def _unwritten(decomposition: Decomposition, json: str | None, origin: Origin) -> str | None:
+    """Write the export, if there is to be one; what went wrong, if something did."""
+    from nag.files.export import write_decomposition
+    from nag.files.written_file import TargetError
+
+    if json is not None:
+        try:
+            write_decomposition(decomposition, json, origin)
+        except TargetError as error:
+            return f"--json: {error}"
+    return None
 
 
 def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:
@@ -151,10 +152,17 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
                     f"{arguments.case}: is a polynomial system; --{option} is for mechanisms"
                 )
         return None
-    if arguments.modes == "all" and (arguments.expand or arguments.method == "sampling"):
-        option = "--expand" if arguments.expand else "--method sampling"
+    others = {
+        "--expand": arguments.expand,
+        "--method sampling": arguments.method == "sampling",
+        "--certify": arguments.certify,
+    }
+    if arguments.modes == "all" and any(others.values()):
+        option = next(name for name, given in others.items() if given)
         raise UsageError(f"{option}: is not for --modes all")
-    if arguments.coordinates != "joint" or model.formulation == "H":
+    if arguments.coordinates == "euler" and others["--method sampling"]:
+        raise UsageError("--coordinates euler: --method sampling finds no other; use --formulation")
+    if arguments.coordinates != "joint" or model.formulation != "E":
         return model
     if arguments.formulation is not None:
         raise UsageError(
@@ -166,7 +174,8 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
 
 def _decomposed(
     arguments: argparse.Namespace, case: Case, model: Model | None, progress: Progress
-) -> Decomposition:
+) -> tuple[Model | None, Decomposition]:
+    """The components, and the model in whose coordinates they are."""
     from nag.decomposition import by_sampling, decompose
     from nag.files.problem import symmetries_of, system_of
 
@@ -179,5 +188,10 @@ def _decomposed(
     }
     if arguments.method == "sampling":
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
-        return by_sampling(system_of(case, model), **options, **starts)
-    return decompose(system_of(case, model), **options)
+        return model, by_sampling(system_of(case, model), **options, **starts)
+    decomposition = decompose(system_of(case, model), **options)
+    if model is None or arguments.coordinates != "euler" or model.formulation == "E":
+        return model, decomposition
+    from nag.mechanism.coordinates import euler_decomposition
+
+    return euler_decomposition(model, decomposition, threads=arguments.threads)

@@ -98,7 +98,7 @@ def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
     Raises:
         UsageError: if there is no mechanism, or no configuration of it is known or given.
     """
-    case = read_case_file(options.case)
+    case = read_case_file(options.case, options.set)
     if case.mechanism is None:
         if case.assembly is None:
             raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")

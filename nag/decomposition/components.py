@@ -13,6 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import assembled
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
+from nag.decomposition.independent_parts import decompose_parts
 from nag.decomposition.isolated import contains, is_finite, solved_at_once
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
@@ -38,7 +39,8 @@ def decompose(
 ) -> Decomposition:
     """Decompose the zero set of ``system`` into irreducible components over the complex numbers.
 
-    Where equations factor over the rationals, the parts that the system falls into are decomposed
+    Equations that share no variables are decomposed apart, and their components multiplied. Where
+    equations factor over the rationals, the parts that the system falls into are decomposed
     apart; zeros of polynomials in one variable, and of two equations in two, are isolated exactly
     where they are few. Otherwise linear equations are solved exactly first, and then equations are
     intersected one by one. Where doubts are left and only points were found, the equations are
@@ -67,8 +69,12 @@ def decompose(
         # A branch is not the scheme that was given; its multiplicities are of no interest.
         return _decompose_whole(part, seed, threads, settings, progress, kept, part is system)
 
-    apart = decompose_apart(system, whole, symmetries, seed, threads, settings)
-    return whole(system, symmetries) if apart is None else apart
+    def undivided(part: PolynomialSystem, kept: Sequence[SignedPermutation]) -> Decomposition:
+        apart = decompose_apart(part, whole, kept, seed, threads, settings)
+        return whole(part, kept) if apart is None else apart
+
+    parts = decompose_parts(system, undivided, symmetries, seed, threads, settings)
+    return undivided(system, symmetries) if parts is None else parts
 
 
 def _decompose_whole(

@@ -57,13 +57,51 @@ def components_through_points(
     rng = np.random.default_rng([seed, 11])
     tracker = Tracker(settings, threads)
     reduction = Reduction.of(system)
+    pools, counts, notes = _on_common_slices(starts, reduction, rng, tracker)
+    components: list[WitnessSet] = []
+    evidence = digits_of_evidence(system.polynomials)
+    for d in sorted(pools, reverse=True):
+        answer = split(pools[d], (), evidence, rng, tracker)
+        counts += answer.counts
+        for each in answer.classes:
+            component, spent = checked_witness_set(each, answer.points, reduction, rng, tracker)
+            counts += spent
+            if component.status is Status.IRREDUCIBLE and symmetries:
+                fibres, _ = answer.points.fibres(each.indices)
+                found, spent = _with_orbit(
+                    component, fibres, pools[d].rows, reduction, symmetries, rng, tracker
+                )
+                counts += spent
+                if found is None:
+                    notes.append(f"the orbit of a component of dimension {d} is not known")
+                component = component if found is None else found
+            components.append(component)
+    components.sort(key=lambda c: (-c.dimension, c.degree))
+    whole = all(c.status is Status.IRREDUCIBLE for c in components)
+    return Decomposition(
+        system=system,
+        components=tuple(components),
+        paths=counts,
+        seed=seed,
+        settings=settings,
+        order=(),
+        complete=whole and not notes,
+        notes=tuple(notes),
+    )
+
+
+def _on_common_slices(
+    starts: Sequence[tuple[int, np.ndarray]],
+    reduction: Reduction,
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> tuple[dict[int, Points], PathCounts, list[str]]:
+    """A point of each component on the common slice of its dimension, and what was not found."""
     flag = random_rows(rng, reduction.n, reduction.n)
     pools: dict[int, Points] = {}
     counts, notes = PathCounts(), []
     for d, start in starts:
         x = np.asarray(start, dtype=complex)[reduction.kept]
-        if d == 0 and not reduction.n:
-            continue
         zero = polish(reduction.equations.evaluator, x)
         near, accuracy = (zero.x, 1e-12) if zero.converged else (x, ROUGH)
         simple = zero.converged and zero.corank == d
@@ -77,36 +115,7 @@ def components_through_points(
         _, cut, z = found
         known = pools.get(d, Points(flag[:d]))
         pools[d] = known if known.place(z[: cut.n]) is not None else known.with_point(cut, z)
-    components: list[WitnessSet] = []
-    evidence = digits_of_evidence(system.polynomials)
-    for d in sorted(pools, reverse=True):
-        answer = split(pools[d], (), evidence, rng, tracker)
-        counts += answer.counts
-        for each in answer.classes:
-            component, spent = checked_witness_set(each, answer.points, reduction, rng, tracker)
-            counts += spent
-            if component.status is Status.IRREDUCIBLE and symmetries:
-                fibres, _ = answer.points.fibres(each.indices)
-                found, spent = _with_orbit(
-                    component, fibres, flag[:d], reduction, symmetries, rng, tracker
-                )
-                counts += spent
-                if found is None:
-                    notes.append(f"the orbit of a component of dimension {d} is not known")
-                component = component if found is None else found
-            components.append(component)
-    open_ones = [c for c in components if c.status is not Status.IRREDUCIBLE]
-    components.sort(key=lambda c: (-c.dimension, c.degree))
-    return Decomposition(
-        system=system,
-        components=tuple(components),
-        paths=counts,
-        seed=seed,
-        settings=settings,
-        order=(),
-        complete=not (notes or open_ones),
-        notes=tuple(notes),
-    )
+    return pools, counts, notes
 
 
 def _with_orbit(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import prod
 
 import numpy as np
 
@@ -29,6 +30,8 @@ SAME = 1e-8
 ZERO = 1e-9
 # Values of an equation, beside their terms, that are certainly not zero.
 NONZERO = 1e-6
+# A set whose points would take more paths is not asked first whether it is finite.
+MOST_PATHS = 20_000
 
 
 def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker) -> bool:
@@ -42,6 +45,8 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
         return False
     hardest = max(range(n), key=lambda i: (system.polynomials[i].degree, -i))
     others = [f for i, f in enumerate(system.polynomials) if i != hardest]
+    if prod(f.degree for f in others) > MOST_PATHS:
+        return False
     plane = Polynomial.constant(n, Fraction(float(dyadic(rng, (1,))[0])))
     for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
         plane = plane + x * Fraction(float(weight))

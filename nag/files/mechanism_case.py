@@ -33,8 +33,8 @@ def read_mechanism(top: Table, number: ReadNumber) -> Mechanism:
         for culprit, tables in ((error.joint, joint_tables), (error.body, body_tables)):
             for name, table in reversed(tables):
                 if name == culprit:
-                    table.called(name).fail(error.key, str(error))
-        top.fail(error.key, str(error))
+                    table.called(name).fail(error.key, error.message)
+        top.fail(error.key, error.message)
 
 
 def _read_joint(name: str, table: Table, number: ReadNumber) -> Joint:

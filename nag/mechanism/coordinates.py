@@ -11,7 +11,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.given_points import components_through_points
 from nag.mechanism.model import Model, model
 from nag.mechanism.rods import RodModel
@@ -49,7 +48,7 @@ def euler_decomposition(
         seed=decomposition.seed,
         threads=threads,
         settings=decomposition.settings,
-        symmetries=[SignedPermutation.of_signs(signs) for signs in target.symmetries],
+        symmetries=target.symmetries,
     )
     return target, Decomposition(
         system=answer.system,

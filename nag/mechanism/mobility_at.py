@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from nag.algebra.from_python import coordinates
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -85,7 +86,7 @@ class Subject:
 
 def mobility(
     mechanism: Mechanism | AssemblyModel,
-    point: Sequence[Number] | None = None,
+    point: Sequence[Any] | Mapping[str, Any] | None = None,
     *,
     formulation: str = "auto",
     detail: Literal["local", "components", "curves"] = "components",
@@ -100,8 +101,8 @@ def mobility(
 
     Args:
         mechanism: assembled, or parts that may be assembled (`nag.Case.assembly`).
-        point: in the model's variables (``nag.model(mechanism).system.variables``), exact or
-            doubles.
+        point: in the model's variables (``nag.model(mechanism).system.variables``), in order or by
+            name; exact numbers as `nag.Joint` takes them, or doubles.
         formulation: of a mechanism's model, as for `nag.model`.
         detail: ``"local"`` for what needs no decomposition, ``"components"`` for the components
             through the configuration as well, ``"curves"`` for genus and bonds of curves, too.
@@ -113,9 +114,12 @@ def mobility(
         ValueError: if no point is given, and none is known.
 
     >>> import nag
-    >>> report = nag.mobility(nag.read_case("cases/bennett.toml").mechanism)
-    >>> report.gruebler_kutzbach, report.local_dimension, str(report.status)
-    (-2, 1, 'overconstrained')
+    >>> print(nag.mobility(nag.read_case("cases/bennett.toml").mechanism))
+    counted     -2 by Gruebler-Kutzbach (spatial)
+    model       1 equation in 2 unknowns, formulation H
+    local       tangent dimension 1, local dimension 1
+    components  1 through the configuration: dimension 1, degree 2
+    mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
     """
     if isinstance(mechanism, Mechanism):
         if not loop_structure(mechanism).loops:
@@ -123,7 +127,9 @@ def mobility(
         subject = Subject.of_model(model(mechanism, formulation))
     else:
         subject = Subject.of_parts(mechanism)
-    at = subject.reference if point is None else tuple(point)
+    at = subject.reference
+    if point is not None:
+        at = coordinates(point, subject.system.variables)
     if at is None:
         raise ValueError("the parts are not assembled; give a point, an assembly of them")
     return _report(subject, at, detail, {"seed": seed, "threads": threads, "settings": settings})

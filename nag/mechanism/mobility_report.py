@@ -12,6 +12,7 @@ from enum import StrEnum
 
 from nag.mechanism.bonds import Bonds
 from nag.numerics.local_dimension import LocalDimension
+from nag.text.table import html_table
 
 
 class MobilityStatus(StrEnum):
@@ -136,6 +137,12 @@ class MobilityReport:
     def sentence(self) -> str:
         """What the numbers mean."""
         return _sentence(self)
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def _repr_html_(self) -> str:
+        return html_table("MobilityReport", [["", ""], *map(list, self.rows())])
 
     def __str__(self) -> str:
         return "\n".join(f"{label.ljust(10)}  {text}" for label, text in self.rows())

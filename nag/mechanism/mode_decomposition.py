@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition import decompose, intersect_components
 from nag.mechanism.coordinates import euler_decomposition
 from nag.mechanism.euler import mode_conditions
@@ -95,7 +94,7 @@ def decompose_modes(
             seed=seed,
             threads=threads,
             settings=settings,
-            symmetries=[SignedPermutation.of_signs(s) for s in chosen.symmetries],
+            symmetries=chosen.symmetries,
         )
         if coordinates == "euler" and chosen.formulation != "E":
             chosen, answer = euler_decomposition(chosen, answer, threads=threads)

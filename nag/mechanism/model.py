@@ -157,17 +157,12 @@ def model(
     The smallest is the one with the fewest estimated paths.
 
     Args:
-        mechanism: what is modelled.
-        formulation: ``"auto"`` or a key of `nag.mechanism.formulation_names.FORMULATIONS`.
-        modes: assembly modes, for joints that are not in that of the reference configuration
-            (`nag.mechanism.assembly_modes`), which are those of the mechanism in space.
-        space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
-
-    Args:
         mechanism: at least one of its joints must belong to a loop.
         formulation: ``"E"`` for Euler parameters (the constraints of PT13, table 1, by their prime
             components: T25, lemma 2.1; in the plane a cosine and a sine for each body), ``"H"``
-            for half-angles, ``"auto"`` for the smaller one.
+            for half-angles and other joint coordinates, ``"S"`` for rods as distances, ``"auto"``.
+        modes: assembly modes (`nag.mechanism.assembly_modes`), of the mechanism in space.
+        space: ``"spatial"`` to take a planar or spherical mechanism as one in space.
 
     Raises:
         ModelError: if the mechanism has no loop, or ``formulation`` does not cover it.
@@ -179,20 +174,11 @@ def model(
     >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
     True
     """
-    if formulation != "auto" and formulation not in FORMULATIONS:
-        names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS))
-        raise ModelError(f"formulation {formulation!r} is unknown; use one of {names}")
     structure = with_loops(mechanism)
     if space is None:
         space = "spatial" if modes else space_of(structure.joints)
-    if formulation == "auto":
-        chosen = smallest(structure, space, modes)
-    else:
-        chosen = alternative(structure, space, formulation, modes)
+    chosen = _chosen(structure, space, formulation, modes)
     form = chosen.form
-    if form is None:
-        instead = "" if formulation == "E" else "; use formulation E"
-        raise ModelError(f"formulation {chosen.formulation}: {chosen.problem}{instead}")
     symmetries = form.symmetries if isinstance(form, EulerModel) else ()
     return Model(
         mechanism=mechanism,
@@ -208,6 +194,19 @@ def model(
         form=form,
         modes=modes,
     )
+
+
+def _chosen(structure: LoopStructure, space: Space, formulation: str, modes: Modes) -> Alternative:
+    if formulation == "auto":
+        return smallest(structure, space, modes)
+    if formulation not in FORMULATIONS:
+        names = ", ".join(f'"{name}"' for name in ("auto", *FORMULATIONS))
+        raise ModelError(f"formulation {formulation!r} is unknown; use one of {names}")
+    chosen = alternative(structure, space, formulation, modes)
+    if chosen.form is None:
+        instead = "" if formulation == "E" else "; use formulation E"
+        raise ModelError(f"formulation {formulation}: {chosen.problem}{instead}")
+    return chosen
 
 
 def formulations(mechanism: Mechanism) -> tuple[str, ...]:

@@ -57,9 +57,12 @@ def mechanism_html(mechanism: Mechanism) -> str:
 
 def model_text(model: Model) -> str:
     """A model in five lines."""
+    # Other assembly modes have no reference configuration.
     at = ", ".join(
         f"{name} = {number_text(value)}"
-        for name, value in zip(model.system.variables, model.reference, strict=True)
+        for name, value in zip(
+            model.system.variables, model.reference, strict=bool(model.reference)
+        )
     )
     signs = counted(model.sign_group, "sign change") if model.sign_group > 1 else "none"
     return lines_of(

@@ -1,0 +1,70 @@
+"""Systems that fall apart by their variables: components are products."""
+
+from collections import Counter
+from dataclasses import replace
+
+import pytest
+from linkages import case
+from systems import system
+
+from nag.algebra.symmetry import SignedPermutation
+from nag.decomposition import decompose
+from nag.decomposition.independent_parts import independent_variables
+from nag.mechanism.graph import Mechanism
+from nag.mechanism.model import model
+
+
+def kinds(answer) -> Counter:
+    counts: Counter = Counter()
+    for c in answer.components:
+        counts[c.dimension, c.degree, c.multiplicity] += c.orbit
+    return counts
+
+
+def test_variables_that_occur_together_stay_together():
+    f = system("a b c d e", "a*b - 1", "c^2 + d^2 - 1")
+    assert independent_variables(f) == [(0, 1), (2, 3), (4,)]
+
+
+@pytest.mark.parametrize(
+    ("equations", "expected"),
+    [
+        # A circle and a parabola; each pair of lines and a circle; a cone and two points.
+        (("a^2 + b^2 - 1", "c - d^2"), {(2, 4, 1): 1}),
+        (("(a - b)*(a + 2*b - 1)", "c^2 + d^2 - 1"), {(2, 2, 1): 2}),
+        (("a^2 + b*c", "d^2 - 2"), {(2, 2, 1): 2}),
+        (("a^2 - 2", "b^2 - a - b", "c*d - 1"), {(1, 2, 1): 4}),
+        (("(a^2 - b)^2", "c^2 + d^2 - 1"), {(2, 4, 2): 1}),
+        (("a^2 + 1", "b^2 + 1", "c^2 + 1", "d^2 + 1"), {(0, 1, 1): 16}),
+    ],
+)
+def test_components_are_the_products_of_the_parts_components(equations, expected):
+    answer = decompose(system("a b c d", *equations))
+    assert answer.complete
+    assert kinds(answer) == expected
+
+
+def test_symmetries_of_the_parts_make_orbits_of_the_products():
+    f = system("a b c d", "(a^2 - 2)*(b - 3)", "c^2 - b*0 - 5", "d^2 - c")
+    signs = [SignedPermutation.of_signs((-1, 1, 1, 1))]
+    assert kinds(decompose(f, symmetries=signs)) == kinds(decompose(f))
+
+
+@pytest.mark.parametrize(
+    ("formulation", "expected"),
+    [("H", {(2, 4, 1): 4}), ("E", {(2, 4, 1): 1, (2, 8, 1): 2, (2, 16, 1): 1})],
+)
+def test_loops_that_hang_together_in_the_ground_move_independently(formulation, expected):
+    """Two parallelograms, each with the components of degrees 2 and 4 (in half-angles 2 and 2)."""
+    one = case("planar-four-bar")
+    joints = [
+        replace(
+            j, name=j.name + tag, bodies=tuple(b if b == one.ground else b + tag for b in j.bodies)
+        )
+        for tag in ("", "_too")
+        for j in one.joints
+    ]
+    m = model(Mechanism(one.ground, tuple(joints)), formulation)
+    answer = decompose(m.system, symmetries=m.symmetries)
+    assert answer.complete
+    assert kinds(answer) == expected
