@@ -17,13 +17,11 @@ CURVES = {
     "a cubic with a node": ("x y", "y^2 - x^3 - x^2", 0),
     "a cubic with a cusp": ("x y", "y^2 - x^3", 0),
     "a quartic": ("x y", "x^4 + y^4 - x*y^2 - 1", 3),
-    "a quartic with a node": ("x y", "x^4 + y^4 - x^3 - x*y", 2),
     "a lemniscate": ("x y", "(x^2 + y^2)^2 - x^2 + y^2", 0),
     "a double cover of the line": ("x y", "y^2 - x^5 - x - 1", 2),
     "two quadrics": ("x y z", "x^2 + y^2 + z^2 - 1, x*y - z", 1),
     "a twisted cubic": ("x y z", "y - x^2, z - x^3", 0),
     # A quadric and a cubic meet in a curve of genus 4, less one for each point where they touch.
-    "a quadric and a cubic": ("x y z", "x*y - z^2 - 1, x^3 + y^3 + z^3 - 5", 4),
     "a quadric and a cubic that touch": ("x y z", "x*y - z^2 - 1, x^3 + y^3 + z^3 - 2", 1),
 }
 

@@ -98,8 +98,6 @@ WITNESSED = (
     "rhombus",
     "double-rhombus",
     "planar/peaucellier",
-    "planar/wunderlich-12-bar",
-    "spatial/sarrus",
     "literature/sphere-curve-lines-point",
 )
 
