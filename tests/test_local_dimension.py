@@ -37,7 +37,7 @@ def test_tangent_and_local_dimension_at_given_points(name: str) -> None:
     assert as_known(found) == (point.tangent, point.dimension, point.multiplicity), found.reason
 
 
-@pytest.mark.parametrize("name", sorted(set(ALL) - SLOW - NOT_SHARPENED))
+@pytest.mark.parametrize("name", sorted(set(MECHANISMS | SETS) - SLOW - NOT_SHARPENED))
 def test_they_are_the_same_in_other_coordinates_beside_the_point(name: str) -> None:
     found = judged(ALL[name], seed=7)
     assert right(ALL[name], found) and found.decided, found.reason
@@ -53,7 +53,7 @@ def test_a_rounded_point_is_sharpened_to_the_exact_one(name: str) -> None:
         assert np.abs(found.point - [float(x) for x in point.point]).max() < 1e-15
 
 
-@pytest.mark.parametrize("size", [Fraction(1, 1000), Fraction(1000), Fraction(1, 10**6)])
+@pytest.mark.parametrize("size", [Fraction(1000), Fraction(1, 10**6)])
 @pytest.mark.parametrize("name", ["rhombus, folded", "a prism of parallel bars", "cbms2", "DZ2"])
 def test_the_unit_of_length_does_not_matter(name: str, size: Fraction) -> None:
     point = ALL[name]
