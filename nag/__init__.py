@@ -52,7 +52,7 @@ _HOME = {
     "decompose": "nag.interface.decompose",
     "local_dimension": "nag.numerics.local_dimension",
     "gruebler_kutzbach": "nag.mechanism.mobility",
-    "mobility": "nag.mechanism.mobility_report",
+    "mobility": "nag.mechanism.mobility_at",
     "model": "nag.mechanism.model",
     "read_case": "nag.files.cases",
     "read_decomposition": "nag.files.export",

@@ -29,7 +29,7 @@ from nag.check.subjects import BENNETT, SUBJECTS, recognised
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
-from nag.mechanism.mobility_report import mobility
+from nag.mechanism.mobility_at import mobility
 from nag.mechanism.model import model
 from nag.report.statements import settled, summary
 
