@@ -87,8 +87,8 @@ def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
         raise
     if case.assembly is not None:
         raise UsageError(
-            f"{options.case}: gives parts, not how they are assembled; `nag decompose` says how each "
-            "assembly moves, and `nag local` how a placement does"
+            f"{options.case}: gives parts, not how they are assembled; `nag decompose` says how "
+            "each assembly moves, and `nag local` how a placement does"
         )
     if case.mechanism is None:
         raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")

@@ -22,6 +22,9 @@ def solution_lines(
     head = [("system", system_line(result.system)), ("answer", answer_text(result))]
     if model is not None:
         head.insert(0, ("model", printable(f"formulation {model.formulation}: {model.reason}")))
+    if case.assembly is not None:
+        head.insert(0, ("model", printable(case.assembly.reason)))
+        head += real_row(case.kind, case.assembly, result.points)
     if not result.complete:
         head.append(("", "INCOMPLETE, see below"))
     paths = result.paths
