@@ -6,6 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from nag.algebra.shown import system_line
+from nag.report.assemblies import real_row
 from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
 from nag.text.table import align, labelled, printable
 
