@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from linkages import CASES, four_bar, loop
+from linkages import CASES, case, four_bar, loop
 from singular_zeros import ISOLATED, ON_COMPONENTS, Zero, polynomials
 
 from nag.algebra.polynomial import Polynomial
@@ -127,12 +127,6 @@ def _of_case(name: str) -> PolynomialSystem:
     return system
 
 
-def _mechanism(name: str) -> Mechanism:
-    mechanism = read_case(CASES / f"{name}.toml").mechanism
-    assert mechanism is not None
-    return mechanism
-
-
 # A kite folded onto its ground bar: with s2 = s1 and c2 = c1 the short sides turn together; the
 # other curve is the generic motion.
 KITE = "2*c1 + c2 - c3 - 2, 2*s1 + s2 - s3, c1^2 + s1^2 - 1, c2^2 + s2^2 - 1, c3^2 + s3^2 - 1"
@@ -154,10 +148,10 @@ MECHANISMS = {
         loop([(0, 0, 0), (1, 0, 0), (3, 0, 0), (2, 0, 0)], [(0, 0, 1)] * 4), "E", 2, 1
     ),
     "parallelogram": at_reference(four_bar(), "E", 1, 1),
-    "Bennett, H": at_reference(_mechanism("bennett"), "H", 1, 1),
-    "Bennett, E": at_reference(_mechanism("bennett"), "E", 1, 1),
-    "Bricard's cube, H": at_reference(_mechanism("bricard-cube"), "H", 1, 1),
-    "Bricard's cube, E": at_reference(_mechanism("bricard-cube"), "E", 1, 1),
+    "Bennett, H": at_reference(case("bennett"), "H", 1, 1),
+    "Bennett, E": at_reference(case("bennett"), "E", 1, 1),
+    "Bricard's cube, H": at_reference(case("bricard-cube"), "H", 1, 1),
+    "Bricard's cube, E": at_reference(case("bricard-cube"), "E", 1, 1),
     "Sarrus, H": at_reference(sarrus(), "H", 1, 1),
     "double Watt, cusp": double_watt(mirrored=True),
     "double Watt, two curves that touch": double_watt(mirrored=False),

@@ -17,7 +17,7 @@ from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.model import model
 from nag.mechanism.quaternion import multiply, norm_squared, rotate
 
-FEW = settings(max_examples=2, deadline=None, derandomize=True)
+FEW = settings(max_examples=2)
 
 # Euler parameters of rational rotations: squares of integer quaternions have square norms.
 TURNS = st.tuples(*[st.integers(-3, 3)] * 4).filter(any)

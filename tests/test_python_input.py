@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import nag
@@ -38,7 +38,6 @@ def test_numbers_of_every_kind_are_exact(value: Any, exact: Any) -> None:
     assert exact_number(value) == exact
 
 
-@settings(derandomize=True, deadline=None)
 @given(st.floats(1e-200, 1e200) | st.floats(-1e200, -1e-200))
 def test_a_float_is_its_shortest_decimal(value: float) -> None:
     exact = exact_number(value)
