@@ -5,7 +5,7 @@ from itertools import combinations, product
 
 import numpy as np
 import pytest
-from linkages import case, closed_chain, general_loop
+from linkages import case, closed_chain, general_loop, loops_of_all_joints, residual
 
 from nag.decomposition import decompose
 from nag.files.modes_export import document
@@ -162,9 +162,27 @@ def test_the_export_of_all_modes_holds_every_combination_once(bricard_in_all_mod
     assert set(combinations_) == wanted
 
 
-def test_the_euler_model_of_the_reference_mode_agrees_for_bennett():
-    m = model(case("bennett"), "E")
-    signs = m.symmetries
-    whole = degree_counts(decompose(m.system, symmetries=signs).components)
-    carried = decompose_modes(case("bennett"), coordinates="euler").classes[0]
-    assert degree_counts(carried.decomposition.components) == whole == {(1, 8): 2}
+def test_joint_coordinates_and_euler_parameters_agree_in_every_mode_of_every_joint():
+    """Modes are constant displacements in the one, prime components in the other."""
+    chain = closed_chain(
+        ("prismatic", (0, 0, 0), (1, 2, 2)),
+        ("cylindrical", (1, 0, 0), (0, 1, 2)),
+        ("spherical", (1, 2, 0)),
+        ("revolute", (0, 3, 1), (2, -1, 0)),
+    )
+    for mechanism in (chain, loops_of_all_joints()["ECRR"]):
+        for modes in all_modes(mechanism.joints):
+            if len(modes) > 1:
+                continue
+            half = model(mechanism, "H", modes, "spatial")
+            euler = model(mechanism, "E", modes, "spatial")
+            answer = decompose(half.system)
+            assert answer.complete and answer.components
+            for component in answer.components:
+                lifted = half.lift(component.points[0])
+                at = [complex(x) for x in half.unreduced_point(lifted)]
+                assert residual(half.unreduced, at) < 1e-11
+                # A prismatic joint ties the signs of its bodies together.
+                point = np.array(euler.project(lifted), dtype=complex)
+                signs = [np.ones(len(point)), *(np.array(g.signs) for g in euler.symmetries)]
+                assert min(residual(euler.system, list(point * s)) for s in signs) < 1e-11

@@ -210,7 +210,7 @@ BROKEN: dict[str, tuple[str, str]] = {
         "[[joint]] 2 'K': point: 'through' gives the axis already; leave one of them out",
     ),
     "the same joint twice": (
-        line("point = [0, 0, 5], axis = [0, 0, -2]"),
+        line("point = [0, 0, 0], axis = [0, 0, -2]"),
         "[[joint]] 2 'K': axis: the same axis joins 'A' and 'B' in joint 'J' already; leave one "
         "of them out",
     ),

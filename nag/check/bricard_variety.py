@@ -241,7 +241,7 @@ def triangle() -> Verdict:
     kept = surviving("", formula, constants)
     return decided(
         not kept,
-        "at t = 0, exactly in Q(sqrt 2, sqrt 3); so it does at t = +-pi/3 and for both roots",
+        "at t = 0, exactly in Q(sqrt 2, sqrt 3)",
         f"{kept} not 0",
     )
 

@@ -158,7 +158,8 @@ def dimension_and_degree(compared: Compared) -> Verdict:
     text = ", ".join(
         f"{rows.count(row)} of dimension {row[0]}, degree {row[1]}" for row in sorted(set(rows))
     )
-    return holds(f"{text}: witness sets with a trace test, and Groebner bases by FLINT")
+    how = f"{text}: witness sets with a trace test, and Groebner bases by FLINT"
+    return Verdict(Kind.NUMERICAL, how)
 
 
 def reduction(compared: Compared) -> Verdict:

@@ -28,7 +28,7 @@ from nag.check.loops import (
     bricard_mechanism,
 )
 from nag.check.rings import euler_ring
-from nag.check.statement import Kind, Statement, Verdict, decided, holds
+from nag.check.statement import Kind, Statement, Verdict, decided
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import Model, model
 from nag.symbolic import bennett, bennett_geometry, bennett_special, bricard
@@ -203,9 +203,10 @@ def dimension_and_degree(compared: ComparedMechanism) -> Verdict:
     here, wanted = sum(d for _, d in found), {(part.dimension, exact)}
     if {(dim, here) for dim, _ in found} != wanted or len(found) != 1:
         return decided(False, "", f"{found} found, {sorted(wanted)} by Groebner bases")
-    return holds(
+    return Verdict(
+        Kind.NUMERICAL,
         f"dimension {part.dimension} in both; degree {exact} in half-angles, by a trace test and "
-        f"by a Groebner basis; degree {part.degree} in Euler parameters"
+        f"by a Groebner basis; degree {part.degree} in Euler parameters",
     )
 
 

@@ -304,10 +304,10 @@ def _check_joint(joint: Joint) -> None:
 
 
 def _check_duplicates(joints: tuple[Joint, ...]) -> None:
-    """A second joint of the same type and axis between the same bodies has nothing to say."""
+    """A joint given twice is a slip of the pen; two hinges of a door have points of their own."""
     for i, joint in enumerate(joints):
         for other in joints[:i]:
-            if set(other.bodies) == set(joint.bodies) and _same_axis(other, joint):
+            if set(other.bodies) == set(joint.bodies) and _same_joint(other, joint):
                 raise MechanismError(
                     f"the same axis joins {joint.bodies[0]!r} and {joint.bodies[1]!r} in joint "
                     f"{other.name!r} already; leave one of them out",
@@ -316,11 +316,11 @@ def _check_duplicates(joints: tuple[Joint, ...]) -> None:
                 )
 
 
-def _same_axis(first: Joint, second: Joint) -> bool:
+def _same_joint(first: Joint, second: Joint) -> bool:
     if first.type != second.type or first.type not in ("revolute", "cylindrical"):
         return False
-    gap = tuple(x - y for x, y in zip(second.point, first.point, strict=True))
-    return _parallel(first.axis, second.axis) and _parallel(gap, first.axis)
+    here = all(is_zero(x - y) for x, y in zip(second.point, first.point, strict=True))
+    return here and _parallel(first.axis, second.axis)
 
 
 def _check_vector(joint: Joint, key: str) -> None:

@@ -189,7 +189,7 @@ def _nothing_to_eliminate(loop: Loop, loops: int) -> str:
     if loops == 1 and len(loop.joints) < 3:
         return f"half-angles need a loop of at least 3 joints; this one has {len(loop.joints)}"
     if loops == 1:
-        return "all axes of the loop coincide: every joint turns freely"
+        return "all axes of the loop coincide, or all its joints slide: nothing can be eliminated"
     return (
         f"the loop of {joints} has no two neighbouring turns or slides and no spherical or planar "
         "joint of its own"

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
-from nag.mechanism.axes import dot
-from nag.mechanism.quaternion import conjugate, norm_squared, rotate
 from nag.symbolic import bennett, bennett_geometry
+from nag.symbolic.rotation import inner, rotate, rotate_back
 
 E1 = (1, 0, 0)
 
@@ -29,24 +27,19 @@ def constraints(m: Any, a: Any, b: Any, c: Any, printed: bool = False) -> list[A
 
     def across(k: int, left: Any, left_init: Any, right: Any, right_init: Any) -> list[Any]:
         eta, xi, chi = joints[k]
-        turned = rotate(right, _local(right_init, chi)) if right is not None else chi
+        turned = rotate(right, rotate_back(right_init, chi)) if right is not None else chi
         vectors = (eta, eta) if printed and k == 3 else (eta, xi)
         found = []
         for v in vectors:
-            here = v if left is None else rotate(left, _local(left_init, v))
-            found.append(dot(here, turned))
+            here = v if left is None else rotate(left, rotate_back(left_init, v))
+            found.append(inner(here, turned))
         return found
 
     return [
-        *(norm_squared(q) - 1 for q in (a, b, c)),
+        *(q[0] ** 2 + q[1] ** 2 + q[2] ** 2 + q[3] ** 2 - 1 for q in (a, b, c)),
         *loop,
         *across(1, None, None, a, init[0]),
         *across(2, a, init[0], b, init[1]),
         *across(3, b, init[1], c, init[2]),
         *across(0, c, init[2], None, None),
     ]
-
-
-def _local(frame: Sequence[Any], v: Sequence[Any]) -> tuple[Any, ...]:
-    """A global vector in the frame of a body."""
-    return rotate(conjugate(frame), v)
