@@ -14,7 +14,7 @@ From a graph to the curve of a mechanism's configurations, and from equations to
 'D'
 >>> answer = nag.decompose(nag.Mechanism.from_graph(G, ground="base"))
 >>> [(c.dimension, c.degree) for c in answer.components]
-[(1, 2), (1, 4)]
+[(1, 2), (1, 2)]
 >>> curve = answer.components[0]
 >>> curve.contains(curve.sample(0, 1)[0])
 True
@@ -52,7 +52,7 @@ _HOME = {
     "decompose": "nag.interface.decompose",
     "local_dimension": "nag.numerics.local_dimension",
     "gruebler_kutzbach": "nag.mechanism.mobility",
-    "mobility": "nag.mechanism.mobility_report",
+    "mobility": "nag.mechanism.mobility_at",
     "model": "nag.mechanism.model",
     "read_case": "nag.files.cases",
     "read_decomposition": "nag.files.export",

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from fractions import Fraction as F
 from typing import Any
 
 import numpy as np
-from linkages import CASES, four_bar, loop
+from linkages import CASES, case, four_bar, loop
 from singular_zeros import ISOLATED, ON_COMPONENTS, Zero, polynomials
 
 from nag.algebra.polynomial import Polynomial
@@ -116,6 +117,27 @@ def prism(parallel: bool) -> Known:
     return Known(system, at, 1, 0, 2)
 
 
+def wunderlich(across: tuple[Fraction, Fraction], up: tuple[Fraction, Fraction]) -> Known:
+    """Wunderlich's twelve bars as the edges of a cube, all faces parallelograms.
+
+    Two angles are free. With all points on a line, sets of other faces turned over begin there,
+    those of mobility 1 among them; with one kind of face flat, two of mobility 2.
+    """
+    base = (Fraction(3), Fraction(0))
+    places = {"A": (0, 0), "B": base, "C": across, "E": up}
+    for name, (first, second) in {"D": "BC", "F": "BE", "G": "CE", "H": "DE"}.items():
+        a, b = places[first], places[second]
+        places[name] = (a[0] + b[0], a[1] + b[1])
+    bars = [
+        tuple(bar)
+        for bar in ["AB", "CD", "EF", "GH", "AC", "BD", "EG", "FH", "AE", "BF", "CG", "DH"]
+    ]
+    pins = {name: places.pop(name) for name in "AB"}
+    system, at = framework(pins, places, bars)
+    flat = [across[1] == 0, up[1] == 0]
+    return Known(system, at, 6 if all(flat) else 3 if any(flat) else 2, 2)
+
+
 def sarrus() -> Mechanism:
     points = [(0, 0, 0), (0, 1, 1), (0, 0, 2), (-3, 0, 2), (-4, 0, 1), (-3, 0, 0)]
     return loop(points, [(1, 0, 0)] * 3 + [(0, 1, 0)] * 3)
@@ -125,12 +147,6 @@ def _of_case(name: str) -> PolynomialSystem:
     system = read_case(CASES / f"{name}.toml").system
     assert system is not None
     return system
-
-
-def _mechanism(name: str) -> Mechanism:
-    mechanism = read_case(CASES / f"{name}.toml").mechanism
-    assert mechanism is not None
-    return mechanism
 
 
 # A kite folded onto its ground bar: with s2 = s1 and c2 = c1 the short sides turn together; the
@@ -154,13 +170,16 @@ MECHANISMS = {
         loop([(0, 0, 0), (1, 0, 0), (3, 0, 0), (2, 0, 0)], [(0, 0, 1)] * 4), "E", 2, 1
     ),
     "parallelogram": at_reference(four_bar(), "E", 1, 1),
-    "Bennett, H": at_reference(_mechanism("bennett"), "H", 1, 1),
-    "Bennett, E": at_reference(_mechanism("bennett"), "E", 1, 1),
-    "Bricard's cube, H": at_reference(_mechanism("bricard-cube"), "H", 1, 1),
-    "Bricard's cube, E": at_reference(_mechanism("bricard-cube"), "E", 1, 1),
+    "Bennett, H": at_reference(case("bennett"), "H", 1, 1),
+    "Bennett, E": at_reference(case("bennett"), "E", 1, 1),
+    "Bricard's cube, H": at_reference(case("bricard-cube"), "H", 1, 1),
+    "Bricard's cube, E": at_reference(case("bricard-cube"), "E", 1, 1),
     "Sarrus, H": at_reference(sarrus(), "H", 1, 1),
     "double Watt, cusp": double_watt(mirrored=True),
     "double Watt, two curves that touch": double_watt(mirrored=False),
+    "Wunderlich, all on a line": wunderlich((F(2), F(0)), (F(1), F(0))),
+    "Wunderlich, one face flat": wunderlich((F(2), F(0)), (F(-5, 13), F(12, 13))),
+    "Wunderlich, regular": wunderlich((F(6, 5), F(8, 5)), (F(-5, 13), F(12, 13))),
     "a prism of parallel bars": prism(parallel=True),
     "a bar stretched between its pins": known(
         "x y", "x^2 + y^2 - 1, (x - 2)^2 + y^2 - 1", [1, 0], 1, 0, 2

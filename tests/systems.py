@@ -1,7 +1,8 @@
-"""Polynomial systems and families from texts, and the benchmarks' start problems."""
+"""Polynomial systems and families from texts, benchmarks, and what answers consist of."""
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
 from nag.solving.start.target import Target
+from nag.witness.witness import Decomposition
 
 BENCHMARKS = Path(__file__).parents[1] / "cases" / "benchmarks"
 
@@ -39,3 +41,8 @@ def benchmark(name: str) -> Target:
     """A benchmark as what start systems are made for."""
     of = read_case(BENCHMARKS / f"{name}.toml").system
     return Target.of(of.polynomials, of.n)
+
+
+def kinds(answer: Decomposition) -> Counter[tuple[int, int, int]]:
+    """Dimension, degree and multiplicity of the components."""
+    return Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components)

@@ -111,3 +111,10 @@ def test_the_kept_atlas_is_drawn_without_a_run(tmp_path: Path, capsys) -> None:
 def test_bad_arguments_are_one_line(arguments: list[str], capsys) -> None:
     assert main(["chart", "stability", *arguments]) == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+@pytest.mark.parametrize("name", ["cluster-2", "far-cluster"])
+def test_zeros_too_close_for_the_digits_are_undecided_and_no_error(name: str) -> None:
+    result = solve(family_named(name).make(30, np.random.default_rng([0, 20])).system)
+    assert not result.complete
+    assert len(result.undecided) == 4

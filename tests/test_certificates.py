@@ -10,7 +10,7 @@ from pathlib import Path
 import jsonschema
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.polynomial import Polynomial
@@ -53,7 +53,6 @@ def within(z, disc: Discs) -> bool:
 
 
 @given(numbers, numbers, radii, directions, numbers, numbers, radii, directions)
-@settings(derandomize=True, deadline=None)
 def test_the_disc_of_a_product_holds_the_exact_products(a, b, r, d, c, e, s, f) -> None:
     first, second = complex(a, b), complex(c, e)
     disc = product(
@@ -66,7 +65,6 @@ def test_the_disc_of_a_product_holds_the_exact_products(a, b, r, d, c, e, s, f) 
 
 
 @given(st.lists(numbers, min_size=4, max_size=4), radii, directions)
-@settings(derandomize=True, deadline=None)
 def test_the_disc_of_a_polynomial_holds_its_exact_values(parts, r, d) -> None:
     f = x**3 * y / 7 - 5 * x * y**2 + Fraction(1, 3)
     slope = f.derivative(0)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from systems import system
+from systems import kinds, system
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
@@ -20,10 +20,6 @@ from nag.witness.witness import Decomposition, Status
 
 FOLDER = Path(__file__).parent.parent / "cases"
 CASES = [*sorted(FOLDER.glob("*.toml")), *sorted(FOLDER.glob("literature/*.toml"))]
-
-
-def kinds(answer: Decomposition) -> Counter[tuple[int, int, int]]:
-    return Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components)
 
 
 def assert_sound(answer: Decomposition) -> None:

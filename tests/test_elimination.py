@@ -105,7 +105,7 @@ def test_variables_to_keep_are_kept():
 
 
 def test_contradictions_stay_and_redundancies_go():
-    assert eliminate_linear(system("x", "x", "x - 1")).system.text() in (["-1"], ["1"])
+    assert eliminate_linear(system("x", "x", "x - 1")).system.text() == ["-1"]
     result = eliminate_linear(system("x y", "x - y", "2*x - 2*y", "x^2 - y^2"))
     assert result.system.n == 1
     assert result.system.polynomials == ()
@@ -113,7 +113,7 @@ def test_contradictions_stay_and_redundancies_go():
 
 def test_equations_that_become_linear_are_solved_too():
     result = eliminate_linear(system("x y z", "x - y", "x^2 - y^2 + z - 3"))
-    assert result.system.variables in (("x",), ("y",))
+    assert result.system.variables == ("y",)
     assert result.system.polynomials == ()
     assert result.lift([Fraction(2)]) == [2, 2, 3]
 
@@ -139,8 +139,6 @@ def test_arrays_of_points_are_lifted_at_once():
     result = eliminate_linear(system("x y z", "x - 1", "z - y - 2"))
     lifted = result.lift(np.array([[1j], [2.0]]))
     assert lifted.shape == (2, 3)
-    assert np.array_equal(lifted, [[1, 1j, 1j + 2], [1, 2, 4]]) or np.array_equal(
-        lifted, [[1, 1j - 2, 1j], [1, 0, 2]]
-    )
+    assert np.array_equal(lifted, [[1, 1j - 2, 1j], [1, 0, 2]])
     assert np.array_equal(result.project(lifted), [[1j], [2.0]])
     assert eliminate_linear(system("x", "x - 4")).lift(np.zeros((3, 0))).tolist() == [[4.0]] * 3

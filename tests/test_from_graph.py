@@ -49,7 +49,7 @@ def test_every_kind_of_graph_will_do(kind: Any) -> None:
         for p in ({"base", "left"}, {"left", "top"}, {"top", "right"}, {"right", "base"})
     }
     answer = nag.decompose(mechanism)
-    assert [(c.dimension, c.degree) for c in answer.components] == [(1, 2), (1, 4)]
+    assert [(c.dimension, c.degree) for c in answer.components] == [(1, 2), (1, 2)]
 
 
 def test_ten_lines_lead_from_a_graph_to_points_of_a_curve() -> None:
@@ -73,6 +73,28 @@ def test_numbers_on_edges_and_nodes_are_exact() -> None:
     )
 
 
+def test_joints_of_other_types_have_the_attributes_that_they_need() -> None:
+    graph = nx.MultiGraph()
+    graph.add_edge("a", "b", "S", type="spherical", point=(1, 2, 3))
+    graph.add_edge("b", "c", "P", type="translational", axis=(1, 0, 0))
+    graph.add_edge(
+        "c",
+        "a",
+        "U",
+        type="universal",
+        point=(0, 0, 0),
+        axis=(1, 0, 0),
+        second_axis=(0, 1, 0),
+        bodies=("a", "c"),
+    )
+    mechanism = nag.Mechanism.from_graph(graph, ground="a")
+    joints = {joint.name: joint for joint in mechanism.joints}
+    assert (joints["S"].type, joints["S"].axis) == ("spherical", None)
+    assert (joints["P"].type, joints["P"].axis) == ("prismatic", (1, 0, 0))
+    assert (joints["U"].bodies, joints["U"].second_axis) == (("a", "c"), (0, 1, 0))
+    assert nag.Mechanism.from_graph(mechanism.to_graph()) == mechanism
+
+
 def test_parallel_edges_have_names_of_their_own() -> None:
     graph = nx.MultiGraph()
     revolute(graph, "a", "b", (0, 0, 0))
@@ -91,6 +113,20 @@ def test_attributes_of_other_programs_are_left_alone() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
+        (
+            lambda g, e: e.pop("point"),
+            "joint 'base_left': point: the edge base - left has no point",
+        ),
+        (lambda g, e: e.update(type="screw"), "joint 'base_left': type: a helical joint is not"),
+        (lambda g, e: e.update(type=1), "joint 'base_left': type: joint type 1 is unknown"),
+        (
+            lambda g, e: e.update(type="spherical"),
+            "joint 'base_left': axis: a spherical joint has no axis; leave it out",
+        ),
+        (
+            lambda g, e: e.update(type="universal", second_axis=(1, 0, 0)),
+            r"joint 'base_left': bodies: each axis belongs .* bodies=\('base', 'left'\)",
+        ),
         (lambda g, e: e.pop("type"), "joint 'base_left': type: the edge base - left has no type"),
         (
             lambda g, e: e.update(axis=(0, 0, 0)),

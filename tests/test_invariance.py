@@ -17,7 +17,7 @@ from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.model import model
 from nag.mechanism.quaternion import multiply, norm_squared, rotate
 
-FEW = settings(max_examples=4, deadline=None, derandomize=True)
+FEW = settings(max_examples=2)
 
 # Euler parameters of rational rotations: squares of integer quaternions have square norms.
 TURNS = st.tuples(*[st.integers(-3, 3)] * 4).filter(any)
@@ -81,7 +81,7 @@ def test_a_rigid_motion_changes_nothing(name, q, shift):
 
 
 @pytest.mark.parametrize("name", SUBJECTS)
-@pytest.mark.parametrize("power", [-6, -3, 3, 6])
+@pytest.mark.parametrize("power", [-6, 6])
 def test_the_unit_of_length_changes_nothing(name, power):
     mechanism = SUBJECTS[name]()
     larger = moved(mechanism, exact(1, 0, 0, 0), scale=Fraction(10) ** power)

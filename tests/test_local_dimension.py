@@ -8,7 +8,9 @@ from fractions import Fraction
 import jsonschema
 import numpy as np
 import pytest
+from linkages import CASES
 from local_dimension_changes import judged, right
+from local_dimension_of_cases import judged as at_witness_point
 from local_points import ALL, MECHANISMS, SETS, ZEROS, Known, known, plain
 from singular_zeros import polynomials
 
@@ -19,7 +21,7 @@ from nag.cli.witness_input import schema
 from nag.numerics.local_dimension import NoSolution
 
 LARGE = {"DZ1", "two curves of order 40"}
-SLOW = LARGE | {"Bricard's cube, E", "Sarrus, H"}
+SLOW = LARGE | {n for n in MECHANISMS if n.startswith(("Bricard", "Sarrus", "Wunderlich"))}
 # To deflate it takes series of order 24 in two variables, which are too long.
 NOT_SHARPENED = {"a line that touches a surface to order 12"}
 
@@ -28,14 +30,14 @@ def as_known(found: nag.LocalDimension) -> tuple[int | None, int | None, int]:
     return found.tangent_dimension, found.dimension, found.multiplicity
 
 
-@pytest.mark.parametrize("name", sorted(ALL))
+@pytest.mark.parametrize("name", sorted(set(ALL) - {"DZ1"}))
 def test_tangent_and_local_dimension_at_given_points(name: str) -> None:
     point = ALL[name]
     found = nag.local_dimension(point.system, point.point)
     assert as_known(found) == (point.tangent, point.dimension, point.multiplicity), found.reason
 
 
-@pytest.mark.parametrize("name", sorted(set(ALL) - SLOW - NOT_SHARPENED))
+@pytest.mark.parametrize("name", sorted(set(MECHANISMS | SETS) - SLOW - NOT_SHARPENED))
 def test_they_are_the_same_in_other_coordinates_beside_the_point(name: str) -> None:
     found = judged(ALL[name], seed=7)
     assert right(ALL[name], found) and found.decided, found.reason
@@ -51,7 +53,7 @@ def test_a_rounded_point_is_sharpened_to_the_exact_one(name: str) -> None:
         assert np.abs(found.point - [float(x) for x in point.point]).max() < 1e-15
 
 
-@pytest.mark.parametrize("size", [Fraction(1, 1000), Fraction(1000), Fraction(1, 10**6)])
+@pytest.mark.parametrize("size", [Fraction(1000), Fraction(1, 10**6)])
 @pytest.mark.parametrize("name", ["rhombus, folded", "a prism of parallel bars", "cbms2", "DZ2"])
 def test_the_unit_of_length_does_not_matter(name: str, size: Fraction) -> None:
     point = ALL[name]
@@ -84,6 +86,27 @@ def test_the_corank_sequence_is_that_of_the_macaulay_matrices() -> None:
 
 def _known(point: Known) -> tuple[nag.PolynomialSystem, tuple]:
     return point.system, point.point
+
+
+def test_dayton_and_zeng_s_point_of_multiplicity_131() -> None:
+    found = nag.local_dimension(ALL["DZ1"].system, [0] * 4)
+    assert as_known(found) == (4, 0, 131)
+    assert found.coranks == (1, 5, 15, 31, 53, 78, 100, 116, 126, 130, 131)
+
+
+WITNESSED = (
+    "rhombus",
+    "double-rhombus",
+    "planar/peaucellier",
+    "literature/sphere-curve-lines-point",
+)
+
+
+@pytest.mark.parametrize("name", WITNESSED)
+def test_it_is_the_dimension_of_the_component_at_its_generic_points(name: str) -> None:
+    system = nag.read_case(CASES / f"{name}.toml").system
+    for component in nag.decompose(system).components:
+        assert at_witness_point(system, component).dimension == component.dimension
 
 
 def test_a_cluster_of_zeros_is_left_undecided() -> None:

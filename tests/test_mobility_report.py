@@ -70,12 +70,12 @@ def test_joints_outside_loops_add_their_freedoms() -> None:
 
 def test_another_configuration_may_be_given() -> None:
     mechanism = REPORTS["flat parallelogram"][0]
-    tilted = nag.mobility(mechanism, [1, 0, Fraction(3, 5), Fraction(4, 5)])
+    tilted = nag.mobility(mechanism, [1, 0, "3/5", Fraction(4, 5)], formulation="E")
     assert (tilted.tangent_dimension, tilted.local_dimension, tilted.status) == (1, 1, "mobile")
-    rounded = nag.mobility(mechanism, [1.0, 1e-12, 1.0, 0.0], components=False)
+    rounded = nag.mobility(mechanism, [1.0, 1e-12, 1.0, 0.0], formulation="E", detail="local")
     assert (rounded.tangent_dimension, rounded.local_dimension) == (2, 1)
     with pytest.raises(NoSolution):
-        nag.mobility(mechanism, [2, 0, 1, 0], components=False)
+        nag.mobility(mechanism, [2, 0, 1, 0], formulation="E", detail="local")
 
 
 def test_the_command_writes_what_its_schema_says(tmp_path, capsys) -> None:

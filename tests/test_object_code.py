@@ -84,6 +84,7 @@ def texts() -> dict[str, str]:
     return {name: str(Module(k.function, k.modules).ir) for name, k in ALL.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("platform", PLATFORMS)
 @pytest.mark.parametrize("kernel", ALL)
 def test_kernels_need_nothing_but_the_c_library(

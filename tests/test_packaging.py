@@ -38,6 +38,7 @@ def test_unknown_names_are_attribute_errors() -> None:
     [
         "nag",
         "nag.algebra",
+        "nag.check",
         "nag.decomposition",
         "nag.files",
         "nag.interface",
@@ -46,6 +47,7 @@ def test_unknown_names_are_attribute_errors() -> None:
         "nag.numerics",
         "nag.report",
         "nag.solving",
+        "nag.symbolic",
         "nag.text",
         "nag.tracking",
         "nag.witness",

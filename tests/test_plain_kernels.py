@@ -68,6 +68,7 @@ def test_paths_to_regular_ends_are_the_same(compared: Counter[str]) -> None:
     assert {"track_batch", "newton_batch"} <= set(compared)
 
 
+@pytest.mark.slow
 def test_paths_to_singular_ends_are_the_same(compared: Counter[str]) -> None:
     # The conics touch at (1, 0).
     result = solve(

@@ -27,6 +27,7 @@ def test_an_isolated_zero_has_the_dimension_of_its_local_ring(name: str, error: 
     assert np.abs(end.point - zero.point).max() < 1e-15 * max(1, np.abs(zero.point).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(LARGE))
 def test_a_local_ring_of_large_dimension_is_told_from_a_curve(name: str) -> None:
     end = judged(ISOLATED[name], 1e-10, seed=0)
@@ -98,7 +99,7 @@ def test_equations_that_nearly_vanish_have_no_zero_there() -> None:
     system = polynomials("x y", "x^2 - 2", "y - x", "x*y - 2 - 1/10^20")
     end = analyse(system, np.array([2**0.5] * 2), 1e-12, np.random.default_rng(0))
     assert end.place is Place.UNDECIDED
-    assert "1e-20" in end.reason or "1e-19" in end.reason
+    assert "1e-20" in end.reason
 
 
 def test_a_regular_zero_has_multiplicity_one() -> None:

@@ -8,9 +8,10 @@ how it prints: 0.1 is 1/10, not 3602879701896397/36028797018963968.
 from __future__ import annotations
 
 import re
+from cmath import isfinite
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from numbers import Integral, Rational, Real
+from numbers import Complex, Integral, Rational, Real
 from typing import Any
 
 from nag.algebra.bounded import Budget, Value, representable
@@ -233,3 +234,40 @@ def variable_indices(
             )
         indices.append(list(names).index(str(item)))
     return tuple(indices)
+
+
+def coordinates(point: Any, variables: Sequence[str]) -> tuple[Any, ...]:
+    """A point's coordinates: exact numbers where it has them, rounded ones as they are.
+
+    Args:
+        point: a number for each variable, in their order, or a mapping from names to numbers.
+
+    Raises:
+        ValueError: if there are more or fewer than variables, or one is no finite number.
+    """
+    n = len(variables)
+    if isinstance(point, Mapping):
+        places = variable_indices(point, variables, "point")
+        missing = [name for i, name in enumerate(variables) if i not in places]
+        if missing:
+            raise ValueError(f"point: no value for {missing[0]!r}; give one for each variable")
+        by_place = dict(zip(places, point.values(), strict=True))
+        values = [by_place[i] for i in range(n)]
+    elif isinstance(point, Iterable) and not isinstance(point, str):
+        values = list(point)
+    else:
+        raise ValueError(f"point: {point!r} is given; give {n} numbers, or a dict of them by name")
+    if len(values) != n:
+        raise ValueError(
+            f"point: {len(values)} coordinates are given; there are {n} variables: "
+            f"{', '.join(variables)}"
+        )
+    return tuple(_coordinate(value, f"point[{i}]") for i, value in enumerate(values))
+
+
+def _coordinate(value: Any, place: str) -> Any:
+    if not isinstance(value, Complex) or isinstance(value, Rational):
+        return exact_number(value, place)
+    if not isfinite(complex(value)):
+        raise ExpressionError(f"{place}: {value} is no number; give a finite number")
+    return value

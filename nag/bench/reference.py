@@ -11,6 +11,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import overlaps
+from nag.numerics.certified_points import independent_equations
 from nag.numerics.digits import middle
 from nag.numerics.krawczyk import BITS, Boxes, FineBox, box_about, enter_box
 
@@ -40,12 +41,18 @@ class Reference:
     def of(cls, system: PolynomialSystem, points: np.ndarray, slices: np.ndarray) -> Reference:
         """The solutions next to points, on a slice if there are rows of one.
 
+        Of more equations than unknowns, as many as determine the first point are taken.
+
         Raises:
             ReferenceError: if a point has no simple solution next to it, or two have the same.
         """
-        exact = BallPolynomials.of([f for f in system.polynomials if f], slices)
-        if len(exact.rows) != system.n:
-            raise ReferenceError("there are not as many equations as unknowns")
+        equations = [f for f in system.polynomials if f]
+        if len(equations) + len(slices) < system.n:
+            raise ReferenceError("there are fewer equations than unknowns")
+        if len(equations) + len(slices) > system.n and len(points):
+            chosen = independent_equations(equations, slices, points[0])
+            equations = [equations[i] for i in chosen]
+        exact = BallPolynomials.of(equations, slices)
         P, n = points.shape
         found = Boxes(
             points.copy(), np.zeros((P, n)), np.zeros((P, n)), np.zeros(P, dtype=bool), {}

@@ -24,6 +24,7 @@ ROUGH = 1e-4
 # Digits of balls, and points that are sharpened in them: each is one by itself.
 DIGITS = (32, 50, 100)
 MOST_IN_BALLS = 16
+MOST_STEPS = 24
 # Seconds for which a curve's point is repeated; the fastest run counts.
 RUNS = 0.05
 
@@ -114,7 +115,7 @@ def _ball_curve(
     points = [[flint.acb(complex(z)) for z in x] for x in rough]
     seconds, steps = 0.0, 0
     with flint.ctx.workdps(digits):
-        while steps < 9 and (steps < 2 or found[-1].largest < found[-2].largest / 2):
+        while steps < MOST_STEPS and (steps < 2 or found[-1].largest < 0.8 * found[-2].largest):
             begin = time.process_time()
             for i, x in enumerate(points):
                 moves = (exact.jacobian(x).mid().inv().mid() * exact(x)).entries()

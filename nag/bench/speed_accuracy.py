@@ -227,7 +227,7 @@ def _agreement(
         except ReferenceError:
             continue
         errors += reference.errors(c.points, np.arange(len(c.points))).tolist()
-    largest = max(errors, default=0.0)
+    largest = max(errors, default=float("nan"))
     middle = float(np.median(errors)) if errors else float("nan")
     return Found(right / max(1, sum(count for _, _, count in wanted)), false, largest, middle)
 

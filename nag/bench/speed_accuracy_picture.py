@@ -107,8 +107,13 @@ def _axes(axes: Any, across: str, up: str, title: str) -> None:
     axes.set_ylabel(up)
     axes.set_title(title, fontsize=8)
     axes.grid(True, alpha=0.3, linewidth=0.5)
-    if len(axes.get_xticks(minor=False)):
+    low, high = axes.get_xlim()
+    if high > 10 * low:
         axes.tick_params(axis="x", which="minor", labelbottom=False)
+    else:
+        # Within a decade the powers of ten would leave the axis without numbers.
+        axes.xaxis.set_minor_formatter("{x:.3g}")
+        axes.tick_params(axis="x", which="minor", labelsize=6.5, labelrotation=30)
 
 
 def _certification(axes: Any, chart: Chart) -> None:

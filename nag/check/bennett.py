@@ -9,12 +9,13 @@ from nag.algebra.division import divisor, remainder
 from nag.algebra.groebner import ideal
 from nag.algebra.rational_function import FunctionField
 from nag.check.identities import Residuals, identity, labelled
-from nag.check.loops import axis_equations, local
+from nag.check.loops import axis_equations
 from nag.check.rings import euler_ring, intersect_in, unit
 from nag.check.statement import Kind, Verdict, decided, fails, statement
-from nag.mechanism.axes import difference, dot
+from nag.mechanism.axes import difference
 from nag.mechanism.quaternion import norm_squared, rotate
 from nag.symbolic import bennett, bennett_geometry
+from nag.symbolic.bennett_constraints import constraints, frames
 
 M = "m0 m1 m2"
 OWN = (Fraction(7, 4), Fraction(5, 6), Fraction(1, 3))
@@ -123,41 +124,6 @@ def two_squares() -> Verdict:
         return {"difference": left - (k0 * k2 + k1 * k3) ** 2 - (k0 * k3 - k1 * k2) ** 2}
 
     return identity("k0 k1 k2 k3", formula, tuple(map(Fraction, (1, 2, 3, 5))))
-
-
-def frames(m: Any) -> list[tuple[Any, Any, Any]]:
-    """(eta, xi, chi) of joints 0 to 3 in global coordinates, lemmas 5.3 and 5.4."""
-    chi = bennett_geometry.axes(m)
-    first = tuple(tuple(x + 0 * m[0] for x in e) for e in ((1, 0, 0), (0, 1, 0)))
-    return [(*first, chi[0]), *((*bennett_geometry.across(c), c) for c in chi[1:])]
-
-
-def constraints(m: Any, a: Any, b: Any, c: Any, printed: bool = False) -> list[Any]:
-    """f_0 to f_13; ``printed``: f_11 as printed, with eta in place of xi."""
-    init = bennett.orientations(m)
-    r = bennett_geometry.abbreviations(m)["r"]
-    joints = frames(m)
-    columns = [E1, *(rotate(q, E1) for q in (a, b, c))]
-    loop = [columns[0][i] + r * columns[1][i] + columns[2][i] + r * columns[3][i] for i in range(3)]
-
-    def across(k: int, left: Any, left_init: Any, right: Any, right_init: Any) -> list[Any]:
-        eta, xi, chi = joints[k]
-        turned = rotate(right, local(right_init, chi)) if right is not None else chi
-        vectors = (eta, eta) if printed and k == 3 else (eta, xi)
-        found = []
-        for v in vectors:
-            here = v if left is None else rotate(left, local(left_init, v))
-            found.append(dot(here, turned))
-        return found
-
-    return [
-        *unit(a, b, c),
-        *loop,
-        *across(1, None, None, a, init[0]),
-        *across(2, a, init[0], b, init[1]),
-        *across(3, b, init[1], c, init[2]),
-        *across(0, c, init[2], None, None),
-    ]
 
 
 @statement("T25 section 6", "the initial configuration is a zero of f_0 to f_13")

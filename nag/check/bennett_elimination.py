@@ -157,27 +157,27 @@ def _points(m: Parameters, name: str) -> Ideal:
 @statement("T25 section 6", "V(I_{5,0}) and V(I_{5,1}) are 8 points each, by signs of a, b and c")
 def isolated_points() -> Verdict:
     def test(m: Parameters) -> bool:
-        for name in ("a0", "c0"):
+        v = names(MEDIUM)
+        essential, b = [v[x] for x in ("a0", "a2", "c0", "c2")], [v["b2"], v["b3"]]
+        # No point is its own image: no body has only zeros.
+        bodies = (essential[:2], b, essential[2:])
+        for j, name in enumerate(("a0", "c0")):
             found = _points(m, name)
-            v = names(MEDIUM)
-            for body in ("a", "b", "c"):
-                flipped = [
-                    _flip(f, [i for i, x in enumerate(MEDIUM.names) if x[0] == body])
-                    for f in found.basis
-                ]
-                if not found.contains(flipped):
-                    return False
-            # No point is its own image: no body has only zeros.
-            bodies = [[v["a0"], v["a2"]], [v["b2"], v["b3"]], [v["c0"], v["c2"]]]
-            still = any(not found.enlarged(b).whole for b in bodies)
-            if still or (found.dimension, found.degree) != (0, 8):
+            same = found == ideal(MEDIUM, bennett.isolated_points(m, j, essential, b))
+            orbit = all(found.contains(_flip(f, x) for f in found.basis) for x in "abc")
+            apart = all(found.enlarged(body).whole for body in bodies)
+            if not (same and orbit and apart and (found.dimension, found.degree) == (0, 8)):
                 return False
         return True
 
-    return everywhere(test, "dimension 0, degree 8, one orbit of the changes of sign")
+    return everywhere(
+        test, "dimension 0, degree 8, one orbit of the changes of sign; formulas for the points"
+    )
 
 
-def _flip(f: Any, places: list[int]) -> Any:
+def _flip(f: Any, letter: str) -> Any:
+    """With the sign of one body changed."""
+    places = [i for i, name in enumerate(MEDIUM.names) if name.startswith(letter)]
     terms = {}
     for e, c in f.to_dict().items():
         odd = sum(int(e[i]) for i in places) % 2

@@ -7,7 +7,7 @@ zero modulo the papers' generators.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import floor, log10
@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.groebner import Ideal, ideal
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_function import FunctionField
@@ -88,12 +89,15 @@ def as_polynomial(f: Any) -> Polynomial:
     return Polynomial(len(f.context().names()), terms)
 
 
+def evaluator(polynomials: Sequence[Any], n: int) -> Evaluator:
+    """FLINT's polynomials for evaluation in doubles, coefficients of any size scaled to 1."""
+    scaled = [as_polynomial(f) for f in polynomials]
+    return Evaluator.of([f / max(map(abs, f.terms.values())) for f in scaled], n)
+
+
 def residual(part: Ideal, points: np.ndarray) -> float:
     """Largest relative residual of an ideal's basis at points."""
-    from nag.algebra.evaluation import Evaluator
-
-    polynomials = [as_polynomial(g) for g in part.basis]
-    return float(Evaluator.of(polynomials, points.shape[1]).residuals(points).max(initial=0.0))
+    return float(evaluator(part.basis, points.shape[1]).residuals(points).max(initial=0.0))
 
 
 def digits(value: float) -> int:
@@ -154,7 +158,8 @@ def dimension_and_degree(compared: Compared) -> Verdict:
     text = ", ".join(
         f"{rows.count(row)} of dimension {row[0]}, degree {row[1]}" for row in sorted(set(rows))
     )
-    return holds(f"{text}: witness sets with a trace test, and Groebner bases by FLINT")
+    how = f"{text}: witness sets with a trace test, and Groebner bases by FLINT"
+    return Verdict(Kind.NUMERICAL, how)
 
 
 def reduction(compared: Compared) -> Verdict:
@@ -163,8 +168,8 @@ def reduction(compared: Compared) -> Verdict:
     for part, component in zip(compared.ideals, compared.known.components, strict=True):
         if not part.contains(equations):
             return decided(False, "", f"{component.place}: an equation leaves a remainder")
-    count = f"{len(equations)} equations, {len(compared.ideals)} bases"
-    return holds(f"division: {count} by FLINT from the papers' generators")
+    bases = "one basis" if len(compared.ideals) == 1 else f"{len(compared.ideals)} bases"
+    return holds(f"division: {len(equations)} equations, {bases} by FLINT from the generators")
 
 
 WAYS = (

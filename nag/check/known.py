@@ -74,3 +74,8 @@ def turned(first: Values, second: Values) -> tuple[Any, Any]:
 def flat(bars: Sequence[Values]) -> list[Any]:
     """(c, s) of each bar in one list."""
     return [x for bar in bars for x in bar]
+
+
+def parameter_text(text: str) -> str:
+    """Parameters as text, not longer than a line has room for."""
+    return text if len(text) <= 60 else f"{text[:57]}..."

@@ -17,9 +17,9 @@ from nag.algebra.rational_function import FunctionField
 from nag.algebra.system import PolynomialSystem
 from nag.check.bennett_special import ROOTS as SPECIAL_ROOTS
 from nag.check.bennett_special import point as special_point
-from nag.check.four_way import RESIDUAL, WAYS, Decompose, as_polynomial, digits
+from nag.check.four_way import RESIDUAL, WAYS, Decompose, digits, evaluator
 from nag.check.identities import labelled, surviving
-from nag.check.known import Parametrisation
+from nag.check.known import Parametrisation, parameter_text
 from nag.check.known_space import BRICARD_ROOTS, bennett_roots
 from nag.check.loops import (
     bennett_equations,
@@ -28,7 +28,7 @@ from nag.check.loops import (
     bricard_mechanism,
 )
 from nag.check.rings import euler_ring
-from nag.check.statement import Kind, Statement, Verdict, decided, holds
+from nag.check.statement import Kind, Statement, Verdict, decided
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import Model, model
 from nag.symbolic import bennett, bennett_geometry, bennett_special, bricard
@@ -111,7 +111,7 @@ def known_bennett(m: Sequence[Fraction]) -> KnownMechanism:
         if special
         else Parametrisation("cos", point, bennett_roots(m))
     )
-    text = ", ".join(map(str, m))
+    text = parameter_text(", ".join(map(str, m)))
     return KnownMechanism(
         f"Bennett's mechanism, m = ({text})",
         bennett_mechanism(m),
@@ -152,8 +152,7 @@ class ComparedMechanism:
     def generators(self) -> Evaluator:
         """The generators as printed, to be evaluated in doubles."""
         field, bodies = self._ring
-        polynomials = [as_polynomial(g.numerator) for g in self.known.generators(bodies)]
-        return Evaluator.of(polynomials, len(field.names))
+        return evaluator([g.numerator for g in self.known.generators(bodies)], len(field.names))
 
     def residual(self, point: np.ndarray) -> float:
         """Relative residual of the generators at a lifted point, the bodies' signs chosen best."""
@@ -204,9 +203,10 @@ def dimension_and_degree(compared: ComparedMechanism) -> Verdict:
     here, wanted = sum(d for _, d in found), {(part.dimension, exact)}
     if {(dim, here) for dim, _ in found} != wanted or len(found) != 1:
         return decided(False, "", f"{found} found, {sorted(wanted)} by Groebner bases")
-    return holds(
+    return Verdict(
+        Kind.NUMERICAL,
         f"dimension {part.dimension} in both; degree {exact} in half-angles, by a trace test and "
-        f"by a Groebner basis; degree {part.degree} in Euler parameters"
+        f"by a Groebner basis; degree {part.degree} in Euler parameters",
     )
 
 

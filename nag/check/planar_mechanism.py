@@ -12,6 +12,7 @@ from nag.algebra.number import square_root
 from nag.mechanism.axes import difference, dot
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import Model, ModelError, model
+from nag.mechanism.planar import PlanarModel
 from nag.mechanism.quaternion import conjugate, rotate
 
 
@@ -59,11 +60,13 @@ class EqualSides:
 def equal_sides(mechanism: Mechanism) -> EqualSides | None:
     """The mechanism as a planar four-bar with rational equal opposite sides, or None."""
     try:
-        made = model(mechanism)
+        made = model(mechanism, "E")
     except ModelError:
         return None
     loop = made.structure.single
     if made.space != "planar" or loop is None or len(loop.bodies) != 4 or made.structure.cut:
+        return None
+    if not isinstance(made.form, PlanarModel) or {j.type for j in loop.joints} != {"revolute"}:
         return None
     links: list[Any] = []
     for i in range(4):

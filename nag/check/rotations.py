@@ -22,6 +22,7 @@ from nag.mechanism.quaternion import (
     norm_squared,
     scale,
 )
+from nag.symbolic import rotation
 
 ONE = "a0 a1 a2 a3"
 TWO = "a0 a1 a2 a3 b0 b1 b2 b3"
@@ -39,9 +40,11 @@ def _L(v: Any, y: Any) -> tuple[tuple[Any, ...], ...]:
 
 @statement("T25 2.1", "R(a) = H~(a) H(a)^T is the matrix printed")
 def matrix_of_rotation() -> Verdict:
-    return identity(
-        ONE, lambda *a: matrix("R", product(H_tilde(a), transpose(H(a))), R(a)), SMALL[:4]
-    )
+    def formula(*a: Any) -> Residuals:
+        ours = matrix("R and ours", rotation.R(a), R(a))
+        return ours | matrix("R", product(H_tilde(a), transpose(H(a))), rotation.R(a))
+
+    return identity(ONE, formula, SMALL[:4])
 
 
 @statement("T25 2.1", "R(a) lies in SO(3) if |a| = 1")

@@ -26,7 +26,7 @@ class Verdict:
         kind: the answer.
         how: the argument or computation, in a few words; of a failure what is true instead.
         counterexample: of a failure, an exact point or value.
-        digits: of a numerical answer, to how many digits the equations hold.
+        digits: of a numerical answer about equations, to how many digits they hold.
     """
 
     kind: Kind

@@ -30,7 +30,7 @@ from nag.check import (
     triangle,
 )
 from nag.check.four_way import Decompose, as_polynomial
-from nag.check.known import Known
+from nag.check.known import Known, parameter_text
 from nag.check.mechanisms import KnownMechanism
 from nag.check.planar_mechanism import equal_sides
 from nag.check.statement import Statement
@@ -174,7 +174,7 @@ def _named(family: SystemFamily, given: Parameters) -> Known:
     known = family.build(given)
     if not given:
         return known
-    text = ", ".join(f"{k} = {v}" for k, v in given.items())
+    text = parameter_text(", ".join(f"{k} = {v}" for k, v in given.items()))
     return Known(f"{known.name}, {text}", known.variables, known.equations, known.components)
 
 
@@ -222,8 +222,9 @@ def same_mechanism(left: Mechanism, right: Mechanism) -> bool:
         for x, y in zip(a.bodies, b.bodies, strict=True):
             if names.setdefault(x, y) != y:
                 return False
-        same = not vanishes(a.axis) and vanishes(cross(a.axis, b.axis)) and dot(a.axis, b.axis) > 0
-        if a.point != b.point or not same:
+        if a.type != b.type or a.point != b.point:
+            return False
+        if not vanishes(cross(a.axis, b.axis)) or not dot(a.axis, b.axis) > 0:
             return False
     return len(set(names.values())) == len(names)
 

@@ -75,6 +75,11 @@ def add_case(parser: argparse.ArgumentParser) -> None:
     """The case file and the formulation of its model."""
     parser.add_argument("case", metavar="CASE", help="case file (TOML)")
     add_formulation(parser)
+    add_parameters(parser)
+
+
+def add_parameters(parser: argparse.ArgumentParser) -> None:
+    """Other values of the case's parameters."""
     parser.add_argument(
         "--set",
         action="append",

@@ -67,10 +67,9 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
     from nag.bench.speed_accuracy import document, ratios
     from nag.bench.speed_accuracy_picture import draw_all, draw_case
-    from nag.files.json_text import lay_out
     from nag.report.table import align
 
-    write_text(options.json, lay_out(document(charts)) + "\n")
+    write_text(options.json, json.dumps(document(charts)) + "\n")
     for path in options.picture or ():
         write_picture(path, lambda target: draw_all(charts, target))
         stem, dot, kind = path.rpartition(".")

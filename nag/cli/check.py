@@ -7,10 +7,11 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_tracking, read_case_file
+from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
 
 if TYPE_CHECKING:
-    from nag.check.statement import Statement
+    from nag.check.statement import Statement, Verdict
+    from nag.cli.progress import Progress
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -19,6 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "case", metavar="CASE", nargs="?", help="case file (TOML) of a mechanism of the papers"
     )
     parser.add_argument("--all", action="store_true", help="all statements of both papers")
+    add_parameters(parser)
     add_tracking(parser)
 
 
@@ -28,15 +30,20 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or a case that the papers say nothing of.
     """
-    from nag.cli.progress import compilation_notice
+    from nag.cli.progress import compilation_notice, progress_line
 
     started = time.perf_counter()
     if options.all == (options.case is not None):
         raise UsageError("give either a case file or --all, and not both")
-    case = None if options.all else read_case_file(options.case)
-    with compilation_notice(sys.stderr, options.quiet):
+    if options.all and options.set:
+        raise UsageError("--set: is for a case file")
+    case = None if options.all else read_case_file(options.case, options.set)
+    with (
+        compilation_notice(sys.stderr, options.quiet),
+        progress_line(sys.stderr, options.quiet) as progress,
+    ):
         sections = _sections(case, options)
-        decided = [(title, _decided(title, statements, options)) for title, statements in sections]
+        decided = [(title, _decided(title, rows, progress)) for title, rows in sections]
 
     from nag.report.statements import section, settled, summary
     from nag.report.table import labelled
@@ -73,8 +80,11 @@ def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[S
 
 
 def _decided(
-    title: str, statements: tuple[Statement, ...], options: argparse.Namespace
-) -> list[tuple[Statement, Any]]:
-    if not options.quiet:
-        print(f"{title} ...", file=sys.stderr, flush=True)
-    return [(statement, statement.verdict()) for statement in statements]
+    title: str, statements: tuple[Statement, ...], progress: Progress | None
+) -> list[tuple[Statement, Verdict]]:
+    decided = []
+    for i, statement in enumerate(statements):
+        if progress is not None:
+            progress(title, i, len(statements))
+        decided.append((statement, statement.verdict()))
+    return decided

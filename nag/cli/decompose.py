@@ -22,6 +22,7 @@ from nag.cli.sweep import sweep_of
 if TYPE_CHECKING:
     from nag.decomposition.superset import Progress
     from nag.files.cases import Case
+    from nag.files.export import Origin
     from nag.mechanism.model import Model
     from nag.witness.witness import Decomposition
 
@@ -113,19 +114,12 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
             decomposition = expanded(decomposition)
         points = through_points(decomposition, points_of(case, model), arguments.threads)
 
-    from nag.files.export import write_decomposition
     from nag.files.problem import origin
-    from nag.files.written_file import TargetError
     from nag.report.answer import answer_lines
     from nag.report.table import labelled
 
     decomposition = accounted(decomposition, points)
-    failure = None
-    if arguments.json is not None:
-        try:
-            write_decomposition(decomposition, arguments.json, origin(case, model))
-        except TargetError as error:
-            failure = f"--json: {error}"
+    failure = _unwritten(decomposition, arguments.json, origin(case, model))
     seconds = time.perf_counter() - started
     lines = answer_lines(decomposition, case, model, points, seconds)
     if failure is not None:
@@ -134,6 +128,19 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         return lines, decomposition.complete
     certificate, rows = certified(decomposition)
     return [*lines, "", *labelled(rows)], decomposition.complete and certificate.all_proved
+
+
+def _unwritten(decomposition: Decomposition, json: str | None, origin: Origin) -> str | None:
+    """Write the export, if there is to be one; what went wrong, if something did."""
+    from nag.files.export import write_decomposition
+    from nag.files.written_file import TargetError
+
+    if json is not None:
+        try:
+            write_decomposition(decomposition, json, origin)
+        except TargetError as error:
+            return f"--json: {error}"
+    return None
 
 
 def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:

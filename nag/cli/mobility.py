@@ -7,7 +7,14 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_case, add_running, check_json, read_problem
+from nag.cli.arguments import (
+    UsageError,
+    add_case,
+    add_running,
+    check_json,
+    read_case_file,
+    read_problem,
+)
 from nag.cli.witness_input import point_at, write_document
 
 if TYPE_CHECKING:
@@ -35,6 +42,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="do not decompose: counting, tangent and local dimension only",
     )
     parser.add_argument(
+        "--curves",
+        action="store_true",
+        help="the genus of each curve through the configuration (0 is a rational motion), and in "
+        "a loop of revolute joints its bonds",
+    )
+    parser.add_argument(
         "--check",
         action="store_true",
         help="do it all again in another formulation of the mechanism, and compare",
@@ -52,9 +65,10 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if options.json is not None:
         check_json(options.json, options.case)
     case, made = _mechanism(options)
-    at = None if options.at is None or made is None else point_at(options.at, made.system.variables)
-    if options.check and options.at is not None:
-        raise UsageError("--check: the formulations have different variables; leave --at out")
+    variables = _variables(case, made)
+    at = None if options.at is None else point_at(options.at, variables)
+    if options.check and (options.at is not None or made is None):
+        raise UsageError("--check: is for reference configurations that have two formulations")
     from nag.cli.progress import compilation_notice
     from nag.mechanism.mobility_report import MobilityStatus
     from nag.report.table import labelled, printable
@@ -63,13 +77,15 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         report = _report(options, case, made.formulation if made else "auto", at)
         rows = report.rows()
         complete = report.status is not MobilityStatus.UNDECIDED and not report.open
+        complete &= not any(curve.note for curve in report.curves)
         compared: dict[str, Any] | None = None
         if options.check:
             text, agree, compared = _compared(options, case, report)
             rows.append(("check", text))
             complete &= agree
     if options.json is not None:
-        write_document(_document(case, options, made, at, report, compared, complete), options.json)
+        point = at or _reference(case, made)
+        write_document(_document(case, options, point, report, compared, complete), options.json)
     seconds = time.perf_counter() - started
     rows.append(("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"))
     body = labelled([(label, printable(text)) for label, text in rows])
@@ -77,36 +93,55 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
 
 def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
-    """The case and its model; None if it has no loops."""
-    from nag.files.cases import CaseError, read_case
+    """The case and the model of an assembled mechanism; None if it has no loops.
 
-    try:
-        case = read_case(options.case)
-    except (CaseError, OSError):
-        read_problem(options)
-        raise
+    Raises:
+        UsageError: if there is no mechanism, or no configuration of it is known or given.
+    """
+    case = read_case_file(options.case, options.set)
     if case.mechanism is None:
-        raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
-    if len(case.mechanism.graph.edges) < len(case.mechanism.graph):
+        if case.assembly is None:
+            raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
+        if options.formulation is not None:
+            raise UsageError(f"{options.case}: its parts are not assembled: no --formulation")
+        if options.at is None and case.assembly.reference is None:
+            raise UsageError(f"{options.case}: its parts are not assembled: give --at as well")
+        return case, None
+    from nag.mechanism.loops import loop_structure
+
+    if not loop_structure(case.mechanism).loops:
         if options.at is not None:
             raise UsageError(f"--at: {options.case} has no loop, so that it has no equations")
         return case, None
     return read_problem(options)
 
 
+def _variables(case: Case, made: Model | None) -> tuple[str, ...]:
+    if made is not None:
+        return made.system.variables
+    return () if case.assembly is None else case.assembly.system.variables
+
+
+def _reference(case: Case, made: Model | None) -> tuple[Number, ...]:
+    if made is not None:
+        return tuple(made.reference)
+    return () if case.assembly is None else tuple(case.assembly.reference or ())
+
+
 def _report(
     options: argparse.Namespace, case: Case, formulation: str, at: tuple[Number, ...] | None
 ) -> MobilityReport:
-    from nag.mechanism.mobility_report import mobility
+    from nag.mechanism.mobility_at import mobility
     from nag.numerics.local_dimension import NoSolution
 
-    assert case.mechanism is not None
+    subject = case.mechanism or case.assembly
+    assert subject is not None
     try:
         return mobility(
-            case.mechanism,
+            subject,
             at,
-            formulation=formulation,  # type: ignore[arg-type]
-            components=not options.local,
+            formulation=formulation,
+            detail="curves" if options.curves else "local" if options.local else "components",
             seed=options.seed,
             threads=options.threads,
             settings=options.settings,
@@ -119,10 +154,11 @@ def _compared(
     options: argparse.Namespace, case: Case, report: MobilityReport
 ) -> tuple[str, bool, dict[str, Any] | None]:
     """What another formulation says, whether it agrees, and that as a JSON object."""
+    from nag.mechanism.formulation_names import FORMULATIONS
     from nag.mechanism.model import ModelError
 
-    for formulation in ("E", "H"):
-        if formulation == report.formulation:
+    for formulation in FORMULATIONS:
+        if report.formulation == f"formulation {formulation}":
             continue
         try:
             other = _report(options, case, formulation, None)
@@ -149,8 +185,7 @@ def _compared(
 def _document(
     case: Case,
     options: argparse.Namespace,
-    made: Model | None,
-    at: tuple[Number, ...] | None,
+    point: tuple[Number, ...],
     report: MobilityReport,
     compared: dict[str, Any] | None,
     complete: bool,
@@ -160,7 +195,6 @@ def _document(
     from nag.algebra.number import number_text
     from nag.files.mobility_document import mobility_document
 
-    point = made.reference if at is None and made is not None else at or ()
     return {
         "format": FORMAT,
         "version": 1,

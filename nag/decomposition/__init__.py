@@ -40,6 +40,7 @@ _HOME = {
     "by_sampling": "nag.decomposition.discovery",
     "components_through": "nag.witness.membership",
     "decompose": "nag.decomposition.components",
+    "genus": "nag.decomposition.curve_genus",
     "intersect_components": "nag.decomposition.intersection",
     "intersect_equations": "nag.decomposition.intersection",
     "intersect_pair": "nag.decomposition.intersection",
@@ -47,6 +48,8 @@ _HOME = {
     "project": "nag.witness.projection",
     "real_points_near": "nag.witness.real_points",
     "sample": "nag.witness.sampling",
+    "singular_locus": "nag.decomposition.singular_locus",
+    "singular_parameters": "nag.decomposition.singular_parameters",
     "witness_at": "nag.witness.moving",
 }
 

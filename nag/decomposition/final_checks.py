@@ -107,7 +107,7 @@ def checked_witness_set(
     first = chosen[0].points[0]
     chosen, accuracy = _sharpened(chosen, rows)
     y = np.vstack([fibre.x for fibre in chosen])
-    x = frame.points(y)
+    x, accuracy = frame.points(y), frame.error(y, accuracy)
     residual = float(reduction.original.residuals(x).max(initial=0.0))
     coranks = _coranks(reduced, rows, y, not chosen[0].cut.levels, rng)
     reasons = [found.reason] if found.reason else []

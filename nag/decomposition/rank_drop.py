@@ -100,17 +100,17 @@ def _null_space_system(
     if m > r:
         columns = list(zip(*jacobian, strict=True))
         jacobian = [[_combined(column, row) for column in columns] for row in _random(rng, r, m)]
-    free = [Polynomial.variable(total, n + i) for i in range(r - 1)]
+    free = [Polynomial.variable(total, i) for i in range(n, total)]
     one = Polynomial.constant(total, 1)
     w = [_combined([one, *free], row) for row in _random(rng, r, r)]
     conditions = [product(w, column) for column in zip(*jacobian, strict=True)]
-    names = (*system.variables, *new_names(system.variables, r - 1))
+    names = (*system.variables, *new_names(system.variables, total - n))
     lifted, nonzero = (
         tuple(f.with_variables(total, range(n)) for f in polynomials)
         for polynomials in (system.polynomials, system.nonzero)
     )
     base = PolynomialSystem(names, lifted, nonzero)
-    start = _times_space(component, r - 1, rng)
+    start = _times_space(component, total - n, rng)
     kept = tuple(f for f in dict.fromkeys(conditions) if f)
     return base, start, PolynomialSystem(names, kept)
 

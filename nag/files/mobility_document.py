@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from nag.files.local_document import local_document
-from nag.mechanism.mobility_report import MobilityReport
+from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 
 
 def mobility_document(report: MobilityReport) -> dict[str, Any]:
@@ -30,5 +30,16 @@ def mobility_document(report: MobilityReport) -> dict[str, Any]:
         if components is None
         else [{"dimension": d, "degree": degree} for d, degree in components],
         "open": report.open,
+        "curves": [_curve_document(curve) for curve in report.curves],
         "local": None if report.local is None else local_document(report.local),
     }
+
+
+def _curve_document(curve: CurveOfMotion) -> dict[str, Any]:
+    bonds = None
+    if curve.bonds is not None:
+        bonds = [
+            {"joints": list(bond.joints), "orders": list(bond.orders), "count": bond.count}
+            for bond in curve.bonds.bonds
+        ]
+    return {"degree": curve.degree, "genus": curve.genus, "bonds": bonds, "note": curve.note}

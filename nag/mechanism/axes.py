@@ -75,11 +75,6 @@ def skew(first: Joint, second: Joint) -> bool:
     return not is_zero(dot(difference(second.point, first.point), cross(first.axis, second.axis)))
 
 
-def coincident(first: Joint, second: Joint) -> bool:
-    """Whether the axes are the same line."""
-    return parallel(first, second) and on_axis(second.point, first)
-
-
 def on_axis(point: Sequence[Number], joint: Joint) -> bool:
     """Whether ``point`` lies on the axis of ``joint``."""
     return vanishes(cross(difference(point, joint.point), joint.axis))

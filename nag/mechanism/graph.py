@@ -146,6 +146,7 @@ class Mechanism:
                 joint=repeated,
                 key="name",
             )
+        _check_duplicates(self.joints)
         used = {b for j in self.joints for b in j.bodies}
         repeated = _first_repeated(b.name for b in self.bodies)
         if repeated is not None:
@@ -300,6 +301,26 @@ def _check_joint(joint: Joint) -> None:
             joint=joint.name,
             key="second_axis",
         )
+
+
+def _check_duplicates(joints: tuple[Joint, ...]) -> None:
+    """A joint given twice is a slip of the pen; two hinges of a door have points of their own."""
+    for i, joint in enumerate(joints):
+        for other in joints[:i]:
+            if set(other.bodies) == set(joint.bodies) and _same_joint(other, joint):
+                raise MechanismError(
+                    f"the same axis joins {joint.bodies[0]!r} and {joint.bodies[1]!r} in joint "
+                    f"{other.name!r} already; leave one of them out",
+                    joint=joint.name,
+                    key="axis",
+                )
+
+
+def _same_joint(first: Joint, second: Joint) -> bool:
+    if first.type != second.type or first.type not in ("revolute", "cylindrical"):
+        return False
+    here = all(is_zero(x - y) for x, y in zip(second.point, first.point, strict=True))
+    return here and _parallel(first.axis, second.axis)
 
 
 def _check_vector(joint: Joint, key: str) -> None:

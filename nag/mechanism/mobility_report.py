@@ -7,21 +7,12 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from nag.algebra.number import Number
-from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
-from nag.decomposition.through import through_points
-from nag.mechanism.axes import space_of
-from nag.mechanism.graph import Mechanism
-from nag.mechanism.joint_types import freedoms_in
-from nag.mechanism.mobility import gruebler_kutzbach
-from nag.mechanism.model import Model, model
-from nag.numerics.local_dimension import LocalDimension, local_dimension
-from nag.witness.expansion import expanded
+from nag.mechanism.bonds import Bonds
+from nag.numerics.local_dimension import LocalDimension
+from nag.text.table import html_table
 
 
 class MobilityStatus(StrEnum):
@@ -36,6 +27,33 @@ class MobilityStatus(StrEnum):
     UNDECIDED = "undecided"
 
 
+@dataclass(frozen=True)
+class CurveOfMotion:
+    """A curve of configurations through one.
+
+    Attributes:
+        degree: in the model's variables.
+        genus: of its smooth model, 0 if the motion has a rational parametrisation; None if it could
+            not be determined.
+        bonds: of a loop of revolute joints in half-angles; None elsewhere, or if they could not be
+            determined.
+        note: why something could not; empty otherwise.
+    """
+
+    degree: int
+    genus: int | None
+    bonds: Bonds | None
+    note: str = ""
+
+    def __str__(self) -> str:
+        text = f"degree {self.degree}"
+        if self.genus is not None:
+            text += f", genus {self.genus}{' (a rational motion)' if self.genus == 0 else ''}"
+        if self.bonds is not None:
+            text += f", bonds {self.bonds}"
+        return f"{text}; not known: {self.note}" if self.note else text
+
+
 @dataclass(frozen=True, eq=False)
 class MobilityReport:
     """The mobility of a mechanism at one configuration.
@@ -43,7 +61,7 @@ class MobilityReport:
     Attributes:
         space: ``"planar"``, ``"spherical"`` or ``"spatial"``.
         gruebler_kutzbach: the mobility that counting predicts.
-        formulation: of the model; empty where the mechanism has no loop.
+        formulation: of the model, as text; empty where the mechanism has no loop.
         variables, equations: of the model.
         free: freedoms of joints outside all loops, contained in the dimensions below.
         tangent_dimension: of the configuration space's tangent space, the first-order mobility;
@@ -53,6 +71,7 @@ class MobilityReport:
             were not looked for or are not known.
         open: why the components are not known; empty if they are.
         local: the local dimension in the model, and what it rests on; None without loops.
+        curves: the curves through the configuration, where they were asked for.
     """
 
     space: str
@@ -67,6 +86,7 @@ class MobilityReport:
     components: tuple[tuple[int, int], ...] | None
     open: str
     local: LocalDimension | None
+    curves: tuple[CurveOfMotion, ...] = ()
 
     @property
     def local_dimension(self) -> int | None:
@@ -118,26 +138,33 @@ class MobilityReport:
         """What the numbers mean."""
         return _sentence(self)
 
+    def __repr__(self) -> str:
+        return str(self)
+
+    def _repr_html_(self) -> str:
+        return html_table("MobilityReport", [["", ""], *map(list, self.rows())])
+
     def __str__(self) -> str:
         return "\n".join(f"{label.ljust(10)}  {text}" for label, text in self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
-        """Five labelled lines."""
+        """Five labelled lines, and one for each curve."""
         counts = f"{self.gruebler_kutzbach} by Gruebler-Kutzbach ({self.space})"
         model_text = "no loop, no equations"
         if self.formulation:
             model_text = (
                 f"{_count(self.equations, 'equation')} in {_count(self.variables, 'unknown')}, "
-                f"formulation {self.formulation}"
+                f"{self.formulation}"
             )
             if self.free:
-                model_text += f"; {self.free} by joints outside all loops"
+                model_text += f"; {self.free} besides"
         return [
             ("counted", counts),
             ("model", model_text),
             ("local", _local_text(self)),
             ("components", _components_text(self)),
             ("mobility", f"{self.status}: {self.sentence}"),
+            *(("curve", str(curve)) for curve in self.curves),
         ]
 
 
@@ -193,89 +220,3 @@ def _count(number: int, noun: str) -> str:
 
 def _freedoms(number: int | None) -> str:
     return _count(number or 0, "freedom")
-
-
-def mobility(
-    mechanism: Mechanism,
-    point: Sequence[Number] | None = None,
-    *,
-    formulation: str = "auto",
-    components: bool = True,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
-) -> MobilityReport:
-    """The mobility of a mechanism at its reference configuration, or at another one.
-
-    Args:
-        point: in the model's variables (`nag.model(mechanism).system.variables`), exact or doubles.
-        formulation: of the model, as for `nag.model`.
-        components: whether to decompose the configuration space as well, to know the components
-            through the configuration; it takes longer.
-        seed, threads, settings: of the decomposition.
-
-    Raises:
-        nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
-        nag.numerics.local_dimension.NoSolution: if an exact point is no configuration.
-    """
-    if len(mechanism.graph.edges) < len(mechanism.graph):
-        return _without_loops(mechanism)
-    made = model(mechanism, formulation)
-    at = tuple(made.reference) if point is None else tuple(point)
-    found = local_dimension(made.system, at, seed=seed)
-    through: tuple[tuple[int, int], ...] | None = None
-    doubt = ""
-    if components:
-        through, doubt = _components(made, at, seed, threads, settings)
-    return report_of(made, found, through, doubt)
-
-
-def report_of(
-    made: Model,
-    found: LocalDimension,
-    components: tuple[tuple[int, int], ...] | None,
-    doubt: str = "",
-) -> MobilityReport:
-    """The report of what was found in a model."""
-    free = made.structure.cut_freedoms
-    tangent = found.tangent_dimension
-    return MobilityReport(
-        space=space_of(made.mechanism.joints),
-        gruebler_kutzbach=made.gruebler_kutzbach,
-        formulation=made.formulation,
-        variables=made.system.n,
-        equations=len(made.system.polynomials),
-        free=free,
-        tangent_dimension=None if tangent is None else tangent + free,
-        lower=found.lower + free,
-        upper=found.upper + free,
-        components=None if components is None else tuple((d + free, k) for d, k in components),
-        open=doubt,
-        local=found,
-    )
-
-
-def _without_loops(mechanism: Mechanism) -> MobilityReport:
-    space = space_of(mechanism.joints)
-    free = sum(freedoms_in(j.type, space) for j in mechanism.joints)
-    counted = gruebler_kutzbach(mechanism)
-    return MobilityReport(space, counted, "", 0, 0, free, free, free, free, None, "", None)
-
-
-def _components(
-    made: Model, at: Sequence[Number], seed: int, threads: int, settings: str
-) -> tuple[tuple[tuple[int, int], ...] | None, str]:
-    """Dimension and degree of the components through a point, or why they are not known."""
-    from nag.algebra.symmetry import SignedPermutation
-
-    system: PolynomialSystem = made.system
-    symmetries = tuple(SignedPermutation.of_signs(signs) for signs in made.symmetries)
-    found = decompose(system, seed=seed, threads=threads, settings=settings, symmetries=symmetries)
-    if not found.complete:
-        return None, f"the decomposition is incomplete: {'; '.join(found.notes)}"
-    through = through_points(found, [("the configuration", tuple(at))], threads)[0]
-    if not through.solution or through.doubt:
-        return None, through.doubt or "the configuration is a rounded one"
-    everything = expanded(found).components
-    chosen = (everything[i] for i in through.components)
-    return tuple((c.dimension, c.degree) for c in chosen), ""

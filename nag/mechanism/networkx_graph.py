@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Mapping
-from dataclasses import MISSING, fields
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.tokens import quote
 from nag.mechanism.graph import Body, Joint, Mechanism, MechanismError
+from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS
 
 if TYPE_CHECKING:
     import networkx
 
 # What an edge says beside its ends and its name: type, axis, point, ...
 _ATTRIBUTES = tuple(f.name for f in fields(Joint) if f.name not in ("name", "bodies"))
-_NEEDED = tuple(f.name for f in fields(Joint) if f.name in _ATTRIBUTES and f.default is MISSING)
 
 
 def mechanism_from_graph(graph: Any, ground: Any = None) -> Mechanism:
@@ -100,7 +100,8 @@ def _joint(
         )
     where = {"joint": name}
     _check_typing(data, (*_ATTRIBUTES, "bodies", "name"), f"edge {' - '.join(ends)}", where)
-    for attribute in _NEEDED:
+    kind = JOINT_TYPES.get(SYNONYMS.get(data.get("type"), data.get("type")))
+    for attribute in ("type", *(kind.fields if kind else ())):
         if data.get(attribute) is None:
             raise MechanismError(
                 f"the edge {' - '.join(ends)} has no {attribute}; add the attribute "

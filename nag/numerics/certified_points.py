@@ -112,7 +112,7 @@ def certify_points(
         for i in np.flatnonzero(boxes.proved).tolist():
             proofs[i] = Proof.SIMPLE
     elif len(equations) + len(slices) > n and len(tested):
-        rows = _independent(equations, slices, points[tested[0]])
+        rows = independent_equations(equations, slices, points[tested[0]])
         square = [equations[i] for i in rows]
         _enter(boxes, tested, boxes_of(square, slices, points[tested], reach[tested]))
         others = [f for i, f in enumerate(equations) if i not in set(rows)]
@@ -136,7 +136,7 @@ def _enter(boxes: Boxes, places: np.ndarray, found: Boxes) -> None:
     boxes.fine.update({int(places[i]): box for i, box in found.fine.items()})
 
 
-def _independent(
+def independent_equations(
     equations: Sequence[Polynomial], slices: np.ndarray, point: np.ndarray
 ) -> list[int]:
     """Equations that determine the point on the slice, as many as are needed."""

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from nag.algebra.from_python import coordinates
 from nag.algebra.number import Irrational, Number, is_zero
 
 if TYPE_CHECKING:
@@ -101,11 +102,15 @@ def local_dimension(
     Raises:
         ValueError: if the point has not one coordinate for each variable.
         NoSolution: if an exact point does not satisfy the equations.
+
+    >>> import nag
+    >>> cusp = nag.local_dimension(nag.system("x^3 = y^2"), (0, 0))
+    >>> cusp.tangent_dimension, cusp.lower, cusp.upper
+    (2, 1, 1)
     """
     from nag.numerics.dimension_bounds import bounds
 
-    if len(point) != system.n:
-        raise ValueError(f"the point has {len(point)} coordinates, the system {system.n} variables")
+    point = coordinates(point, system.variables)
     exact = exact_numbers(point)
     if exact is not None and not accuracy:
         wrong = [i for i, f in enumerate(system.polynomials) if not is_zero(f(exact))]

@@ -13,7 +13,7 @@ ERRATA = "cases/ERRATA.md"
 
 def label(statement: Statement, verdict: Verdict) -> str:
     """The answer in a few words."""
-    if verdict.kind is Kind.NUMERICAL:
+    if verdict.digits is not None:
         return f"holds to {verdict.digits} digits"
     if verdict.kind is Kind.FAILS and statement.misprint:
         return "fails, misprint"

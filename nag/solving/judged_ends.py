@@ -99,8 +99,10 @@ def judged_ends(
             if begin.complete and not problem.squared and multiplicity != len(group):
                 notes.append(f"{len(group)} paths end at a solution of multiplicity {multiplicity}")
         elif found.place is not None:
+            # That one of several zeros was met leaves open which the other paths met.
+            place = Place.UNDECIDED if found.place is Place.CLUSTER else found.place
             # Where equations were added, an end stands for one point of a component.
-            elsewhere[found.place].extend(zeros.points[[best] if problem.added else group])
+            elsewhere[place].extend(zeros.points[[best] if problem.added else group])
         if found.close:
             close.extend(zeros.path[group].tolist())
     if elsewhere[Place.UNDECIDED]:

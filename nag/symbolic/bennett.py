@@ -156,6 +156,27 @@ def essential_to_all(m: Parameters, a0: Any, a2: Any, c0: Any, c2: Any) -> list[
     return [a, b, c]
 
 
+def isolated_points(m: Parameters, j: int, essential: Sequence[Any], b: Sequence[Any]) -> list[Any]:
+    """Generators of I_{5,0} and I_{5,1}, 8 points each, before (19).
+
+    Args:
+        j: 0 for a_0 = 0, 1 for c_0 = 0.
+        essential: a_0, a_2, c_0, c_2.
+        b: b_2 and b_3; b_0 = b_1 = 0.
+    """
+    m0, m1, m2 = m
+    a0, a2, c0, c2 = essential
+    q5 = abbreviations(m)["q5"]
+    n0, n1, n2 = m0**2 + 1, m1**2 + 1, m1**2 + m2**2
+    _, _, t2, t3, t4, t5 = coefficients(m)
+    unit = b[0] ** 2 + b[1] ** 2 - 1
+    if j == 0:
+        squares = [a2**2 - q5**2 / (n0**2 * n1), c0**2 - m1**2 / n2]
+        return [a0, c2, *squares, t5 * b[0] - t3 * b[1], unit]
+    squares = [a0**2 - 1 / n1, c2**2 - m2**2 / n2]
+    return [c0, a2, *squares, t4 * b[0] - t2 * b[1], unit]
+
+
 def under_the_root(m: Parameters, cos: Any, sin: Any) -> Any:
     """q_6 of the parametrisation."""
     _, m1, m2 = m

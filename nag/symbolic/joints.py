@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from nag.symbolic.rotation import inner, rotate
+
 Quaternion = Sequence[Any]
 
 
@@ -54,12 +56,8 @@ def translational(a: Quaternion, b: Quaternion) -> list[Any]:
 
 def universal(a: Quaternion, b: Quaternion) -> Any:
     """p_6 = <R(a) e^3, R(b) e^3>."""
-    (*_, left), (*_, right) = (zip(*_rotation(x), strict=True) for x in (a, b))
-    return sum(x * y for x, y in zip(left[1:], right[1:], strict=True)) + left[0] * right[0]
-
-
-def _rotation(a: Quaternion) -> tuple[tuple[Any, ...], ...]:
-    return tuple(tuple(2 * x for x in row) for row in orientation(a))
+    e3 = (0, 0, 1)
+    return inner(rotate(a, e3), rotate(b, e3))
 
 
 # Table 1: numbers of C-, SO- and O-constraints, and of conditions.

@@ -9,6 +9,10 @@ import numpy as np
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 
+# Relative error of a point that is known to all digits: rounding of two homogeneous coordinates,
+# and of their quotient.
+ROUNDING = 5 * 2.0**-53
+
 
 class Refined(NamedTuple):
     """Result of `refine`.
@@ -16,7 +20,7 @@ class Refined(NamedTuple):
     Attributes:
         points: unit norm in each group, shape ``(P, N)``.
         error: estimated relative error of each point: length of the last Newton step, at least
-            2e-16; inf where there was none, or it was no small step.
+            `ROUNDING`; inf where there was none, or it was no small step.
         moved: distance of each point from where it started.
         before: smallest singular value of the Jacobian where the point started, patches included;
             polynomial rows are scaled by their largest coefficient, linear rows to about unit
@@ -86,7 +90,7 @@ def refine(
     moved = np.linalg.norm(aligned_difference(homotopy, result, start), axis=1)
     size = np.where(np.isfinite(size), size, 0.0)
     condition = size / np.maximum(smallest, 1e-300)
-    error = np.maximum(error, 2e-16)
+    error = np.maximum(error, ROUNDING)
     steps = further if twice else None
     return Refined(result, error, moved, before, smallest, size, condition, steps)
 

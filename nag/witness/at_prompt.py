@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import numbers
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.from_python import exact_number, variable_indices
-from nag.algebra.number import Number, is_zero
+from nag.algebra.from_python import coordinates
+from nag.algebra.number import Irrational, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.witness.membership import Membership, UndecidedError, memberships
 from nag.witness.sampling import sample
@@ -52,8 +53,9 @@ def contains(
 ) -> bool:
     """Whether a point lies on a component, see `WitnessSet.contains`."""
     entries = coordinates(point, system.variables)
-    at = np.array([e if isinstance(e, complex) else complex(float(e)) for e in entries])
-    if not any(isinstance(e, complex) for e in entries):
+    exact = all(isinstance(e, Fraction | Irrational) for e in entries)
+    at = np.array([complex(float(e)) if isinstance(e, Irrational) else complex(e) for e in entries])
+    if exact:
         if not all(is_zero(value) for value in system(entries)):
             return False
         accuracy = EXACT
@@ -68,38 +70,3 @@ def contains(
     if answer is Membership.UNDECIDED:
         raise UndecidedError([], [0])
     return answer is Membership.MEMBER
-
-
-def coordinates(point: Any, variables: Sequence[str]) -> tuple[Number | complex, ...]:
-    """A point's coordinates: exact numbers, and floats and complex numbers as complex ones.
-
-    Raises:
-        ValueError: if there are more or fewer than variables, or one is no number.
-    """
-    n = len(variables)
-    if isinstance(point, Mapping):
-        places = variable_indices(point, variables, "point")
-        missing = [name for i, name in enumerate(variables) if i not in places]
-        if missing:
-            raise ValueError(f"point: no value for {missing[0]!r}; give one for each variable")
-        by_place = dict(zip(places, point.values(), strict=True))
-        values = [by_place[i] for i in range(n)]
-    elif isinstance(point, Iterable) and not isinstance(point, str):
-        values = list(point)
-    else:
-        raise ValueError(f"point: {point!r} is given; give {n} numbers, or a dict of them by name")
-    if len(values) != n:
-        raise ValueError(
-            f"point: {len(values)} coordinates are given; there are {n} variables: "
-            f"{', '.join(variables)}"
-        )
-    entries = [_entry(value, f"point[{i}]") for i, value in enumerate(values)]
-    if not all(np.isfinite(e) for e in entries if isinstance(e, complex)):
-        raise ValueError("point: not all coordinates are finite numbers")
-    return tuple(entries)
-
-
-def _entry(value: Any, place: str) -> Number | complex:
-    if isinstance(value, float | complex | np.inexact):
-        return complex(value)
-    return exact_number(value, place)

@@ -40,6 +40,8 @@ ATTEMPTS = 3
 FLAT = 1e-4
 # Newton's method from the end point of a path must arrive within this many steps.
 NEWTON_STEPS = 12
+# Rows of larger matrices are chosen by LAPACK, which takes longer to load than smaller ones take.
+MOST_ENTRIES = 2000
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,6 +210,11 @@ def _square_rows(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> list[
 
 def _most_independent(matrix: np.ndarray, need: int) -> list[int]:
     """Rows chosen one by one, each the longest beside those before (Businger & Golub 1965)."""
+    if matrix.size > MOST_ENTRIES:
+        from scipy.linalg import qr
+
+        _, _, pivots = qr(matrix.T, mode="economic", pivoting=True)
+        return sorted(int(p) for p in pivots[:need])
     rest, chosen = np.array(matrix, dtype=complex), []
     for _ in range(need):
         lengths = np.linalg.norm(rest, axis=1)

@@ -9,6 +9,8 @@ import numpy as np
 from nag.algebra.elimination import Elimination
 from nag.witness.witness import Slice
 
+EPS = float(np.finfo(float).eps)
+
 
 @dataclass(frozen=True, eq=False)
 class Frame:
@@ -45,6 +47,17 @@ class Frame:
 
     def points(self, y: np.ndarray) -> np.ndarray:
         return y @ self.T.T + self.t
+
+    def error(self, y: np.ndarray, accuracy: float) -> float:
+        """The largest error of `points`, relative to ``1 + |x|``, where y has that one to its size.
+
+        Sums that cancel lose digits.
+        """
+        off = accuracy * (1 + np.linalg.norm(y, axis=1))
+        rounding = EPS * (np.abs(y) @ np.abs(self.T).T + np.abs(self.t))
+        moved = off[:, None] * np.linalg.norm(self.T, axis=1) + rounding
+        sizes = 1 + np.linalg.norm(self.points(y), axis=1)
+        return float((np.linalg.norm(moved, axis=1) / sizes).max(initial=EPS))
 
     def slice(self, rows: np.ndarray) -> Slice:
         """A slice of the reduced space as one of the original space: its coordinates are kept."""

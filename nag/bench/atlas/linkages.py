@@ -64,7 +64,7 @@ def bennett_violated(k: int, rng: np.random.Generator) -> Problem:
     points, axes = _bennett()
     if k:
         points[2] = [p + s * Fraction(1, 10**k) for p, s in zip(points[2], (1, -1, 2), strict=True)]
-    found = model(_loop(points, axes)).system
+    found = model(_loop(points, axes), "H").system
     truth = Counter({(1, 2, 1): 1})
     return Problem(found, truth, ONLY, dimension=0 if k else None)
 
@@ -80,7 +80,7 @@ def bricard_violated(k: int, rng: np.random.Generator) -> Problem:
     axes = [[0, 0, 1], [0, 1, 0], [1, 0, 0], [0, 0, 1], [0, 1, 0], [1, 0, 0]]
     if k:
         points[3] = [1 + Fraction(1, 10**k), 1 - Fraction(2, 10**k), 0]
-    found = model(_loop(points, axes)).system
+    found = model(_loop(points, axes), "H").system
     return Problem(found, Counter({(0, 1, 1): 6} if k else {(1, 8, 1): 1}), ONLY)
 
 
@@ -88,7 +88,7 @@ def bennett_scaled(k: int, rng: np.random.Generator) -> Problem:
     """Bennett's mechanism, 10^k times as large."""
     points, axes = _bennett()
     points = [[p * Fraction(10) ** k for p in point] for point in points]
-    return Problem(model(_loop(points, axes)).system, Counter({(1, 2, 1): 1}), ONLY)
+    return Problem(model(_loop(points, axes), "H").system, Counter({(1, 2, 1): 1}), ONLY)
 
 
 def _four_bar(a: Fraction, b: Fraction, c: Fraction, d: Fraction) -> PolynomialSystem:

@@ -13,7 +13,7 @@ from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limit, Limits
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.newton import refine
+from nag.tracking.newton import ROUNDING, refine
 from nag.tracking.paths import Ball, Branch, Paths, PathStatus, Reason
 from nag.tracking.settings import Settings
 
@@ -323,7 +323,7 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
         if states.outcome[path] == end_run.REGULAR:
             finite = bool(states.known(path)[infinite].all())
             status[path] = PathStatus.REGULAR if finite else PathStatus.AT_INFINITY
-            accuracy[path] = max(2e-16, float(states.errors[path].max()))
+            accuracy[path] = max(ROUNDING, float(states.errors[path].max()))
             balls[path] = Ball(states.found[path], states.errors[path])
         elif states.outcome[path] == end_run.LIMIT:
             limit = states.limits[path]
@@ -331,7 +331,7 @@ def _paths(homotopy: Homotopy, states: _States) -> Paths:
             branches[path] = Branch(limit.winding, limit.orders, limit.branch, limit.bends)
             finite = bool((limit.point[infinite] != 0).all())
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY
-            accuracy[path] = max(2e-16, BEYOND * limit.tail)
+            accuracy[path] = max(ROUNDING, BEYOND * limit.tail)
     points = homotopy.normalized(points)
     condition = np.full(P, np.inf)
     regular = np.flatnonzero(status == PathStatus.REGULAR)

@@ -1,0 +1,223 @@
+"""The genus of a curve, by monodromy round all branch points of a projection to a line.
+
+A generic linear form makes the curve a covering of the line, with as many sheets as its degree.
+The permutations of the sheets round the values at which points come together, and round infinity,
+give the genus by Riemann and Hurwitz's formula: 2 g - 2 = -2 d + sum over them of d minus the
+number of cycles. Singular points that no sheets exchange are unramified; the genus is that of the
+smooth model. That the permutations multiply to that of a loop round all of them is a check.
+
+References:
+    Riemann 1857; Hurwitz 1891;
+    Bates, Peterson, Sommese & Wampler, Numerical computation of the genus of an irreducible curve
+    within an algebraic set, 2011.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.branch_points import BranchPointError, Sheets, branch_points
+from nag.decomposition.factor import IntersectionError
+from nag.decomposition.rank_drop import rank_drop
+from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.membership import component_fibres
+from nag.witness.slices import random_rows, unit_complex
+from nag.witness.witness import WitnessSet
+
+# Values of the projection nearer to each other than this, relative to their size, are one.
+SAME = 1e-7
+# Corners of a circle, and its radius beside the distance of the next branch point.
+CORNERS, NEAR = 8, 0.4
+# Distance of the base point, relative to that of the branch points.
+OUTSIDE = 2.0
+ATTEMPTS = 3
+
+
+class GenusError(ValueError):
+    """A genus that could not be determined, with the reason."""
+
+
+@dataclass(frozen=True)
+class Genus:
+    """The genus of a curve's smooth model, and what it was found from.
+
+    Attributes:
+        genus: 0 for a rational curve.
+        sheets: degree of the projection.
+        branch_points: number of finite values round which sheets are exchanged.
+        ramification: sum over all of them, infinity included, of the sheets minus the cycles.
+    """
+
+    genus: int
+    sheets: int
+    branch_points: int
+    ramification: int
+
+    @property
+    def rational(self) -> bool:
+        """Whether the curve has a rational parametrisation."""
+        return self.genus == 0
+
+
+def genus(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> Genus:
+    """The genus of an irreducible, reduced curve.
+
+    Args:
+        system: the equations that ``component`` was found from.
+
+    Raises:
+        GenusError: if paths fail, or the permutations do not multiply to the identity.
+        ValueError: if the component is no reduced curve.
+    """
+    if component.dimension != 1:
+        raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
+    reason = ""
+    for attempt in range(ATTEMPTS):
+        rng = np.random.default_rng([seed, 9, attempt])
+        tracker = Tracker("careful" if attempt else settings, threads)
+        try:
+            sheets = _sheets(system, component, rng, tracker)
+            values = branch_points(sheets, rng, tracker)
+            if attempt:
+                # Sheets that are exchanged round a cusp have bounded derivatives there.
+                cusps = rank_drop(system, component, seed=seed, threads=threads).sets
+                values = _distinct([*values, *(complex(sheets.normal @ x[0]) for *_, x in cusps)])
+            cover = _Cover(sheets, values, rng, tracker)
+            return _riemann_hurwitz(cover.permutations(), cover.round_all(), component.degree)
+        except (GenusError, BranchPointError, IntersectionError) as error:
+            reason = str(error)
+    raise GenusError(reason)
+
+
+def _sheets(
+    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
+) -> Sheets:
+    """The curve's points over a random value of a random form."""
+    row = random_rows(rng, 1, system.n)
+    gamma = complex(unit_complex(rng))
+    fibres = []
+    for fibre in component_fibres(system, component):
+        ends = move(fibre, component.slice.rows, row, gamma, tracker)
+        if not ends.regular.all():
+            raise GenusError("paths to the first slice failed")
+        fibres.append(Fibre(fibre.cut, fibre.dimension, ends.points))
+    return Sheets(tuple(fibres), row[0, 1:], complex(-row[0, 0]))
+
+
+def _distinct(values: Sequence[complex]) -> list[complex]:
+    scale = 1 + max(map(abs, values), default=0.0)
+    kept: list[complex] = []
+    for v in values:
+        if all(abs(v - w) > SAME * scale for w in kept):
+            kept.append(v)
+    return kept
+
+
+def _riemann_hurwitz(permutations: list[np.ndarray], all_: np.ndarray, sheets: int) -> Genus:
+    """The genus, from the permutations in the order in which their loops make up the last one."""
+    product = np.arange(sheets)
+    for p in permutations:
+        product = p[product]
+    if (product != all_).any():
+        raise GenusError("the permutations round the branch points do not make up that round all")
+    if len(_orbits(permutations, sheets)) != 1:
+        raise GenusError("the permutations do not connect all sheets; it may not be irreducible")
+    drops = [sheets - _cycles(p) for p in [*permutations, all_]]
+    total = sum(drops)
+    if total % 2:
+        raise GenusError("the ramification is odd")
+    return Genus(1 - sheets + total // 2, sheets, sum(d > 0 for d in drops[:-1]), total)
+
+
+def _cycles(p: np.ndarray) -> int:
+    return len(_orbits([p], len(p)))
+
+
+def _orbits(permutations: Sequence[np.ndarray], sheets: int) -> list[set[int]]:
+    left, orbits = set(range(sheets)), []
+    while left:
+        orbit, frontier = set(), [left.pop()]
+        while frontier:
+            i = frontier.pop()
+            if i not in orbit:
+                orbit.add(i)
+                frontier += [int(p[i]) for p in permutations]
+        left -= orbit
+        orbits.append(orbit)
+    return orbits
+
+
+class _Cover:
+    """The curve over the line of values of a linear form, and loops round the branch points."""
+
+    def __init__(
+        self, sheets: Sheets, values: list[complex], rng: np.random.Generator, tracker: Tracker
+    ) -> None:
+        self.tracker = tracker
+        self.centre = complex(np.mean(values)) if values else 0j
+        least = 1e-3 * (1 + abs(self.centre))
+        radius = OUTSIDE * max([least, *(abs(v - self.centre) for v in values)])
+        base = self.centre + radius * complex(unit_complex(rng))
+        inwards = self.centre - base
+        # Seen from outside, one after the other from the right to the left.
+        self.values = sorted(values, key=lambda v: np.angle((v - base) / inwards))
+        fibres = []
+        for fibre in sheets.fibres:
+            gamma = complex(unit_complex(rng))
+            ends = move(fibre, sheets.rows(sheets.base), sheets.rows(base), gamma, tracker)
+            if not ends.regular.all():
+                raise GenusError("paths to the base point failed")
+            fibres.append(Fibre(fibre.cut, 1, ends.points))
+        self.sheets = Sheets(tuple(fibres), sheets.normal, base)
+
+    def _carried(self, corners: Sequence[complex]) -> np.ndarray:
+        """Where each sheet over the base point is carried along a closed polygon from there."""
+        images: list[np.ndarray] = []
+        rows, base = self.sheets.rows, self.sheets.base
+        for fibre in self.sheets.fibres:
+            points, last = fibre.points, base
+            for t in [*corners, base]:
+                there = Fibre(fibre.cut, 1, points)
+                ends = move(there, rows(last), rows(t), 1.0, self.tracker)
+                if not ends.regular.all():
+                    raise GenusError("paths round a branch point failed")
+                points, last = ends.points, t
+            images.append(points[:, : fibre.cut.n])
+        start = np.vstack([fibre.x for fibre in self.sheets.fibres])
+        end = np.vstack(images)
+        distance = np.linalg.norm(end[:, None] - start[None], axis=2)
+        nearest = distance.argmin(axis=1)
+        scale = 1 + np.linalg.norm(start, axis=1).max()
+        if (
+            sorted(nearest.tolist()) != list(range(len(start)))
+            or distance.min(axis=1).max() > SAME * scale
+        ):
+            raise GenusError("sheets were mixed up on the way")
+        return nearest
+
+    def permutations(self) -> list[np.ndarray]:
+        """The permutation of the sheets round each value, in the order of `values`."""
+        result = []
+        for v in self.values:
+            others = [abs(v - w) for w in [*self.values, self.sheets.base] if w != v]
+            away = (self.sheets.base - v) / abs(self.sheets.base - v) * NEAR * min(others)
+            circle = [v + away * np.exp(2j * np.pi * k / CORNERS) for k in range(CORNERS)]
+            result.append(self._carried([*circle, circle[0]]))
+        return result
+
+    def round_all(self) -> np.ndarray:
+        """The permutation of the sheets round all values together."""
+        away = self.sheets.base - self.centre
+        turns = [np.exp(2j * np.pi * k / (2 * CORNERS)) for k in range(1, 2 * CORNERS)]
+        return self._carried([self.centre + away * turn for turn in turns])

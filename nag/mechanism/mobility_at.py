@@ -1,0 +1,208 @@
+"""The mobility of a mechanism, or of parts that are assembled somehow, at a configuration."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from nag.algebra.from_python import coordinates
+from nag.algebra.number import Number
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.components import decompose
+from nag.decomposition.curve_genus import GenusError, genus
+from nag.decomposition.through import through_points
+from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.axes import space_of
+from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
+from nag.mechanism.dh import DHModel
+from nag.mechanism.framework_model import FrameworkModel
+from nag.mechanism.graph import Mechanism
+from nag.mechanism.joint_types import freedoms_in
+from nag.mechanism.linkage import LinkageModel
+from nag.mechanism.loops import loop_structure
+from nag.mechanism.mobility import gruebler_kutzbach
+from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
+from nag.mechanism.model import Model, model
+from nag.numerics.local_dimension import local_dimension
+from nag.witness.expansion import expanded
+from nag.witness.witness import WitnessSet
+
+
+@dataclass(frozen=True)
+class Subject:
+    """Equations of configurations, and what counting says of them.
+
+    Attributes:
+        system, symmetries: the equations.
+        reference: a known configuration, or None.
+        space: ``"planar"``, ``"spherical"`` or ``"spatial"``.
+        counted: the mobility that counting predicts.
+        formulation: what the equations are, as text.
+        free: freedoms that every configuration has besides.
+        model: what the equations are those of.
+    """
+
+    system: PolynomialSystem
+    symmetries: tuple[SignedPermutation, ...]
+    reference: tuple[Number, ...] | None
+    space: str
+    counted: int
+    formulation: str
+    free: int = 0
+    model: object = None
+
+    @classmethod
+    def of_model(cls, made: Model) -> Subject:
+        """The equations of a mechanism's model."""
+        return cls(
+            made.system,
+            made.symmetries,
+            tuple(made.reference),
+            space_of(made.mechanism.joints),
+            made.gruebler_kutzbach,
+            f"formulation {made.formulation}",
+            sum(freedoms for freedoms, _ in made.freedoms_left_out),
+            made,
+        )
+
+    @classmethod
+    def of_parts(cls, parts: AssemblyModel) -> Subject:
+        """The equations of all assemblies of given parts."""
+        if isinstance(parts, FrameworkModel):
+            space = "planar" if parts.framework.dimension == 2 else "spatial"
+            counted, what = parts.framework.freedoms, "of a framework"
+        elif isinstance(parts, LinkageModel):
+            space, counted, what = "planar", parts.linkage.gruebler_kutzbach, "of a linkage"
+        elif isinstance(parts, DHModel):
+            space, counted, what = "spatial", len(parts.loop.open) - 6, "of the closed table"
+        else:
+            raise ValueError(f"parts of type {type(parts).__name__} are not known")
+        reference = None if parts.reference is None else tuple(parts.reference)
+        symmetries = tuple(parts.symmetries)
+        return cls(parts.system, symmetries, reference, space, counted, what, 0, parts)
+
+
+def mobility(
+    mechanism: Mechanism | AssemblyModel,
+    point: Sequence[Any] | Mapping[str, Any] | None = None,
+    *,
+    formulation: str = "auto",
+    detail: Literal["local", "components", "curves"] = "components",
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> MobilityReport:
+    """The mobility of a mechanism at its reference configuration, or at another one.
+
+    What counting predicts, the tangent and the local dimension (Wampler, Hauenstein & Sommese
+    2011), and the components through the configuration.
+
+    Args:
+        mechanism: assembled, or parts that may be assembled (`nag.Case.assembly`).
+        point: in the model's variables (``nag.model(mechanism).system.variables``), in order or by
+            name; exact numbers as `nag.Joint` takes them, or doubles.
+        formulation: of a mechanism's model, as for `nag.model`.
+        detail: ``"local"`` for what needs no decomposition, ``"components"`` for the components
+            through the configuration as well, ``"curves"`` for genus and bonds of curves, too.
+        seed, threads, settings: of the decomposition.
+
+    Raises:
+        nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
+        nag.numerics.local_dimension.NoSolution: if an exact point is no configuration.
+        ValueError: if no point is given, and none is known.
+
+    >>> import nag
+    >>> print(nag.mobility(nag.read_case("cases/bennett.toml").mechanism))
+    counted     -2 by Gruebler-Kutzbach (spatial)
+    model       1 equation in 2 unknowns, formulation H
+    local       tangent dimension 1, local dimension 1
+    components  1 through the configuration: dimension 1, degree 2
+    mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
+    """
+    if isinstance(mechanism, Mechanism):
+        if not loop_structure(mechanism).loops:
+            return _without_loops(mechanism)
+        subject = Subject.of_model(model(mechanism, formulation))
+    else:
+        subject = Subject.of_parts(mechanism)
+    at = subject.reference
+    if point is not None:
+        at = coordinates(point, subject.system.variables)
+    if at is None:
+        raise ValueError("the parts are not assembled; give a point, an assembly of them")
+    return _report(subject, at, detail, {"seed": seed, "threads": threads, "settings": settings})
+
+
+def _report(
+    subject: Subject, at: Sequence[Number], detail: str, options: dict[str, Any]
+) -> MobilityReport:
+    found = local_dimension(subject.system, at, seed=options["seed"])
+    free, tangent = subject.free, found.tangent_dimension
+    through, doubt = (None, "") if detail == "local" else _components(subject, at, **options)
+    motions = []
+    if detail == "curves" and through is not None:
+        motions = [_curve(subject, c, **options) for c in through if c.dimension == 1]
+    known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
+    return MobilityReport(
+        space=subject.space,
+        gruebler_kutzbach=subject.counted,
+        formulation=subject.formulation,
+        variables=subject.system.n,
+        equations=len(subject.system.polynomials),
+        free=free,
+        tangent_dimension=None if tangent is None else tangent + free,
+        lower=found.lower + free,
+        upper=found.upper + free,
+        components=known,
+        open=doubt,
+        local=found,
+        curves=tuple(motions),
+    )
+
+
+def _without_loops(mechanism: Mechanism) -> MobilityReport:
+    counted = gruebler_kutzbach(mechanism)
+    space = space_of(mechanism.joints)
+    free = sum(freedoms_in(j.type, space) for j in mechanism.joints)
+    return MobilityReport(space, counted, "", 0, 0, free, free, free, free, None, "", None)
+
+
+def _components(
+    subject: Subject, at: Sequence[Number], seed: int, threads: int, settings: str
+) -> tuple[list[WitnessSet] | None, str]:
+    """The components through a point, or why they are not known."""
+    found = decompose(
+        subject.system,
+        seed=seed,
+        threads=threads,
+        settings=settings,
+        symmetries=subject.symmetries,
+    )
+    if not found.complete:
+        return None, f"the decomposition is incomplete: {'; '.join(found.notes)}"
+    through = through_points(found, [("the configuration", tuple(at))], threads)[0]
+    if not through.solution or through.doubt:
+        return None, through.doubt or "the configuration is a rounded one"
+    everything = expanded(found).components
+    return [everything[i] for i in through.components], ""
+
+
+def _curve(
+    subject: Subject, component: WitnessSet, seed: int, threads: int, settings: str
+) -> CurveOfMotion:
+    notes = []
+    options = {"seed": seed, "threads": threads, "settings": settings}
+    number: int | None = None
+    try:
+        number = genus(subject.system, component, **options).genus
+    except (GenusError, ValueError) as reason:
+        notes.append(f"the genus, {reason}")
+    connected: Bonds | None = None
+    if has_bonds(subject.model):
+        try:
+            connected = bonds(subject.model, component, **options)  # type: ignore[arg-type]
+        except (BondError, ValueError) as reason:
+            notes.append(f"the bonds, {reason}")
+    return CurveOfMotion(component.degree, number, connected, "; ".join(notes))

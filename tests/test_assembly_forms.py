@@ -1,0 +1,311 @@
+"""Mechanisms that are given by their parts: tables, frameworks, links by length."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from pathlib import Path
+
+import networkx
+import numpy as np
+import pytest
+from linkages import CASES
+
+from nag.cli import main
+from nag.decomposition import decompose
+from nag.files.cases import Case, read_case
+from nag.mechanism.dh import DHLoop, Row, assembled, dh_model
+from nag.mechanism.framework import (
+    Framework,
+    FrameworkError,
+    framework_of_graph,
+    henneberg_order,
+    placed_framework,
+)
+from nag.mechanism.framework_model import framework_model
+from nag.mechanism.model import model
+from nag.mechanism.quaternion import dual_multiply
+
+PRISM = ["AB", "BC", "CA", "DE", "EF", "FD", "AD", "BE", "CF"]
+
+TABLE = """\
+title = "Bennett"
+kind = "dh"
+[[joint]]
+a = "4/5"
+alpha_half_tangent = "1/2"
+{0}
+[[joint]]
+a = "3/5"
+alpha_half_tangent = "1/3"
+{1}
+[[joint]]
+a = "4/5"
+alpha_half_tangent = "1/2"
+{2}
+[[joint]]
+a = "3/5"
+alpha_half_tangent = "1/3"
+{3}
+"""
+
+
+def read(tmp_path: Path, text: str) -> Case:
+    path = tmp_path / "case.toml"
+    path.write_text(text, encoding="utf-8")
+    return read_case(path)
+
+
+def bennett_angles(tangent: Fraction) -> list[Fraction]:
+    """Half-tangents that close the table: neighbours have a constant product, opposite a sign."""
+    half = Fraction(1, 2), Fraction(1, 3)
+    # sin((beta + alpha) / 2) / sin((beta - alpha) / 2), as a quotient of half-tangents.
+    product = (half[1] + half[0]) / (half[1] - half[0])
+    other = product / tangent
+    return [tangent, other, -tangent, -other]
+
+
+# Tables
+
+
+def test_a_table_whose_angles_close_is_the_assembled_mechanism(tmp_path):
+    angles = [f'theta_half_tangent = "{x}"' for x in bennett_angles(Fraction(2, 3))]
+    case = read(tmp_path, TABLE.format(*angles))
+    assert case.system is None
+    made = model(case.mechanism)
+    assert made.system.exact
+    assert all(value == 0 for value in made.system(made.reference))
+    (component,) = decompose(made.system).components
+    assert (component.dimension, component.degree) == (1, 2)
+
+
+def test_a_table_that_does_not_close_is_told_its_gap(tmp_path, capsys):
+    path = tmp_path / "case.toml"
+    angles = bennett_angles(Fraction(2, 3))
+    angles[3] *= 2
+    path.write_text(TABLE.format(*(f'theta_half_tangent = "{x}"' for x in angles)))
+    assert main(["decompose", str(path)]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "the loop does not close: after the last row a gap of " in error
+
+
+def test_all_closings_of_an_open_table_close_it():
+    loop = read_case(CASES / "spatial" / "general-6r.toml").assembly.loop
+    made = dh_model(loop)
+    answer = decompose(made.system)
+    assert sum(c.degree for c in answer.components) == 16
+    for component in answer.components:
+        angles = made.half_angles(component.points[0])
+        product = ((1, 0, 0, 0), (0, 0, 0, 0))
+        for row in loop.rows:
+            c, s = angles[row.name]
+            product = dual_multiply(product, ((c, 0, 0, s), (0, 0, 0, 0)))
+            link = [[complex(x) for x in part] for part in row.link]
+            product = dual_multiply(product, (tuple(link[0]), tuple(link[1])))
+        entries = np.array([x for part in product for x in part])
+        assert np.abs(entries[1:]).max() < 1e-9 * abs(entries[0])
+
+
+def test_a_held_angle_selects_the_points_of_the_open_table(tmp_path):
+    held = [f'theta_half_tangent = "{bennett_angles(Fraction(2, 3))[0]}"', "", "", ""]
+    case = read(tmp_path, TABLE.format(*held))
+    (component,) = decompose(case.system).components
+    assert component.dimension == 0
+    angles = case.assembly.half_angles(component.points[0])
+    tangents = [angles[name][1] / angles[name][0] for name in ("J2", "J3", "J4")]
+    assert np.allclose(tangents, [float(x) for x in bennett_angles(Fraction(2, 3))[1:]])
+
+
+def test_right_angles_and_straight_ones_are_exact(tmp_path):
+    text = TABLE.format(*[""] * 4).replace('alpha_half_tangent = "1/2"', 'alpha = "pi/2"')
+    right = read(tmp_path, text)
+    assert right.system.exact
+    straight = read(tmp_path, text.replace("pi/2", "-pi"))
+    assert straight.system.exact
+
+
+def test_the_same_loop_has_the_same_components_as_table_and_as_mechanism():
+    alpha = (Fraction(1), Fraction(1, 2))
+    rows = [Row(f"J{i}", Fraction(a), Fraction(0), alpha) for i, a in enumerate((1, 2, 1, 2))]
+    flat = [
+        Row(r.name, r.a, r.d, (Fraction(1), Fraction(0)), (Fraction(t), Fraction(1)))
+        for r, t in zip(rows, (1, 1, 1, 1), strict=True)
+    ]
+    rectangle = model(assembled(DHLoop(tuple(flat))), "H")
+    table = dh_model(DHLoop(tuple(Row(r.name, r.a, r.d, r.alpha) for r in flat)))
+    degrees = [
+        sorted((c.dimension, c.degree) for c in decompose(m.system).components)
+        for m in (rectangle, table)
+    ]
+    assert degrees[0] == degrees[1] == [(1, 2), (1, 2)]
+
+
+# Frameworks
+
+
+def random_henneberg(points: int, seed: int) -> Framework:
+    """Each point hangs on two earlier ones that are joined to something, at a general place."""
+    draw = random.Random(seed)
+    places = {
+        f"p{i}": (Fraction(draw.randint(-99, 99), 10), Fraction(draw.randint(-99, 99), 10))
+        for i in range(points)
+    }
+    bars = [("p0", "p1")]
+    for i in range(2, points):
+        bars += [(f"p{j}", f"p{i}") for j in draw.sample(range(i), 2)]
+    given = placed_framework(2, places, bars)
+    return Framework(2, given.points, given.bars, given.squared_lengths)
+
+
+@pytest.mark.parametrize(("points", "seed"), [(3, 0), (4, 1), (5, 2), (6, 3)])
+def test_henneberg_graphs_have_two_realisations_for_each_further_point(points, seed):
+    framework = random_henneberg(points, seed)
+    assert henneberg_order(framework) is not None
+    assert framework.generic_motions() == framework.freedoms == 0
+    answer = decompose(framework_model(framework).system)
+    assert {c.dimension for c in answer.components} == {0}
+    assert len(answer.components) == 2 ** (points - 2)
+
+
+def test_isotropic_and_cartesian_coordinates_find_the_same_realisations():
+    places = {"A": (0, 0), "B": (3, 0), "C": (1, 2), "D": (4, 3)}
+    exact = {p: tuple(map(Fraction, place)) for p, place in places.items()}
+    placed = placed_framework(2, exact, [tuple(b) for b in ("AB", "BC", "CA", "BD", "CD")])
+    models = [
+        framework_model(placed),
+        framework_model(Framework(2, placed.points, placed.bars, placed.squared_lengths)),
+    ]
+    assert [m.coordinates for m in models] == ["xy", "zw"]
+    answers = [[c.points[0] for c in decompose(m.system).components] for m in models]
+    assert [len(a) for a in answers] == [4, 4]
+    plane = np.array(answers[0])
+    isotropic = np.hstack(
+        [
+            np.stack([p[:, 0] + 1j * p[:, 1], p[:, 0] - 1j * p[:, 1]], axis=1)
+            for p in (plane[:, :2], plane[:, 2:])
+        ]
+    )
+    gaps = np.abs(isotropic[:, None] - np.array(answers[1])[None]).max(axis=2)
+    assert gaps.min(axis=1).max() < 1e-12
+    assert all(m.is_real(x) for m, a in zip(models, answers, strict=True) for x in a)
+
+
+def test_ranks_tell_shaky_from_rigid_and_from_mobile():
+    conic = read_case(CASES / "shaky" / "k33-on-conic.toml").assembly.framework
+    assert (conic.freedoms, conic.generic_motions(), conic.infinitesimal_motions()) == (0, 0, 1)
+    braced = read_case(CASES / "planar" / "braced-square.toml").assembly.framework
+    assert (braced.freedoms, braced.generic_motions()) == (-1, 0)
+    assert braced.infinitesimal_motions() == 0
+    dixon = read_case(CASES / "planar" / "dixon-2-k44.toml").assembly.framework
+    assert (dixon.freedoms, dixon.generic_motions(), dixon.infinitesimal_motions()) == (-3, 0, 1)
+    octahedron = read_case(CASES / "spatial" / "octahedron-line-symmetric.toml").assembly.framework
+    assert (octahedron.freedoms, octahedron.infinitesimal_motions()) == (0, 1)
+
+
+def test_the_placement_of_a_framework_solves_its_equations_exactly():
+    for name in ("shaky/prism-concurrent", "spatial/octahedron-plane-symmetric"):
+        made = read_case(CASES / f"{name}.toml").assembly
+        assert all(value == 0 for value in made.system(made.reference))
+
+
+def test_a_networkx_graph_is_a_framework_by_lengths_or_by_positions():
+    graph = networkx.Graph(tuple(bar) for bar in PRISM)
+    networkx.set_node_attributes(
+        graph,
+        dict(zip("ABCDEF", [(0, 0), (3, 0), (1, 2), (1, 4), (4, 4), (2, 6)], strict=True)),
+        "pos",
+    )
+    placed = framework_of_graph(graph)
+    assert placed.infinitesimal_motions() == 1
+    assert placed.squared_length("C", "A") == 5
+    for a, b, data in graph.edges(data=True):
+        data["length"] = 1 if a + b in PRISM[:3] else 1.5
+    assert framework_of_graph(graph).squared_length("F", "C") == Fraction(9, 4)
+    with pytest.raises(FrameworkError, match="give every edge a 'length'"):
+        framework_of_graph(networkx.path_graph(3))
+
+
+# Links by length
+
+
+def test_a_four_bar_by_its_lengths_has_the_components_of_the_assembled_one():
+    by_length = read_case(CASES / "planar" / "four-bar-parallelogram.toml")
+    placed = model(read_case(CASES / "planar-four-bar.toml").mechanism, "E")
+    kinds = [
+        sorted((c.dimension, c.degree) for c in decompose(system).components)
+        for system in (by_length.system, placed.system)
+    ]
+    assert kinds[0] == kinds[1] == [(1, 2), (1, 4)]
+    assert by_length.assembly.linkage.gruebler_kutzbach == 1
+
+
+def test_links_that_cannot_meet_are_told_from_those_that_can(tmp_path, capsys):
+    # Longer than the others together: complex assemblies only, but assemblies all the same.
+    path = tmp_path / "case.toml"
+    text = (CASES / "planar" / "triangle-framework.toml").read_text(encoding="utf-8")
+    path.write_text(text.replace('[3, 4, "11/2"]', "[1, 2, 4]"))
+    assert main(["decompose", str(path), "--quiet"]) == 0
+    assert "2 realisations up to motions, 0 of them real" in capsys.readouterr().out
+
+
+# Lines
+
+
+FOUR_BAR = (CASES / "planar-four-bar.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        'through = [["a", 0, 5], ["a", 0, 7]]',
+        'line = { direction = [0, 0, 2], moment = [0, "-2*a", 0] }',
+    ],
+)
+def test_an_axis_may_be_a_line_of_two_points_or_of_pluecker_coordinates(tmp_path, line):
+    changed = FOUR_BAR.replace('point = ["a", 0, 0]\naxis = [0, 0, 1]', line)
+    assert changed != FOUR_BAR
+    first, second = (model(read(tmp_path, text).mechanism) for text in (FOUR_BAR, changed))
+    assert first.system == second.system
+
+
+# Parameters
+
+
+def test_set_changes_a_parameter_and_what_is_known_no_longer_holds(capsys):
+    command = ["decompose", str(CASES / "planar-four-bar.toml"), "--quiet", "--formulation", "E"]
+    assert main([*command, "--set", "b=a/2", "--set", "a=1+1"]) == 0
+    assert "known     agrees" in capsys.readouterr().out
+    assert main([*command, "--set", "b=a"]) == 0
+    output = capsys.readouterr().out
+    assert "3 components of dimension 1, degree 2" in output
+    assert "known" not in output
+
+
+def test_a_sweep_follows_general_values_and_decomposes_special_ones(tmp_path, capsys):
+    path = tmp_path / "case.toml"
+    text = TABLE.format(*[""] * 4).replace('a = "3/5"', 'a = "b"')
+    path.write_text(text + '[parameters]\nb = "3/5"\n')
+    assert main(["decompose", str(path), "--quiet", "--sweep", "b=0.3:0.9:3"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    rows = {line.split()[0]: line for line in lines if line.strip()[:1].isdigit()}
+    folded = "2 components of dimension 0, degree 1"
+    assert folded in rows["3/10"]
+    assert "followed" in rows["3/10"]
+    assert folded in rows["9/10"]
+    assert "1 component of dimension 1, degree 2" in rows["3/5"]
+    assert "by itself" in rows["3/5"]
+
+
+def test_a_component_that_falls_apart_at_one_value_is_split_there(tmp_path):
+    from nag.decomposition.sweep import sweep
+
+    text = (CASES / "planar" / "four-bar.toml").read_text(encoding="utf-8")
+    file = tmp_path / "case.toml"
+    head = text.replace('"7/2"', "1").replace("length = 3", "length = 2").replace("= 4", '= "d"')
+    file.write_text(head.split("[[truth")[0] + "[parameters]\nd = 2\n")
+    values = [Fraction(3, 2), Fraction(2), Fraction(5, 2)]
+    swept = sweep(lambda d: read_case(file, {"d": d}).system, values)
+    degrees = [sorted(c.degree for c in each.decomposition.components) for each in swept]
+    assert degrees == [[6], [2, 4], [6]]
+    assert all(each.followed for each in swept)

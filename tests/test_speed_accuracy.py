@@ -1,0 +1,100 @@
+"""Charts measure errors against proved references, and are drawn again from their data."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.bench import peer_points
+from nag.bench.reference import Reference, ReferenceError, compared
+from nag.bench.sharpening import sharpening
+from nag.bench.speed_accuracy import Subject, chart_of, document, ratios, read_charts
+from nag.cli import main
+
+x, y = Polynomial.variables(2)
+SYSTEM = PolynomialSystem(("x", "y"), (x**2 - 2, y**2 - x - 5))
+NONE = np.zeros((0, 3), dtype=complex)
+ROOTS = np.array([[a, b * (a + 5) ** 0.5] for a in (2**0.5, -(2**0.5)) for b in (1, -1)], complex)
+KEPT = Path(__file__).parents[1] / "nag" / "bench" / "charts" / "speed-accuracy.json"
+
+
+def test_errors_are_those_beside_the_exact_zeros() -> None:
+    reference = Reference.of(SYSTEM, ROOTS, NONE)
+    found = compared(reference, ROOTS + 1e-9)
+    assert (found.share, found.false) == (1.0, 0)
+    # Zeros of a size above one: the shift is relative to the largest coordinate.
+    size = np.abs(ROOTS).max(axis=1).min()
+    assert found.largest == pytest.approx(1e-9 / size, rel=1e-5)
+
+
+def test_points_that_are_missing_or_false_or_repeated_are_counted() -> None:
+    reference = Reference.of(SYSTEM, ROOTS, NONE)
+    points = np.vstack([ROOTS[:2], ROOTS[:1], [[7, 7]]])
+    found = compared(reference, points)
+    assert (found.share, found.false) == (0.5, 2)
+
+
+@pytest.mark.parametrize("points", [[[1.0, 1.0]] * 2, [[1.0, 1.0]]])
+def test_there_is_no_reference_of_repeated_or_multiple_zeros(points: list) -> None:
+    simple = PolynomialSystem(("x", "y"), (x - 1, y**2 - x))
+    double = PolynomialSystem(("x", "y"), (x - 1, y**2 - 2 * y + x))
+    with pytest.raises(ReferenceError):
+        Reference.of(simple if len(points) > 1 else double, np.array(points, complex), NONE)
+
+
+def test_balls_reach_their_digits_and_doubles_theirs() -> None:
+    curves = sharpening(SYSTEM, Reference.of(SYSTEM, ROOTS, NONE))
+    assert curves["double"][-1].largest < 1e-15
+    assert curves["balls of 50 digits"][-1].largest < 1e-48
+    assert curves["balls of 100 digits"][-1].largest < 1e-98
+
+
+def test_a_chart_reads_back_and_is_compared() -> None:
+    chart = chart_of(Subject("roots", SYSTEM, False, ((0, 1, 4),)), seeds=1, peers=False)
+    assert (chart.expected, chart.certified) == (4, 4)
+    again = read_charts(json.loads(json.dumps(document([chart]))))
+    assert document(again) == document([chart])
+    assert ratios(again)[1][:2] == ["roots", "100%"]
+
+
+def test_a_number_of_solutions_that_is_not_known_to_be_so_is_no_reference() -> None:
+    with pytest.raises(ReferenceError):
+        chart_of(Subject("roots", SYSTEM, False, ((0, 1, 5),)), seeds=1, peers=False)
+
+
+def test_answers_of_other_programs_are_read_to_all_digits(monkeypatch) -> None:
+    monkeypatch.setattr(
+        peer_points, "call",
+        lambda *_: (1.0, "seconds .25\nvalue .5p53e1 -.125p53e-2\nvalue 1 0\n"),
+    )  # fmt: skip
+    found = peer_points.peer_points("M2", SYSTEM, 1.0)
+    assert found.seconds == 0.25
+    assert found.points.tolist() == [[5 - 0.00125j, 1]]
+
+
+def test_kept_charts_are_drawn_without_a_run(tmp_path: Path, capsys) -> None:
+    pytest.importorskip("matplotlib")
+    charts = json.loads(KEPT.read_text())
+    charts["charts"] = charts["charts"][:1]
+    data, target = tmp_path / "data.json", tmp_path / "all.png"
+    data.write_text(json.dumps(charts))
+    arguments = ["chart", "speed-accuracy", "--data", str(data), "--picture", str(target)]
+    assert main(arguments) == 0
+    name = charts["charts"][0]["case"]
+    assert target.is_file()
+    assert (tmp_path / f"all-{name}.png").is_file()
+    assert name in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["nothing-of-that-name"], ["--data", "/nowhere.json"], ["--picture", "chart"]],
+)
+def test_bad_arguments_are_one_line(arguments: list[str], capsys) -> None:
+    assert main(["chart", "speed-accuracy", *arguments]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
