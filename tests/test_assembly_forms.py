@@ -203,6 +203,13 @@ def test_ranks_tell_shaky_from_rigid_and_from_mobile():
     assert (octahedron.freedoms, octahedron.infinitesimal_motions()) == (0, 1)
 
 
+def test_real_realisations_are_counted_where_coordinates_are_isotropic(capsys):
+    # The coordinates of real ones are conjugate pairs, not real numbers.
+    prism = str(CASES / "planar" / "three-prism.toml")
+    assert main(["solve", prism, "--quiet"]) == 0
+    assert "realisations  24, 8 of them real" in capsys.readouterr().out
+
+
 def test_the_placement_of_a_framework_solves_its_equations_exactly():
     for name in ("shaky/prism-concurrent", "spatial/octahedron-plane-symmetric"):
         made = read_case(CASES / f"{name}.toml").assembly

@@ -20,6 +20,7 @@ from nag.decomposition.hypersurface import (
     crossing,
 )
 from nag.numerics.coincidence import clusters
+from nag.witness.confirm import vanishing
 from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
@@ -53,10 +54,29 @@ def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
 
 
 def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
-    """Which points lie where a polynomial that must not vanish does."""
+    """Which points seem to lie where a polynomial that must not vanish does."""
     residuals = nonzero.residuals(x)
     limit = np.maximum(1e-8, 1e2 * accuracy)
     return (residuals < limit[:, None]).any(axis=1)
+
+
+def _excluded(nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, ends: Moved) -> np.ndarray:
+    """Which ends lie where a polynomial that must not vanish does; regular ones in digits."""
+    n = cut.n
+    doubtful = ends.finite.copy()
+    if not nonzero or not doubtful.any():
+        return np.zeros(len(doubtful), dtype=bool)
+    evaluator = Evaluator.of(nonzero, n)
+    doubtful[doubtful] = forbidden(evaluator, ends.points[doubtful, :n], ends.accuracy[doubtful])
+    result = doubtful.copy()
+    regular = np.flatnonzero(doubtful & ends.regular)
+    for i, *answers in zip(
+        regular,
+        *(vanishing(cut, g, rows, ends.points[regular]) for g in nonzero),
+        strict=True,
+    ):
+        result[i] = any(answer is not False for answer in answers)
+    return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,15 +95,17 @@ def _near(points: np.ndarray, x: np.ndarray) -> bool:
 
 
 def _collect(
-    pieces: Sequence[tuple[Cut, Moved]], n: int, d: int, nonzero: Evaluator
+    pieces: Sequence[tuple[Cut, Moved]],
+    rows: np.ndarray,
+    nonzero: Sequence[Polynomial],
 ) -> _Candidates:
+    d, n = len(rows), rows.shape[1] - 1
     fibres: list[Fibre] = []
     seen = np.zeros((0, n), dtype=complex)
     singular, errors = [np.zeros((0, n), dtype=complex)], [np.zeros(0)]
     for cut, ends in pieces:
         x = ends.points[:, :n]
-        allowed = ends.finite.copy()
-        allowed[allowed] &= ~forbidden(nonzero, x[allowed], ends.accuracy[allowed])
+        allowed = ends.finite & ~_excluded(nonzero, cut, rows, ends)
         # The tracker has seen that ends of one piece are distinct.
         chosen = [i for i in np.flatnonzero(allowed & ends.regular) if not _near(seen, x[i])]
         if chosen:
@@ -129,7 +151,7 @@ class _Stage:
     before: tuple[Polynomial, ...]
     after: tuple[Polynomial, ...]
     n: int
-    avoid: Evaluator
+    avoid: tuple[Polynomial, ...]
     rng: np.random.Generator
     tracker: Tracker
 
@@ -189,7 +211,7 @@ class _Stage:
         kept = {d: list(fibres) for d, fibres in crossed.kept.items()}
         counts, notes = PathCounts(), []
         for d in sorted(crossed.ends, reverse=True):
-            candidates = _collect(crossed.ends[d], self.n, d, self.avoid)
+            candidates = _collect(crossed.ends[d], flag[:d], self.avoid)
             for fibre in candidates.fibres:
                 if fibre.cut.levels:
                     fibre, doubts, used = self.own(fibre, kept, flag)
@@ -264,14 +286,13 @@ def witness_superset(
     equations = list(equations)
     counts, notes = PathCounts(), []
     found = Superset(fibres, flag, counts, ())
-    avoid = Evaluator.of(nonzero, n)
     mixing = False
     for k, f in enumerate(equations):
         if progress is not None:
             progress("intersecting", k, len(equations))
         later = [g for g in equations[k + 1 :] if g.degree == f.degree]
         before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, n, avoid, rng, tracker)
+        stage = _Stage(before, after, n, tuple(nonzero), rng, tracker)
         first = _mixed(f, later, rng) if mixing else f
         best, spent = stage.meeting(found, first, deflate=mixing or not later)
         counts += spent

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from nag.witness.witness import Decomposition
@@ -76,6 +77,13 @@ def assembly_rows(kind: str, assembly: AssemblyModel, decomposition: Decompositi
     if not parts:
         parts = [f"no {what}, not even a complex one: the parts do not fit"]
     return [(plural, "; ".join(parts))]
+
+
+def real_row(kind: str, assembly: AssemblyModel, points: Iterable[Sequence[complex]]) -> Rows:
+    """How many solutions are real assemblies; isotropic coordinates of these are not real."""
+    given = list(points)
+    plural = {"assembly": "assemblies"}.get(_WHAT[kind], f"{_WHAT[kind]}s")
+    return [(plural, f"{len(given)}, {sum(assembly.is_real(x) for x in given)} of them real")]
 
 
 def _freedoms(count: int) -> str:

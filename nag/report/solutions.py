@@ -6,6 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from nag.algebra.shown import system_line
+from nag.report.assemblies import real_row
 from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
 from nag.text.table import align, labelled, printable
 
@@ -22,6 +23,9 @@ def solution_lines(
     head = [("system", system_line(result.system)), ("answer", answer_text(result))]
     if model is not None:
         head.insert(0, ("model", printable(f"formulation {model.formulation}: {model.reason}")))
+    if case.assembly is not None:
+        head.insert(0, ("model", printable(case.assembly.reason)))
+        head += real_row(case.kind, case.assembly, result.points)
     if not result.complete:
         head.append(("", "INCOMPLETE, see below"))
     paths = result.paths

@@ -110,7 +110,9 @@ def judged_ends(
             f"{len(elsewhere[Place.UNDECIDED])} end points may or may not be isolated solutions, "
             "or several that are close together"
         )
-    solutions, excluded, paired = _solutions(problem, isolated)
+    solutions, excluded, unclear, paired = _solutions(problem, isolated)
+    if unclear:
+        notes.append(f"{unclear} solutions may be such as are excluded")
     if not paired:
         notes.append("the conjugate of a solution is missing")
     original = problem.target.original
@@ -177,10 +179,10 @@ def _place(
 
 def _solutions(
     problem: SquareProblem, isolated: list[_Isolated]
-) -> tuple[tuple[Solution, ...], int, bool]:
+) -> tuple[tuple[Solution, ...], int, int, bool]:
     """The solutions where nothing vanishes that must not, and how many were left out.
 
-    Also whether the conjugate of each is there.
+    Also of how many that is not known, and whether the conjugate of each is there.
     """
     points = np.array([s.point for s in isolated], dtype=complex).reshape(-1, problem.system.n)
     accuracy = np.array([s.accuracy for s in isolated])
@@ -189,7 +191,8 @@ def _solutions(
     imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
     real = imaginary <= np.maximum(1e2 * accuracy, 1e-10) * sizes
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
-    kept = ~_vanishes(problem.nonzero, points, accuracy)
+    answers = [problem.excluded(s.point, s.accuracy, s.multiplicity > 1) for s in isolated]
+    kept = [answer is False for answer in answers]
     solutions = tuple(
         Solution(
             point, s.multiplicity, bool(is_real), s.residual, s.accuracy, s.condition, s.precision
@@ -199,7 +202,7 @@ def _solutions(
         )
         if keep
     )
-    return solutions, int((~kept).sum()), paired
+    return solutions, answers.count(True), answers.count(None), paired
 
 
 def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:
@@ -207,11 +210,3 @@ def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:
     blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)]
     found = [evaluator.residuals(block).max(axis=1, initial=0.0) for block in blocks]
     return np.concatenate([np.zeros(0), *found])
-
-
-def _vanishes(nonzero: Evaluator, points: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
-    """At which points one of the polynomials vanishes that must not, shape ``(P,)``."""
-    if not len(nonzero.coefficients):
-        return np.zeros(len(points), dtype=bool)
-    least = nonzero.residuals(points).min(axis=1)
-    return least < np.maximum(1e-8, 1e2 * accuracy)

@@ -12,7 +12,11 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.solving.start.target import Target
+
+# Values, beside their terms, of polynomials that certainly do not vanish.
+NONZERO = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,14 +25,14 @@ class SquareProblem:
 
     Attributes:
         equations: the system's equations in the scaled variables.
-        nonzero: what must not vanish, in the scaled variables.
+        nonzero: polynomials that must not vanish, in the scaled variables.
         added: number of random linear equations that cut a solution set of positive dimension.
         squared: whether the square system has solutions that the equations have not.
     """
 
     system: PolynomialSystem
     equations: tuple[Polynomial, ...]
-    nonzero: Evaluator
+    nonzero: tuple[Polynomial, ...]
     target: Target
     added: int
     squared: bool
@@ -42,7 +46,7 @@ class SquareProblem:
         slices = [_random_linear(n, rng) for _ in range(added)]
         square = _squared([*equations, *slices], n, rng)
         target = Target.of(square, n)
-        nonzero = Evaluator.of([target.scaled(f) for f in system.nonzero], n)
+        nonzero = tuple(target.scaled(f) for f in system.nonzero)
         mended = tuple(target.scaled(f) for f in [*equations, *slices])
         return cls(system, mended, nonzero, target, added, len(equations) > n)
 
@@ -51,10 +55,31 @@ class SquareProblem:
 
         None if there is no such zero.
         """
+        return self._vanish(self.equations, x)
+
+    def excluded(self, x: np.ndarray, accuracy: float, multiple: bool) -> bool | None:
+        """Whether a polynomial that must not vanish does at the exact zero near ``x``.
+
+        None if that is not known.
+        """
+        n, answers = self.target.n, []
+        zeros = None
+        for g in self.nonzero:
+            if Evaluator.of([g], n).residuals(x[None])[0, 0] > NONZERO:
+                continue
+            if not multiple:
+                answers.append(self._vanish([g], x))
+                continue
+            if zeros is None:
+                zeros = possible_zeros(self.equations, x, accuracy, np.random.default_rng(0))
+            answers.append(vanishes_at_all(zeros, g))
+        return True if True in answers else None if None in answers else False
+
+    def _vanish(self, polynomials: Sequence[Polynomial], x: np.ndarray) -> bool | None:
         n = self.target.n
         square = [Polynomial(n, dict(row)) for row in self.target.rows]
         jacobian = Evaluator.of(square, n).jacobian(x)
-        return vanish(self.equations, square, np.zeros((0, 1 + n)), jacobian, x)
+        return vanish(polynomials, square, np.zeros((0, 1 + n)), jacobian, x)
 
 
 def _random_linear(n: int, rng: np.random.Generator) -> Polynomial:
