@@ -117,6 +117,11 @@ def test_bricards_cube_decomposes_in_all_64_modes(bricard_in_all_modes):
         for key, count in degree_counts(each.decomposition.components).items():
             total[key] = total.get(key, 0) + size * count
     assert total == {(1, 8): 512, (2, 4): 768, (2, 8): 512}
+    # Dimension and total degree of the ideal in Euler parameters, modulo 32003 by Singular, are
+    # (1, 128) in each of the 32 modes of the one class and (2, 224) in those of the other.
+    for each, degree in zip(answer.classes, (128, 224), strict=True):
+        counts = degree_counts(each.decomposition.components)
+        assert sum(d * count for (_, d), count in counts.items()) == degree
 
 
 def test_half_angles_have_one_component_for_each_orbit_of_signs(bricard_in_all_modes):

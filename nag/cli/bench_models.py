@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             raise UsageError(str(error)) from None
         if case.mechanism is None:
             if options.case:
-                raise UsageError(f"{path}: is a polynomial system; name mechanisms")
+                raise UsageError(f"{path}: is no assembled mechanism; name mechanisms")
             continue
         if not options.quiet:
             print(f"{path.stem} ...", file=sys.stderr, flush=True)
