@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.solving.branch_solutions import solve_apart
 from nag.solving.judged_ends import JudgedEnds, judged_ends
@@ -125,8 +124,7 @@ def ends_of(
     """The result for a square system whose paths, in its own variables, were tracked already."""
     n = system.n
     target = Target(n, tuple(dict(f.terms) for f in system.polynomials))
-    nonzero = Evaluator.of(system.nonzero, n)
-    problem = SquareProblem(system, system.polynomials, nonzero, target, 0, False)
+    problem = SquareProblem(system, system.polynomials, system.nonzero, target, 0, False)
     return _result(
         problem, begin, reason, paths, judged_ends(problem, begin, paths, rng), seed, settings
     )
