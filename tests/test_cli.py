@@ -267,7 +267,7 @@ def test_the_model_of_a_system_is_the_system(case, capsys) -> None:
         (["decompose", "{case}", "--threads", "\u0663"], "not a whole number"),
         (["decompose", "{case}", "--settings", "sloppy"], "invalid choice"),
         (["decompose", "{case}", "--formulation", "X"], "invalid choice"),
-        (["decompose", "{case}", "--formulation", "E"], "is for mechanisms"),
+        (["decompose", "{case}", "--formulation", "E"], "is for assembled mechanisms"),
         (["decompose", "{folder}/none.toml"], "none.toml"),
         (["decompose", "{folder}"], "directory"),
         (["decompose", ""], ""),

@@ -143,9 +143,7 @@ def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
     case = read_case_file(arguments.case, getattr(arguments, "set", ()))
     if case.mechanism is None:
         if arguments.formulation is not None:
-            raise UsageError(
-                f"{arguments.case}: is a polynomial system; --formulation is for mechanisms"
-            )
+            raise only_assembled(arguments.case, case, "--formulation")
         return case, None
 
     from nag.mechanism.model import ModelError, model
@@ -154,6 +152,14 @@ def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
         return case, model(case.mechanism, arguments.formulation or "auto")
     except ModelError as error:
         raise UsageError(f"{arguments.case}: {error}") from None
+
+
+def only_assembled(file: str, case: Case, option: str) -> UsageError:
+    """The error that an option is for mechanisms in a reference configuration."""
+    what = "is a polynomial system"
+    if case.assembly is not None:
+        what = f'is of kind "{case.kind}", which has one model'
+    return UsageError(f"{file}: {what}; {option} is for assembled mechanisms")
 
 
 def check_json(target: str, case: str = "") -> None:

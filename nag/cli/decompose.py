@@ -12,6 +12,7 @@ from nag.cli.arguments import (
     add_case,
     add_running,
     check_json,
+    only_assembled,
     read_problem,
     whole,
 )
@@ -148,9 +149,7 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
     if model is None:
         for option, value in (("coordinates", None), ("modes", "reference")):
             if getattr(arguments, option) != value:
-                raise UsageError(
-                    f"{arguments.case}: is a polynomial system; --{option} is for mechanisms"
-                )
+                raise only_assembled(arguments.case, case, f"--{option}")
         return None
     others = {
         "--expand": arguments.expand,
