@@ -60,34 +60,37 @@ def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.nda
     return (residuals < limit[:, None]).any(axis=1)
 
 
-def _excluded(nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, ends: Moved) -> np.ndarray:
-    """Which ends lie where a polynomial that must not vanish does; regular ones in digits."""
-    n = cut.n
-    doubtful = ends.finite.copy()
-    if not nonzero or not doubtful.any():
-        return np.zeros(len(doubtful), dtype=bool)
-    evaluator = Evaluator.of(nonzero, n)
-    doubtful[doubtful] = forbidden(evaluator, ends.points[doubtful, :n], ends.accuracy[doubtful])
-    result = doubtful.copy()
-    regular = np.flatnonzero(doubtful & ends.regular)
-    for i, *answers in zip(
-        regular,
-        *(vanishing(cut, g, rows, ends.points[regular]) for g in nonzero),
-        strict=True,
-    ):
-        result[i] = any(answer is not False for answer in answers)
-    return result
+def _excluded(
+    nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, ends: Moved
+) -> tuple[np.ndarray, int]:
+    """Which ends lie where a polynomial that must not vanish does; regular ones in digits.
+
+    Also of how many of these that is not known; they are left out.
+    """
+    result, unclear = ends.finite.copy(), 0
+    if not nonzero or not result.any():
+        return np.zeros(len(result), dtype=bool), unclear
+    evaluator = Evaluator.of(nonzero, cut.n)
+    result[result] = forbidden(evaluator, ends.points[result, : cut.n], ends.accuracy[result])
+    regular = np.flatnonzero(result & ends.regular)
+    each = [vanishing(cut, g, rows, ends.points[regular]) for g in nonzero]
+    for i, *answers in zip(regular, *each, strict=True):
+        result[i] = True in answers or None in answers
+        unclear += True not in answers and None in answers
+    return result, unclear
 
 
 @dataclass(frozen=True, eq=False)
 class _Candidates:
     """Ends of one dimension: fibres of regular ones, and clusters of singular ones.
 
-    A cluster is its points, the best known one first, with their errors.
+    A cluster is its points, the best known one first, with their errors. ``unclear``: ends of which
+    it is not known whether they are excluded.
     """
 
     fibres: list[Fibre]
     singular: list[list[tuple[np.ndarray, float]]]
+    unclear: int
 
 
 def _near(points: np.ndarray, x: np.ndarray) -> bool:
@@ -101,11 +104,13 @@ def _collect(
 ) -> _Candidates:
     d, n = len(rows), rows.shape[1] - 1
     fibres: list[Fibre] = []
+    unclear = 0
     seen = np.zeros((0, n), dtype=complex)
     singular, errors = [np.zeros((0, n), dtype=complex)], [np.zeros(0)]
     for cut, ends in pieces:
         x = ends.points[:, :n]
-        allowed = ends.finite & ~_excluded(nonzero, cut, rows, ends)
+        excluded, doubtful = _excluded(nonzero, cut, rows, ends)
+        allowed, unclear = ends.finite & ~excluded, unclear + doubtful
         # The tracker has seen that ends of one piece are distinct.
         chosen = [i for i in np.flatnonzero(allowed & ends.regular) if not _near(seen, x[i])]
         if chosen:
@@ -116,7 +121,8 @@ def _collect(
         errors.append(ends.accuracy[rest])
     points, accuracy = np.vstack(singular), np.concatenate(errors)
     groups = clusters(points, accuracy, SAME)
-    return _Candidates(fibres, [[(points[i], float(accuracy[i])) for i in g] for g in groups])
+    several = [[(points[i], float(accuracy[i])) for i in g] for g in groups]
+    return _Candidates(fibres, several, unclear)
 
 
 def _mixed(f: Polynomial, others: Sequence[Polynomial], rng: np.random.Generator) -> Polynomial:
@@ -212,6 +218,8 @@ class _Stage:
         counts, notes = PathCounts(), []
         for d in sorted(crossed.ends, reverse=True):
             candidates = _collect(crossed.ends[d], flag[:d], self.avoid)
+            if candidates.unclear:
+                notes.append(f"{candidates.unclear} points may be such as are excluded")
             for fibre in candidates.fibres:
                 if fibre.cut.levels:
                     fibre, doubts, used = self.own(fibre, kept, flag)

@@ -44,7 +44,8 @@ def vanishing(cut: Cut, f: Polynomial, rows: np.ndarray, points: np.ndarray) -> 
     evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
     small = evaluator.residuals(x)[:, 0] < ON
     rounding = np.abs(evaluator.values(x)) <= CERTAIN * evaluator.absolute(x)
-    if max(map(decimal_digits, f.terms.values()), default=0) > ROUND_NUMBERS:
+    coefficients = [c for g in (f, *cut.polynomials) for c in g.terms.values()]
+    if max(map(decimal_digits, coefficients), default=0) > ROUND_NUMBERS:
         rounding[:] = False
     return [
         bool(near) and (bool(certain) or _at_zero(cut, [f], rows, z))
