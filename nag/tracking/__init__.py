@@ -1,8 +1,8 @@
 """Homotopy path tracking: predictor, corrector, ends in as many digits as they need.
 
 In order of reading: `compiled` and `homotopy` (what is tracked), `taylor` (values and series of a
-path) on `kernel_arrays`, `straight_run` (many paths at once in doubles), `track` (their ends judged), `ends` (the
-doubtful ones, followed in more digits), `paths` (what is known of them in the end).
+path) on `kernel_arrays`, `straight_run` (many paths at once in doubles), `track` (their ends
+judged), `ends` (the doubtful ones, followed in more digits), `paths` (what is known in the end).
 
 Thresholds that decide something about an end. ``python tests/measure_thresholds.py`` measures how
 far what they judge lies from those that are marked with a star. Where a threshold is safe on one
