@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from systems import system
 
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
@@ -109,6 +111,18 @@ def test_a_set_that_is_not_finite_is_said_to_be_so_at_its_first_point() -> None:
     result = solve(f, seed=1, finite=True)
     assert len(result.on_components) == 1
     assert result.positive_dimensional and not result.complete
+
+
+def test_what_must_not_vanish_is_seen_at_zeros_that_are_badly_conditioned() -> None:
+    # Two planes that almost coincide: the zero x = i, y = 1 has condition 1e13.
+    x, y = Polynomial.variables(2)
+    one = Polynomial.constant(2, Fraction(1))
+    near = (x * x + one) * (y + 2) + (y - one) * Fraction(1, 10**13)
+    square = [near, (x * x + one) * (y - 3) + (y - one) * Fraction(1, 10**14)]
+    jacobian = Evaluator.of(square, 2).jacobian(np.array([1j, 1.0]))
+    z = np.array([1j, 1.0])
+    assert vanish([x * x + one], square, np.zeros((0, 3)), jacobian, z) is True
+    assert vanish([x - one], square, np.zeros((0, 3)), jacobian, z) is False
 
 
 def test_a_double_line_is_no_isolated_solution() -> None:

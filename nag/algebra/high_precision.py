@@ -18,6 +18,8 @@ from nag.algebra.polynomial import Polynomial
 DIGITS = 100
 # Two zeros nearer to each other than this, relative to their size, are taken for one.
 VANISHES = 1e-80
+# Zeros with larger errors than this are computed to more digits before values there are judged.
+SHARP = 1e-85
 NEWTON_STEPS = 60
 # A point that moves by more than this was not known to the digits that it claims.
 NEAR = 1e-9
@@ -142,6 +144,9 @@ def vanish(
 
     with flint.ctx.workdps(DIGITS):
         found = zero_near(square, slices, jacobian, z, DIGITS)
+        if found is not None and found[1] > SHARP:
+            # Near a curve of zeros of a nearby system a zero is known to fewer digits.
+            found = zero_near(square, slices, jacobian, z, 2 * DIGITS)
         if found is None:
             return None
         vanishing = flint.arb(VANISHES)
