@@ -374,3 +374,12 @@ def decimal_digits(c: Number) -> int:
         c = Fraction(c)
         return len(str(max(abs(c.numerator), c.denominator)))
     return 0
+
+
+def rounded_fraction(value: Number, digits: int) -> Fraction:
+    """A number as a fraction, an irrational one rounded to so many digits."""
+    if isinstance(value, Fraction):
+        return value
+    sign, mantissa, exponent, _ = to_mpf(value, digits)._mpf_
+    whole = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+    return -whole if sign else whole

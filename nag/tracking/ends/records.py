@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from nag.algebra.number import Irrational, Number, to_mpf
+from nag.algebra.number import Irrational, Number, rounded_fraction
 from nag.machine_code.lanes import aligned, separate
 from nag.machine_code.records import Reals, Wholes
 from nag.tracking.homotopy import Homotopy
@@ -147,8 +147,7 @@ def words(value: Number | complex, count: int, factor: Fraction = Fraction(1)) -
             *_words(Fraction(z.imag) * factor, count),
         ]
     if isinstance(value, Irrational):
-        mantissa = to_mpf(value, 20 * count)
-        value = Fraction(*mantissa.as_integer_ratio()) if mantissa else Fraction(0)
+        value = rounded_fraction(value, 20 * count)
     return [*_words(Fraction(value) * factor, count), *[0.0] * count]
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.number import Irrational, Number, to_mpf
+from nag.algebra.number import Irrational, Number, rounded_fraction
 from nag.tracking.homotopy import Homotopy
 
 # Bits of working precision for numbers of as many words.
@@ -77,7 +77,6 @@ def exact(c: Number | complex) -> Any:
     if isinstance(c, complex | float | np.complexfloating | np.floating):
         return flint.acb(complex(c))
     if isinstance(c, Irrational):
-        numerator, denominator = to_mpf(c, 100).as_integer_ratio()
-        return flint.acb(flint.fmpq(numerator, denominator))
+        c = rounded_fraction(c, 100)
     c = Fraction(c)
     return flint.acb(flint.fmpq(c.numerator, c.denominator))
