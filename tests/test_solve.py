@@ -10,8 +10,6 @@ import numpy as np
 import pytest
 from systems import system
 
-from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
@@ -113,16 +111,15 @@ def test_a_set_that_is_not_finite_is_said_to_be_so_at_its_first_point() -> None:
     assert result.positive_dimensional and not result.complete
 
 
-def test_what_must_not_vanish_is_seen_at_zeros_that_are_badly_conditioned() -> None:
-    # Two planes that almost coincide: the zero x = i, y = 1 has condition 1e13.
-    x, y = Polynomial.variables(2)
-    one = Polynomial.constant(2, Fraction(1))
-    near = (x * x + one) * (y + 2) + (y - one) * Fraction(1, 10**13)
-    square = [near, (x * x + one) * (y - 3) + (y - one) * Fraction(1, 10**14)]
-    jacobian = Evaluator.of(square, 2).jacobian(np.array([1j, 1.0]))
-    z = np.array([1j, 1.0])
-    assert vanish([x * x + one], square, np.zeros((0, 3)), jacobian, z) is True
-    assert vanish([x - one], square, np.zeros((0, 3)), jacobian, z) is False
+def test_what_must_not_vanish_is_seen_at_zeros_that_are_badly_conditioned(tmp_path) -> None:
+    # A line-symmetric 6R, which moves, but for 1e-12: at most 16 closings (Primrose 1986).
+    rows = [("1", "1/2", "1/3"), ("2", "1/3", "1/2"), ("3/2", "2", "-1/5")] * 2
+    rows[5] = ("3/2+1/10^12", "2", "-1/5")
+    joints = [f'{{a = "{a}", alpha_half_tangent = "{t}", d = "{d}"}}' for a, t, d in rows]
+    path = tmp_path / "near.toml"
+    path.write_text(f'title = "t"\nkind = "dh"\njoint = [{", ".join(joints)}]\n')
+    result = solve(read_case(path).system)
+    assert (len(result.solutions), result.excluded) == (16, 8)
 
 
 def test_a_double_line_is_no_isolated_solution() -> None:
