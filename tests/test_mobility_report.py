@@ -68,6 +68,14 @@ def test_joints_outside_loops_add_their_freedoms() -> None:
     assert (chain.local_dimension, chain.status, chain.components) == (1, "mobile", None)
 
 
+def test_rods_add_their_turns_about_themselves_in_every_formulation() -> None:
+    by_rods = nag.mobility(case("spatial/rssr"), formulation="S")
+    whole = nag.mobility(case("spatial/rssr"), formulation="E")
+    assert (by_rods.free, by_rods.local_dimension, by_rods.tangent_dimension) == (1, 2, 2)
+    assert by_rods.same_motion(whole) and whole.free == 0
+    assert "1 by rods that turn about themselves" in str(by_rods)
+
+
 def test_another_configuration_may_be_given() -> None:
     mechanism = REPORTS["flat parallelogram"][0]
     tilted = nag.mobility(mechanism, [1, 0, "3/5", Fraction(4, 5)], formulation="E")

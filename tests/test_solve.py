@@ -103,6 +103,14 @@ def test_curves_are_told_apart_from_isolated_points() -> None:
     assert any("positive dimension" in note for note in result.notes)
 
 
+def test_a_set_that_is_not_finite_is_said_to_be_so_at_its_first_point() -> None:
+    f = system("x y z", "x^2 + y^2 - 2*z", "x*z + y - z - 1", "x^2 + y^2 - 3*z + x*z + y - 1")
+    assert len(solve(f, seed=1).on_components) > 1
+    result = solve(f, seed=1, finite=True)
+    assert len(result.on_components) == 1
+    assert result.positive_dimensional and not result.complete
+
+
 def test_a_double_line_is_no_isolated_solution() -> None:
     result = solve(system("x y z", "x^2", "x*y + y^2", "z^2*y - y + x"), seed=1)
     assert result.solutions == ()

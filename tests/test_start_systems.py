@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import comb, prod
 
 import numpy as np
@@ -22,6 +23,8 @@ from nag.solving.start.multihomogeneous import (
 )
 from nag.solving.start.target import Start, StartError, Target
 from nag.solving.start.total_degree import bezout, total_degree
+from nag.tracking.paths import PathStatus
+from nag.tracking.track import track
 
 
 def target(variables: str, *equations: str) -> Target:
@@ -159,3 +162,27 @@ def test_a_generic_start_has_its_points_as_zeros() -> None:
     assert distances.min() > 1e-3
     square = jacobian(start.homotopy, start.points, 1.0)[:, :, 1:]
     assert np.linalg.svd(square, compute_uv=False).min() > 1e-3
+
+
+@pytest.mark.parametrize("coefficients", ["3 5", "7/3 -1/11", "4/7 1"])
+def test_linear_equations_are_held_exactly(coefficients: str) -> None:
+    a, b = coefficients.split()
+    system = target("x y z", f"{a}*x + {b}*y - 1", "x^2 + y*z - 3", "z^2 - x*y")
+    rows = total_degree(system, np.random.default_rng(0)).homotopy.A0
+    assert rows.shape == (1, 4)
+    held = [Fraction(float(c.real)) for c in rows[0]]
+    exact = [system.rows[0].get(e, Fraction(0)) for e in [(0,) * 3, (1, 0, 0), (0, 1, 0)]]
+    assert not rows.imag.any()
+    assert all(h * exact[0] == e * held[0] for h, e in zip(held, exact, strict=False))
+
+
+def test_linear_equations_that_doubles_do_not_hold_are_tracked_as_polynomials() -> None:
+    system = target("x y", f"{10**17 + 3}*x + y - 1", "x^2 + y^2 - 3")
+    assert len(total_degree(system, np.random.default_rng(0)).homotopy.A0) == 0
+
+
+def test_zeros_at_infinity_of_linear_equations_stay_there() -> None:
+    equations = "x^2 + y^2 - 1", "u^2 + v^2 - 4", "3*x + 5*u - 1", "3*y + 5*v - 2/3"
+    start = total_degree(target("x y u v", *equations), np.random.default_rng(0))
+    status = track(start.homotopy, start.points).status
+    assert sorted(status) == [PathStatus.REGULAR] * 2 + [PathStatus.AT_INFINITY] * 2

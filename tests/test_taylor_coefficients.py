@@ -9,8 +9,8 @@ from evaluated import values
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
+from nag.tracking.kernel_arrays import system, work
 from nag.tracking.straight_run import Batch, track_lanes
-from nag.tracking.taylor import system, work
 
 ORDER = 5
 # More samples of a polynomial than its degree give its coefficients exactly.

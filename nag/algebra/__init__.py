@@ -1,1 +1,7 @@
-"""Exact polynomials over the rationals, and systems of them."""
+"""Exact polynomials over the rationals, and systems of them.
+
+Read in this order: `number`, `polynomial`, `system` (the data); `expression` and `from_python`
+(text and Python's numbers in); `evaluation` (in doubles) and `high_precision`; `elimination` and
+`symmetry`; `factoring`, `branches` and `algebraic_zeros` (what exact algebra decides before any
+path is tracked); `division`, `groebner` and `hilbert` (ideals).
+"""

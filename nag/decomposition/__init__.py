@@ -1,9 +1,31 @@
 """Irreducible decomposition: supersets of witness points, split into components, then judged.
 
-Read in this order: `superset` (equation by equation) on `hypersurface` (one step of it);
-`irreducible` on `monodromy` and `trace` (splitting), `orbits` (the same up to symmetry);
-`final_checks`; `components`, which puts the answer together. `discovery` and `intersection` begin
-elsewhere and end alike. `branch_components` follows what exact factoring decides.
+Read in this order: `components` (the whole); `isolated` (finite sets, solved at once); `superset`
+(equation by equation) on `hypersurface` (one step of it); `splitting` on `monodromy` and `trace`,
+`orbits` (the same up to symmetry); `final_checks` and `assembly`, which put the answer together.
+`discovery`, `given_points` and `intersection` begin elsewhere and end alike. `branch_components`
+follows what exact factoring decides.
+
+What decides, beside the errors of points:
+
+=======================  =====  ====================================================================
+name                     value  what it decides, and why there
+=======================  =====  ====================================================================
+trace.EVIDENCE           18     Digits to which a trace must be linear beside the points' motion;
+.ROUND_NUMBERS           6      one more for each digit of the coefficients beyond so many: what is
+                                nearly reducible has long ones. Points get 28 to 240 digits for it.
+splitting.MOST_LOOPS     100    Loops before points are left undecided; 23 were the most needed.
+monodromy.NEAR, FAR      1e-6   An end of a loop is a known point nearer than the one, none beyond
+                         1e-4   the other; between them the loop says nothing.
+isolated.NONZERO         1e-6   Values beside their terms that are certainly not zero; smaller ones
+                                are computed to 100 digits, or leave the answer to another way.
+witness.cutting.ON       1e-9   Values beside their terms at a sharpened point that may be zero:
+                                zeros lie below 2.5e-13, others above 2e-6 in all systems measured.
+witness.confirm.CERTAIN  1e-14  Values that are rounding where coefficients have at most six digits;
+                                with longer ones, zeros are computed to 100 digits.
+witness.membership.HIT   1e-8   Ends of membership paths: members lay within 5e-11, others beyond
+.MISS                    1e-5   7e-4; what falls between is asked again on another slice.
+=======================  =====  ====================================================================
 
 What can be done with components, beside what they can do themselves (`nag.WitnessSet`):
 

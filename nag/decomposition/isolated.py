@@ -53,7 +53,9 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
     cut = PolynomialSystem(system.variables, (*others, plane))
     seed = int(rng.integers(2**31))
     try:
-        found = solve(cut, seed=seed, threads=tracker.threads, settings=tracker.settings)
+        found = solve(
+            cut, seed=seed, threads=tracker.threads, settings=tracker.settings, finite=True
+        )
     except StartError:
         return False
     if not found.complete or found.positive_dimensional:
@@ -73,7 +75,9 @@ def solved_at_once(
         return None
     seed = int(rng.integers(2**31))
     try:
-        found = solve(system, seed=seed, threads=tracker.threads, settings=tracker.settings)
+        found = solve(
+            system, seed=seed, threads=tracker.threads, settings=tracker.settings, finite=True
+        )
     except StartError:
         return None
     if not found.complete or found.positive_dimensional:

@@ -40,7 +40,7 @@ class Subject:
         space: ``"planar"``, ``"spherical"`` or ``"spatial"``.
         counted: the mobility that counting predicts.
         formulation: what the equations are, as text.
-        free: freedoms that every configuration has besides.
+        free: freedoms that every configuration has besides, and whose they are.
         model: what the equations are those of.
     """
 
@@ -50,7 +50,7 @@ class Subject:
     space: str
     counted: int
     formulation: str
-    free: int = 0
+    free: tuple[tuple[int, str], ...] = ()
     model: object = None
 
     @classmethod
@@ -63,7 +63,7 @@ class Subject:
             space_of(made.mechanism.joints),
             made.gruebler_kutzbach,
             f"formulation {made.formulation}",
-            sum(freedoms for freedoms, _ in made.freedoms_left_out),
+            made.freedoms_left_out,
             made,
         )
 
@@ -139,7 +139,7 @@ def _report(
     subject: Subject, at: Sequence[Number], detail: str, options: dict[str, Any]
 ) -> MobilityReport:
     found = local_dimension(subject.system, at, seed=options["seed"])
-    free, tangent = subject.free, found.tangent_dimension
+    free, tangent = sum(freedoms for freedoms, _ in subject.free), found.tangent_dimension
     through, doubt = (None, "") if detail == "local" else _components(subject, at, **options)
     motions = []
     if detail == "curves" and through is not None:
@@ -152,6 +152,7 @@ def _report(
         variables=subject.system.n,
         equations=len(subject.system.polynomials),
         free=free,
+        free_of=" and ".join(f"{freedoms} by {whose}" for freedoms, whose in subject.free),
         tangent_dimension=None if tangent is None else tangent + free,
         lower=found.lower + free,
         upper=found.upper + free,

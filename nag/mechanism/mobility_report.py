@@ -63,7 +63,8 @@ class MobilityReport:
         gruebler_kutzbach: the mobility that counting predicts.
         formulation: of the model, as text; empty where the mechanism has no loop.
         variables, equations: of the model.
-        free: freedoms of joints outside all loops, contained in the dimensions below.
+        free: freedoms that no equation restricts, contained in the dimensions below: those of
+            joints outside all loops, and of rods that turn about themselves.
         tangent_dimension: of the configuration space's tangent space, the first-order mobility;
             None if it is not decided.
         lower, upper: bounds of the local dimension, the true mobility.
@@ -72,6 +73,7 @@ class MobilityReport:
         open: why the components are not known; empty if they are.
         local: the local dimension in the model, and what it rests on; None without loops.
         curves: the curves through the configuration, where they were asked for.
+        free_of: whose the ``free`` ones are, as text; empty where there are none.
     """
 
     space: str
@@ -87,6 +89,7 @@ class MobilityReport:
     open: str
     local: LocalDimension | None
     curves: tuple[CurveOfMotion, ...] = ()
+    free_of: str = ""
 
     @property
     def local_dimension(self) -> int | None:
@@ -148,7 +151,7 @@ class MobilityReport:
         return "\n".join(f"{label.ljust(10)}  {text}" for label, text in self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
-        """Five labelled lines, and one for each curve."""
+        """Labelled lines, one of them for each curve."""
         counts = f"{self.gruebler_kutzbach} by Gruebler-Kutzbach ({self.space})"
         model_text = "no loop, no equations"
         if self.formulation:
@@ -156,12 +159,11 @@ class MobilityReport:
                 f"{_count(self.equations, 'equation')} in {_count(self.variables, 'unknown')}, "
                 f"{self.formulation}"
             )
-            if self.free:
-                model_text += f"; {self.free} besides"
         return [
             ("counted", counts),
             ("model", model_text),
             ("local", _local_text(self)),
+            *([("besides", f"{self.free_of}, counted in all dimensions")] if self.free_of else []),
             ("components", _components_text(self)),
             ("mobility", f"{self.status}: {self.sentence}"),
             *(("curve", str(curve)) for curve in self.curves),

@@ -80,9 +80,18 @@ class _Place:
 
 
 def judged_ends(
-    problem: SquareProblem, begin: Start, paths: Paths, rng: np.random.Generator
+    problem: SquareProblem,
+    begin: Start,
+    paths: Paths,
+    rng: np.random.Generator,
+    finite: bool = False,
 ) -> JudgedEnds:
-    """What the ends of all paths are."""
+    """What the ends of all paths are.
+
+    Args:
+        finite: whether only finite sets are of interest: nothing is judged after the first end
+            that lies on a component of positive dimension, and a note says so.
+    """
     n = problem.system.n
     evaluator = Evaluator.of(problem.equations, n)
     zeros, lost = _zeros(problem, begin, paths, evaluator)
@@ -105,6 +114,9 @@ def judged_ends(
             elsewhere[place].extend(zeros.points[[best] if problem.added else group])
         if found.close:
             close.extend(zeros.path[group].tolist())
+        if finite and found.place is Place.ON_COMPONENT:
+            notes.append("the solution set is not finite; the other ends were not looked at")
+            break
     if elsewhere[Place.UNDECIDED]:
         notes.append(
             f"{len(elsewhere[Place.UNDECIDED])} end points may or may not be isolated solutions, "

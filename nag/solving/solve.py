@@ -37,6 +37,7 @@ def solve(
     threads: int = 1,
     settings: Settings | str = "default",
     progress: Progress | None = None,
+    finite: bool = False,
 ) -> SolveResult:
     """All isolated solutions of ``system``, each once, with their multiplicities.
 
@@ -52,6 +53,8 @@ def solve(
         threads: number of threads.
         settings: tracking settings.
         progress: called with a stage, the work done and the whole work.
+        finite: whether only a finite solution set is of interest; the result is incomplete, and
+            quickly there, if the set proves to have positive dimension.
 
     Raises:
         nag.solving.start.target.StartError: if there would be too many paths.
@@ -62,7 +65,7 @@ def solve(
     name = settings if isinstance(settings, str) else "custom"
 
     def tracked(part: PolynomialSystem) -> SolveResult:
-        return _solve_whole(part, start, seed, threads, settings, progress)
+        return _solve_whole(part, start, seed, threads, settings, progress, finite)
 
     # Who names a start system wants its paths.
     return solve_apart(system, tracked, seed, name, start == "auto") or tracked(system)
@@ -75,6 +78,7 @@ def _solve_whole(
     threads: int,
     settings: Settings | str,
     progress: Progress | None,
+    finite: bool,
 ) -> SolveResult:
     """The isolated solutions of a system that is tracked as a whole."""
     name = settings if isinstance(settings, str) else "custom"
@@ -87,13 +91,13 @@ def _solve_whole(
         progress("solve", 0, 1)
     begin, reason = choose(problem.target, start, system.groups, rng, threads)
     paths = track(begin.homotopy, begin.points, settings, threads)
-    ends = judged_ends(problem, begin, paths, rng)
-    if len(ends.close):
+    ends = judged_ends(problem, begin, paths, rng, finite)
+    if len(ends.close) and not (finite and len(ends.on_components)):
         # What looks like a multiple zero and is none may be simple ones close together.
         separating = replace(named(settings), evidence=SEPARATING)
         more = track(begin.homotopy, begin.points[ends.close], separating, threads)
         paths = merged(paths, more, ends.close)
-        ends = judged_ends(problem, begin, paths, rng)
+        ends = judged_ends(problem, begin, paths, rng, finite)
     return _result(problem, begin, reason, paths, ends, seed, name)
 
 

@@ -1,8 +1,8 @@
 """Homotopy path tracking: predictor, corrector, ends in as many digits as they need.
 
 In order of reading: `compiled` and `homotopy` (what is tracked), `taylor` (values and series of a
-path), `straight_run` (many paths at once in doubles), `track` (their ends judged), `ends` (the
-doubtful ones, followed in more digits), `paths` (what is known of them in the end).
+path) on `kernel_arrays`, `straight_run` (many paths at once in doubles), `track` (their ends
+judged), `ends` (the doubtful ones, followed in more digits), `paths` (what is known in the end).
 
 Thresholds that decide something about an end. ``python tests/measure_thresholds.py`` measures how
 far what they judge lies from those that are marked with a star. Where a threshold is safe on one
@@ -39,11 +39,12 @@ ends.follow           58       More cannot be asked of 64 digits.
 ends.limits.WHOLE *   1e-3     How far an order of a coordinate may be from a rational number.
 ends.inclusion.WIDER  64       Rounding errors in the radius of the box in which Krawczyk's test
                                proves one zero; it must hold the errors of the values there.
-ends.end_run.STAGNANT 1e2      Rounding errors in a correction that need not contract any more.
+ends.corrector        1e2      Rounding errors in a correction that need not contract any more.
+.STAGNANT
 ends.end_run.LOSING   1e-3     Rounding error times Newton's constant at which an arithmetic gives
                                up; at 1e-6 (SAFE) a point is kept for the next one to start from.
 ends.follow.BEYOND    30       Error of a limit in last terms of its series.
-ends.end_run.FLOOR    1e-9     Coordinates that a start in doubles does not know.
+ends.corrector.FLOOR  1e-9     Coordinates that a start in doubles does not know.
 ends.linear_algebra   1e-6     What a correction leaves of a coordinate that it takes away: a zero
 .GONE                          along the whole path.
 solve.ON *            1e-9     Residual of the equations, relative to their terms, at a solution: a

@@ -68,8 +68,8 @@ def refine(
     A point where the Jacobian is singular is returned with a large ``error`` and whatever
     Newton's method made of it; compare ``moved`` with what was expected.
     """
+    from nag.tracking.kernel_arrays import system, work
     from nag.tracking.newton_kernel import Refinement, low_parts, newton_lanes
-    from nag.tracking.taylor import system, work
 
     homotopy = rows if isinstance(rows, Homotopy) else Homotopy(rows, A)
     fixed = _at(homotopy, t, homotopy.A0 + t * homotopy.A1 if A is None else A)

@@ -12,9 +12,10 @@ from nag.machine_code.lanes import aligned, fma, load, splat, square_root, store
 from nag.machine_code.records import Complexes, Reals
 from nag.tracking.ends.records import words
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.kernel_arrays import System, Work
 from nag.tracking.linear_algebra import factorize, substitute, substitute_adjoint
 from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.taylor import System, Work, factors_at, jacobian, normalize, products
+from nag.tracking.taylor import factors_at, jacobian, normalize, products
 
 
 class Low(NamedTuple):

@@ -13,11 +13,10 @@ import numpy as np
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import fma, load, select_less, splat, store
 from nag.machine_code.records import Complexes, Reals, Wholes
+from nag.tracking.kernel_arrays import System, Work
 from nag.tracking.linear_algebra import factorize, substitute
 from nag.tracking.predictor import CORRECT, PREDICT, next_step, next_t, predict
 from nag.tracking.taylor import (
-    System,
-    Work,
     complete_slots,
     factors_at,
     incomplete_slots,

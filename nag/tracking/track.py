@@ -153,7 +153,7 @@ def _run(
     endgame: bool,
     weights: np.ndarray | None = None,
 ) -> _Raw:
-    from nag.tracking import straight_run, taylor
+    from nag.tracking import kernel_arrays, straight_run
 
     P = len(starts)
     raw = _Raw(
@@ -167,7 +167,7 @@ def _run(
     if P == 0:
         return raw
     straight_run.track_lanes.prepare()
-    arrays = taylor.system(homotopy, weights)
+    arrays = kernel_arrays.system(homotopy, weights)
     batches = max(1, min(threads, P // PATHS_PER_THREAD))
 
     def batch(first: int) -> None:
@@ -188,7 +188,7 @@ def _run(
             settings.safety,
             settings.contraction,
         )
-        straight_run.track_lanes(arrays, taylor.work(homotopy, settings.order), paths)
+        straight_run.track_lanes(arrays, kernel_arrays.work(homotopy, settings.order), paths)
 
     if batches == 1:
         batch(0)

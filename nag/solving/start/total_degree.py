@@ -10,8 +10,9 @@ near the end. The price is longer polynomials.
 from __future__ import annotations
 
 from collections import Counter
+from fractions import Fraction
 from itertools import combinations_with_replacement
-from math import comb, factorial, prod
+from math import comb, factorial, frexp, hypot, lcm, prod
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from nag.solving.start.target import (
     Start,
     StartError,
     Target,
+    Terms,
     group_degrees,
     homogenized,
     unit,
@@ -28,6 +30,8 @@ from nag.tracking.homotopy import straight_line
 
 # Longest generic start systems.
 MOST_TERMS = 10_000
+# Largest integer such that doubles hold all up to it.
+LARGEST_WHOLE = 2**53
 # Start points are kept in memory.
 MOST_PATHS = 4_000_000
 
@@ -42,14 +46,17 @@ def bezout(target: Target) -> int:
 def _linear_rows(target: Target) -> tuple[list[int], np.ndarray, list[int]]:
     """Indices of linear rows, their coefficients ``(k, 1 + n)``, and the variables they solve for.
 
-    No rows if they do not determine as many variables as they are.
+    No rows if they do not determine as many variables as they are, or if doubles do not hold a
+    multiple of each: rounded equations may have finite zeros near those at infinity.
     """
     indices = [i for i, d in enumerate(target.degrees) if d == 1]
     matrix = np.zeros((len(indices), 1 + target.n), dtype=np.complex128)
     for k, i in enumerate(indices):
-        for e, c in target.rows[i].items():
-            matrix[k, 1 + e.index(1) if any(e) else 0] = complex(c)
-        matrix[k] /= np.linalg.norm(matrix[k])
+        row = _exact_row(target.rows[i])
+        if row is None:
+            return [], matrix[:0], []
+        for e, c in row.items():
+            matrix[k, 1 + e.index(1) if any(e) else 0] = c
     rest, solved = matrix[:, 1:].copy(), []
     for k in range(len(indices)):
         row = rest[k]
@@ -59,6 +66,23 @@ def _linear_rows(target: Target) -> tuple[list[int], np.ndarray, list[int]]:
         solved.append(pivot)
         rest[k + 1 :] -= np.outer(rest[k + 1 :, pivot] / row[pivot], row)
     return indices, matrix, solved
+
+
+def _exact_row(row: Terms) -> dict[Exponents, complex] | None:
+    """A multiple of a row whose coefficients are doubles, of norm between 1/2 and 1."""
+    exact = {e: c for e, c in row.items() if isinstance(c, (int, Fraction))}
+    if len(exact) == len(row):
+        common = lcm(*(c.denominator for c in exact.values()))
+        whole = {e: int(c * common) for e, c in exact.items()}
+        if any(abs(c) > LARGEST_WHOLE for c in whole.values()):
+            return None
+        values = {e: complex(c) for e, c in whole.items()}
+    elif all(isinstance(c, (float, complex)) for c in row.values()):
+        values = {e: complex(c) for e, c in row.items()}
+    else:
+        return None
+    size = 2.0 ** -frexp(hypot(*(abs(c) for c in values.values())))[1]
+    return {e: c * size for e, c in values.items()}
 
 
 def _unit_vector(j: int, n: int) -> Exponents:

@@ -20,63 +20,48 @@ from nag.tracking.ends.branch import (
     tail_at_end,
     tails,
 )
+from nag.tracking.ends.corrector import correct
 from nag.tracking.ends.evaluation import (
     block_sums,
     complete_slots,
-    factors_at,
     incomplete_slots,
-    jacobian,
-    lay_patches,
-    products,
     right_side,
-    values,
+)
+from nag.tracking.ends.lane_scalars import (
+    BASE,
+    CONTRACTION,
+    CURVATURE,
+    EXCESS,
+    FINISH,
+    IDLE,
+    KNOWN,
+    MODE,
+    PATH,
+    REJECTED,
+    SAVED,
+    SETTLED,
+    STEP,
+    TAKEN,
+    TRIED,
+    WAITED,
+    WANTED,
+    WINDING,
+    H,
+    T,
 )
 from nag.tracking.ends.linear_algebra import (
-    equilibrate,
-    factorize,
-    newton_correction,
     substitute,
-    vanishing,
 )
 from nag.tracking.ends.records import Equations, Room
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double, quad_double
 from nag.tracking.numbers import double_double as number
 
-# What a lane does.
-IDLE, STEP, FINISH = 0.0, 1.0, 2.0
 # How a path ended: it is lost where its rounding errors, or its steps, leave it nothing to go on.
 OPEN, REGULAR, LIMIT, LOST, TOO_LONG = range(5)
-# Relative size of coordinates that doubles do not know.
-FLOOR = 1e-9
-MOST_CORRECTIONS = 12
-# Corrections of so many rounding errors may be nothing else.
-STAGNANT = 1e2
 # Largest product of the rounding error of a point and Newton's constant that is lost, and that
 # leaves a point safe enough to start from.
 LOSING, SAFE = 1e-3, 1e-6
-# Rows of the lanes' scalars.
-(
-    MODE,
-    PATH,
-    T,
-    H,
-    FIRST,
-    LAST,
-    CONTRACTION,
-    SETTLED,
-    CURVATURE,
-    TAKEN,
-    TRIED,
-    WINDING,
-    WAITED,
-    KNOWN,
-    BASE,
-    REJECTED,
-    WANTED,
-    EXCESS,
-    SAVED,
-) = range(19)
 
 
 class Batch(NamedTuple):
@@ -151,98 +136,6 @@ def _begin(s, r, f, lane, b):
     f[8 * MODE + lane] = STEP
     _set_time(r, lane, b.t, path, False)
     _put(s, r, lane, b.starts, path)
-
-
-def _weigh(s, r, floor):
-    """Sizes of the coordinates by which columns are scaled."""
-    for j in range(s.N):
-        size = z.largest(z.magnitude(z.read(r.slots, j)), floor)
-        store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
-
-
-def _linearize(s, r, floor):
-    """The factorised Jacobian at the points, Newton's correction and its measures."""
-    products(s, r, s.products)
-    values(s, r)
-    jacobian(s, r)
-    equilibrate(s, r)
-    factorize(s, r)
-    newton_correction(s, r, floor)
-
-
-def _correct(s, r, f, b):
-    """Newton's method in all lanes, until each has settled or failed.
-
-    At last everything is evaluated once more at the corrected points, whatever number of
-    corrections a lane and its neighbours took.
-    """
-    for lane in range(8):
-        f[8 * SETTLED + lane] = 0.0 if f[8 * MODE + lane] > IDLE else 2.0
-    lay_patches(s, r)
-    factors_at(s, r)
-    # Small coordinates are not known at points that come from doubles.
-    half = splat(0.5)
-    nothing = z.exact(splat(0.0), splat(0.0))
-    floor = select_less(load(f, BASE), half, splat(FLOOR), splat(0.0))
-    _weigh(s, r, floor)
-    for k in range(MOST_CORRECTIONS):
-        _linearize(s, r, floor)
-        settled = load(f, SETTLED)
-        for j in range(s.N):
-            x = z.read(r.slots, j)
-            correction = z.read(r.right, j)
-            moved = z.choose(half, vanishing(x, correction), nothing, z.add(x, correction))
-            z.write(r.slots, j, z.choose(settled, half, moved, x))
-        busy = 0
-        for lane in range(8):
-            if f[8 * SETTLED + lane] < 0.5:
-                f[8 * SETTLED + lane] = _judged(r, f, lane, k)
-                if f[8 * SETTLED + lane] < 0.5:
-                    busy += 1
-        if busy == 0:
-            break
-    _weigh(s, r, floor)
-    _linearize(s, r, floor)
-    for lane in range(8):
-        excess = r.measures[8 + lane]
-        f[8 * EXCESS + lane] = max(1.0, excess)
-        f[8 * KNOWN + lane] = r.measures[16 + lane] * f[8 * EXCESS + lane]
-        if not excess <= STAGNANT or not r.measures[24 + lane] < 0.5:
-            f[8 * SETTLED + lane] = 2.0
-
-
-def _judged(r, f, lane, k):
-    """0 if a lane needs another correction, 1 if it has settled, 2 if it failed."""
-    eta = r.measures[lane]
-    excess = r.measures[8 + lane]
-    if not eta < 0.5 or not r.measures[24 + lane] < 0.5:
-        f[8 * FIRST + lane] = 1.0 if k == 0 else f[8 * FIRST + lane]
-        return 2.0
-    noise = excess <= 1.0
-    if k == 0:
-        f[8 * FIRST + lane] = eta
-        f[8 * CONTRACTION + lane] = 0.0
-        f[8 * LAST + lane] = eta
-        return 1.0 if noise else 0.0
-    theta = eta / f[8 * LAST + lane]
-    f[8 * LAST + lane] = eta
-    if k == 1:
-        # A second correction that is half rounding errors says how large it is at most.
-        curvature = theta / f[8 * FIRST + lane]
-        if excess <= 1e2:
-            curvature = min(curvature, f[8 * CURVATURE + lane])
-        f[8 * CURVATURE + lane] = curvature
-    if noise:
-        return 1.0
-    if k == 1:
-        f[8 * CONTRACTION + lane] = theta
-    if theta > 0.25:
-        # Corrections that do not contract any more may be a few rounding errors.
-        return 1.0 if excess <= STAGNANT else 2.0
-    # The next correction is about theta^2 times this one.
-    if eta * theta * theta <= number.EPSILON:
-        return 1.0
-    return 2.0 if k == MOST_CORRECTIONS - 1 else 0.0
 
 
 def _expand(s, r, order):
@@ -418,7 +311,7 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
         else:
             f[8 * MODE + lane] = IDLE
     while busy > 0:
-        _correct(s, r, f, b)
+        correct(s, r, f, b)
         stepping = 0
         for lane in range(8):
             r.accepted[lane] = 0.0

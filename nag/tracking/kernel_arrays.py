@@ -1,0 +1,179 @@
+"""A homotopy as flat arrays, and scratch beside it, as the kernels read them."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from nag.machine_code.lanes import aligned, separate
+from nag.machine_code.records import Reals, Table, Wholes, table
+from nag.tracking.compiled import CompiledRows
+from nag.tracking.homotopy import Homotopy
+
+
+class System(NamedTuple):
+    """A homotopy as flat arrays (see `nag.tracking.compiled.Tape` for blocks and slots).
+
+    The numbers say how long the arrays are. Factor ``2 p`` is a, ``2 p + 1`` is b of part ``p``.
+    If ``toric`` is 1, each part is one term, t is real, and the factor of part ``p`` is
+    ``exp(-weights[path * parts + p] t)`` instead.
+    """
+
+    N: int
+    rows: int
+    linear: int
+    groups: int
+    parts: int
+    value_products: int
+    products: int
+    value_blocks: int
+    jacobian_blocks: int
+    first: Wholes
+    second: Wholes
+    value_place: Wholes
+    value_part: Wholes
+    value_start: Wholes
+    value_slot: Wholes
+    value_re: Reals
+    value_im: Reals
+    value_real: Wholes
+    jacobian_place: Wholes
+    jacobian_part: Wholes
+    jacobian_start: Wholes
+    jacobian_slot: Wholes
+    jacobian_re: Reals
+    jacobian_im: Reals
+    jacobian_real: Wholes
+    factor_re: Reals
+    factor_im: Reals
+    moving: Wholes
+    A0_re: Reals
+    A0_im: Reals
+    A1_re: Reals
+    A1_im: Reals
+    linear_moving: Wholes
+    group_of: Wholes
+    toric: int
+    weights: Reals
+
+
+class Work(NamedTuple):
+    """Scratch vectors of one batch of lanes.
+
+    ``vr, vi``: slots; the first N are the point. ``cr, ci``: their Taylor coefficients of order 1
+    and up, one order after the other. ``dr, di``: changes of such coefficients.
+    ``jr, ji``: Jacobian, then its factors. ``br, bi``: right-hand side. ``pr, pi``: patch.
+    ``fr, fi``: the parts' factors at t; in a toric system those, and minus the weights. ``base``:
+    point and Taylor coefficients at the last accepted t, real and imaginary parts in turn.
+    ``tr``: t. ``norms``: squared norms of the two Newton corrections, then those of the Taylor
+    coefficients of order 1 and up. ``mode``: 0 in the lanes that predict. ``zr``: their steps in
+    t. ``accepted``: 1 in the lanes whose step is accepted. ``scalars, counters``: see
+    `nag.tracking.straight_run`.
+    """
+
+    vr: Reals
+    vi: Reals
+    cr: Reals
+    ci: Reals
+    dr: Reals
+    di: Reals
+    jr: Reals
+    ji: Reals
+    br: Reals
+    bi: Reals
+    pr: Reals
+    pi: Reals
+    fr: Reals
+    fi: Reals
+    pivots: Reals
+    base: Reals
+    tr: Reals
+    norms: Reals
+    mode: Reals
+    zr: Reals
+    accepted: Reals
+    scalars: Reals
+    counters: Wholes
+
+
+def _real_blocks(start: np.ndarray, coefficient: np.ndarray) -> np.ndarray:
+    imaginary = np.append(0, np.cumsum(coefficient.imag != 0))
+    return (np.diff(imaginary[start]) == 0).astype(np.int64)
+
+
+def _parts(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    array = array.ravel()
+    return np.ascontiguousarray(array.real), np.ascontiguousarray(array.imag)
+
+
+def _rows(rows: CompiledRows) -> tuple[Any, ...]:
+    """The arrays of compiled rows, in the order of `System` from ``first`` on."""
+    if "lanes" not in rows._cache:
+        tape = rows.tape
+        value, jacobian = tape.value_coefficient, tape.jacobian_coefficient
+        rows._cache["lanes"] = (
+            tape.first,
+            tape.second,
+            tape.value_place,
+            tape.value_part,
+            tape.value_start,
+            tape.value_slot,
+            *_parts(value),
+            _real_blocks(tape.value_start, value),
+            tape.jacobian_place,
+            tape.jacobian_part,
+            tape.jacobian_start,
+            tape.jacobian_slot,
+            *_parts(jacobian),
+            _real_blocks(tape.jacobian_start, jacobian),
+        )
+    return rows._cache["lanes"]
+
+
+def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
+    """The table of `System` for ``homotopy``; with ``weights``, (paths, parts), of a toric one."""
+    known = homotopy.__dict__.get("_system")
+    if known is not None and weights is None:
+        return known
+    tape = homotopy.rows.tape
+    factors = np.array(homotopy.factors, dtype=np.complex128).reshape(-1, 2)
+    moving = (factors[:, 1] != 0) | (factors[:, 0] != 1) | (weights is not None)
+    made = table(
+        System(
+            homotopy.N,
+            len(homotopy.rows),
+            len(homotopy.A0),
+            len(homotopy.groups),
+            len(factors),
+            tape.value_products,
+            len(tape.first),
+            len(tape.value_place),
+            len(tape.jacobian_place),
+            *_rows(homotopy.rows),
+            *_parts(factors),
+            moving.astype(np.int64),
+            *_parts(homotopy.A0),
+            *_parts(homotopy.A1),
+            homotopy.A1.any(axis=1).astype(np.int64),
+            homotopy.group_of,
+            int(weights is not None),
+            np.zeros(1) if weights is None else np.ascontiguousarray(weights, dtype=float).ravel(),
+        )
+    )
+    if weights is None:
+        homotopy.__dict__["_system"] = made
+    return made
+
+
+def work(homotopy: Homotopy, order: int) -> Work:
+    """Scratch vectors for ``homotopy`` and Taylor coefficients up to ``order``."""
+    N = homotopy.N
+    tape = homotopy.rows.tape
+    slots = N + 1 + len(tape.first)
+    value_slots = N + 1 + tape.value_products
+    parts = len(homotopy.factors)
+    sizes = [slots] * 2 + [order * value_slots] * 2 + [value_slots] * 2 + [N * N] * 2 + [N] * 4
+    sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, order + 2, 1, 1, 1, 8]
+    vectors = separate(aligned(sum(sizes)), sizes)
+    return Work(*vectors, np.zeros(48, np.int64))
