@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from exact_counts import zero_set
 
+import nag
 from nag.bench.atlas.families import FAMILIES, Family
 from nag.bench.atlas.linkages import bricard_violated
 from nag.bench.atlas.stability import (
@@ -60,6 +61,12 @@ def test_the_violated_cube_has_six_proved_configurations() -> None:
     assert overlaps(boxes) == ([], [])
     values = DiscPolynomials.of(system.nonzero, slices)(Discs(boxes.centres, boxes.inner))
     assert int((np.abs(values.mid) > 2 * values.rad).all(axis=1).sum()) == 6
+
+
+def test_configurations_beside_what_is_excluded_are_not_left_out_in_silence() -> None:
+    system = bricard_violated(8, np.random.default_rng(0)).system
+    answer = nag.decompose(system)
+    assert not answer.complete or len(answer.components) == 6
 
 
 def _atlas(right: int, undecided: int, wrong: int) -> Atlas:

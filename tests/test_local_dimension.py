@@ -19,6 +19,7 @@ from nag.algebra.expression import parse_number
 from nag.cli import main
 from nag.cli.witness_input import schema
 from nag.numerics.local_dimension import NoSolution
+from nag.numerics.singular_point import Place, analyse
 
 LARGE = {"DZ1", "two curves of order 40"}
 SLOW = LARGE | {n for n in MECHANISMS if n.startswith(("Bricard", "Sarrus", "Wunderlich"))}
@@ -122,6 +123,19 @@ def test_a_multiplicity_beyond_what_is_worked_out_leaves_both_bounds(monkeypatch
     found = nag.local_dimension(plain(polynomials("x y", "x^6", "y^6")), [0, 0])
     assert (found.lower, found.upper, found.isolated) == (0, 1, None)
     assert not found.decided and "grows" in found.reason
+
+
+@pytest.mark.parametrize("order", [300, 1000])
+def test_high_orders_of_contact_do_not_pass_for_curves(order: int, monkeypatch) -> None:
+    monkeypatch.setattr("nag.numerics.dual_space.MOST_FUNCTIONALS", 40)
+    system = plain(polynomials("x y", "x*y", f"x^{order} + y^{order}"))
+    assert nag.local_dimension(system, [0, 0]).lower == 0
+
+
+def test_a_smooth_curve_along_which_equations_nearly_vanish_is_no_component() -> None:
+    equations = polynomials("x y", "y - x^40", "y^20")
+    end = analyse(equations, np.zeros(2), 1e-15, np.random.default_rng(0), None)
+    assert end.place is not Place.ON_COMPONENT
 
 
 def test_a_point_that_is_no_solution_is_refused() -> None:

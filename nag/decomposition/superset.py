@@ -13,6 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.hypersurface import (
     Crossing,
@@ -20,16 +21,20 @@ from nag.decomposition.hypersurface import (
     crossing,
 )
 from nag.numerics.coincidence import clusters
+from nag.numerics.zero_values import possible_zeros
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
+from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
 # Other flags on which a doubtful intersection is tried again.
 ELSEWHERE = 1
+# Doubles are no more accurate than this, relative to the point.
+ROUNDED = 1e-15
 
 Progress = Callable[[str, int, int], None]
 
@@ -63,7 +68,7 @@ def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.nda
 def _excluded(
     nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, ends: Moved
 ) -> tuple[np.ndarray, int]:
-    """Which ends lie where a polynomial that must not vanish does; regular ones in digits.
+    """Which ends lie where a polynomial that must not vanish does, decided in digits.
 
     Also of how many of these that is not known; they are left out.
     """
@@ -77,7 +82,22 @@ def _excluded(
     for i, *answers in zip(regular, *each, strict=True):
         result[i] = True in answers or None in answers
         unclear += True not in answers and None in answers
+    for i in np.flatnonzero(result & ~ends.regular):
+        unclear += _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
     return result, unclear
+
+
+def _beside(
+    nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, z: np.ndarray, accuracy: float
+) -> bool:
+    """Whether an isolated zero that ``z`` may be lies beside what is excluded, and not on it.
+
+    Ill-conditioned zeros pass for singular ones, and may be so close to it that doubles can neither
+    tell them from it nor hold a cut that makes them regular.
+    """
+    slices, rng = padded(rows, 1 + len(z)), np.random.default_rng(0)
+    zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices)
+    return not all(any(vanish_at([g], zero.digits) for g in nonzero) for zero in zeros)
 
 
 @dataclass(frozen=True, eq=False)

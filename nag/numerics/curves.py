@@ -25,8 +25,10 @@ from nag.numerics.digits import LOG10_2, log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.series_zeros import ScaledSeries
 
-# Isolated zeros of higher multiplicity are not told from others.
-MOST_MULTIPLE = 200
+# Orders of contact that are seen: all that are possible where there are at most so many zeros,
+# else this one, or the largest degree of an equation. Isolated zeros beside which the equations
+# vanish along some curve to a higher order are not told from others.
+ALL_OF, HIGHEST_CONTACT = 1000, 200
 # Binary logarithms of distances at which a smooth set of zeros is followed, each taken twice; the
 # smaller ones where it bends too much.
 NEAR = (7, 24, 48)
@@ -41,8 +43,10 @@ DISTANCES = (5, 9, 13, 17)
 
 
 def digits_at(system: ExactSystem, k: int) -> int:
-    """Digits in which 2^-k to the power of the largest possible multiplicity is no zero."""
-    highest = min(MOST_MULTIPLE, system.most_zeros)
+    """Digits in which 2^-k to the power of the highest order of contact is no zero."""
+    highest = system.most_zeros
+    if highest > ALL_OF:
+        highest = max(HIGHEST_CONTACT, system.largest_degree)
     return max(LEAST_DIGITS, int((highest * (k + 2) * LOG10_2 + 20) / VANISHING))
 
 

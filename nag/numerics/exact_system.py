@@ -76,8 +76,16 @@ class ExactSystem:
     @cached_property
     def most_zeros(self) -> float:
         """Bezout's bound of the multiplicity of an isolated zero; 0 if none is isolated."""
-        degrees = sorted((max(sum(e) for e, _ in row) for row in self.rows), reverse=True)
+        degrees = sorted(self._degrees, reverse=True)
         return float(prod(degrees[: self.n])) if len(degrees) >= self.n else 0.0
+
+    @property
+    def largest_degree(self) -> int:
+        return max(self._degrees, default=0)
+
+    @cached_property
+    def _degrees(self) -> list[int]:
+        return [max(sum(e) for e, _ in row) for row in self.rows]
 
     def log_residual(self, y: Sequence[flint.acb], digits: int) -> float:
         """Decimal logarithm of the largest value at a point of so many digits."""
