@@ -112,6 +112,9 @@ def _axes(axes: Any, across: str, up: str, title: str) -> None:
         axes.tick_params(axis="x", which="minor", labelbottom=False)
     else:
         # Within a decade the powers of ten would leave the axis without numbers.
+        from matplotlib.ticker import LogLocator
+
+        axes.xaxis.set_minor_locator(LogLocator(subs=(2.0, 3.0, 5.0)))
         axes.xaxis.set_minor_formatter("{x:.3g}")
         axes.tick_params(axis="x", which="minor", labelsize=6.5, labelrotation=30)
 

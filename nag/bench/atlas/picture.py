@@ -65,12 +65,22 @@ def _cell(axes: Any, cell: Cell, x: float, y: float) -> None:
             left += share * room
     frame = {"fill": False, "edgecolor": "#666666", "linewidth": 0.5}
     axes.add_patch(Rectangle((x, y + 0.02), room, HEIGHT - 0.04, **frame))
-    label = str(cell.value).rpartition("/")[2][:LONGEST]
+    label = str(cell.value).rpartition("/")[2]
+    long = len(label) > LONGEST
     dark = cell.wrong > cell.answers / 2
     axes.text(
-        x + room / 2, y + HEIGHT / 2, label, fontsize=6.5, ha="center", va="center",
-        color="white" if dark else "black",
+        x + room / 2, y + HEIGHT / 2, _broken(label) if long else label, ha="center", va="center",
+        fontsize=4.5 if long else 6.5, linespacing=0.95, color="white" if dark else "black",
     )  # fmt: skip
+
+
+def _broken(label: str) -> str:
+    """A long name on two lines, broken at the hyphen that is nearest to its middle."""
+    hyphens = [i for i, c in enumerate(label) if c == "-"]
+    if not hyphens:
+        return label
+    middle = min(hyphens, key=lambda i: abs(i - len(label) / 2))
+    return f"{label[: middle + 1]}\n{label[middle + 1 :]}"
 
 
 def _patch(kind: str, x: float, y: float, width: float) -> Any:
