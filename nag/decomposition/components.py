@@ -14,7 +14,7 @@ from nag.decomposition.assembly import assembled
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.independent_parts import decompose_parts
-from nag.decomposition.isolated import contains, is_finite, solved_at_once
+from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Progress, intersection_order, witness_superset
@@ -110,7 +110,7 @@ def _decompose_whole(
                 break
     best = min(answers, key=lambda a: (not a.complete, _undecided(a), len(a.notes)))
     paths = replace(best.paths, tracked=tracked)
-    return replace(best, paths=paths, seed=seed, settings=settings)
+    return counted(replace(best, paths=paths, seed=seed, settings=settings), scheme)
 
 
 def _undecided(answer: Decomposition) -> int:
