@@ -49,7 +49,7 @@ def most_zeros(polynomials: Sequence[Polynomial], enough: int = -1) -> ZeroCount
         None where the zeros are not seen to be finitely many within `MOST_MONOMIALS`.
     """
     given = [f for f in polynomials if f]
-    if not given or not all(f.exact for f in given):
+    if not given or not all(f.exact for f in given) or not _small(given):
         return None
     space = _Quotient(given[0].n)
     found = None
@@ -64,6 +64,17 @@ def most_zeros(polynomials: Sequence[Polynomial], enough: int = -1) -> ZeroCount
         if found is not None and (found.exact or found.bound <= enough):
             return found
     return found
+
+
+def _small(polynomials: Sequence[Polynomial]) -> bool:
+    """Whether generic equations of these degrees leave finitely many zeros within the bound.
+
+    They do at Macaulay's degree, one more than the sum of the degrees less one.
+    """
+    n = polynomials[0].n
+    degrees = sorted(f.degree for f in polynomials)[:n]
+    top = sum(degrees) - len(degrees) + 1
+    return len(degrees) == n and comb(n + top, n) <= MOST_MONOMIALS
 
 
 class _Quotient:

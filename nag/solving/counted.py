@@ -22,6 +22,8 @@ from nag.tracking.paths import Paths, PathStatus
 MOST_PATHS = 2000
 # Errors of known points, in those estimated, in which another zero may not lie.
 SAFETY = 1e3
+# Binary logarithm of a size at which a zero may look infinite to the least evidence: some 1e8.
+EXTREME = 26.0
 
 
 class Verdict(Enum):
@@ -35,8 +37,8 @@ class Verdict(Enum):
 
 def counted(problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds) -> JudgedEnds:
     """The ends with the number of zeros, where paths leave a doubt that it may settle."""
-    proved = begin.complete and bool((paths.status == PathStatus.REGULAR).all())
-    if proved or problem.added or len(ends.on_components):
+    proved = bool((paths.status == PathStatus.REGULAR).all()) or ends.zeros == len(paths)
+    if (begin.complete and proved) or problem.added or len(ends.on_components):
         return ends
     return replace(ends, count=most_zeros(problem.system.polynomials, ends.zeros))
 
@@ -68,7 +70,9 @@ def with_far_zeros(
     accuracy = np.array([z.accuracy for z in ends.isolated])
     # Errors of projective points are relative to all coordinates together.
     sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
-    found = tropical_zeros(problem.equations, points, SAFETY * accuracy * sizes**2, rng)
+    # Where nothing says that zeros are missing, they are not looked for among ordinary ones.
+    least = 0.0 if verdict(ends) is Verdict.MISSING else EXTREME
+    found = tropical_zeros(problem.equations, points, SAFETY * accuracy * sizes**2, rng, least)
     return enlarged(problem, ends, found) if found else ends
 
 

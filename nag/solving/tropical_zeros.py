@@ -60,6 +60,7 @@ def tropical_zeros(
     known: np.ndarray,
     errors: np.ndarray,
     rng: np.random.Generator,
+    least: float = 0.0,
 ) -> list[TropicalZero]:
     """Zeros near those of a cell's binomials that are none of the known ones.
 
@@ -67,13 +68,14 @@ def tropical_zeros(
         polynomials: ``n`` in ``n`` variables; nothing is found if they are not rational.
         known: zeros, shape ``(k, n)``.
         errors: how far from the exact ones their coordinates may be, shape ``(k,)``.
+        least: binary logarithm of a coordinate, or of its inverse, that a zero must have.
     """
     if any(len(f.terms) < 2 or not f.exact for f in polynomials):
         return []
     found: list[TropicalZero] = []
     for logs, angles in _binomial_zeros(polynomials, rng):
         scales = np.rint(logs).astype(np.int64)
-        if np.abs(scales).max() > LARGEST:
+        if not least <= np.abs(scales).max() <= LARGEST:
             continue
         start = np.exp2(logs - scales) * np.exp(1j * angles)
         apart = _apart(start * np.exp2(scales), known, errors)
