@@ -62,9 +62,8 @@ def with_far_zeros(
     problem: SquareProblem, paths: Paths, ends: JudgedEnds, rng: np.random.Generator
 ) -> JudgedEnds:
     """The ends with simple zeros of extreme sizes that no path has reached, if any are missing."""
-    lost = paths.where(PathStatus.AT_INFINITY, PathStatus.FAILED)
     wanted = verdict(ends) in (Verdict.UNKNOWN, Verdict.MISSING)
-    if not wanted or problem.added or problem.squared or not 0 < len(lost) <= MOST_PATHS:
+    if not wanted or problem.added or problem.squared or not 0 < len(doubtful(paths)) <= MOST_PATHS:
         return ends
     points = np.array([z.point for z in ends.isolated]).reshape(-1, problem.system.n)
     accuracy = np.array([z.accuracy for z in ends.isolated])
