@@ -29,7 +29,7 @@ from nag.algebra.vanishing import Vanishing, follows
 from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import multiplicity_of_all, possible_zeros, vanishes_at_all
-from nag.solving.judged_ends import DIGITS
+from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.

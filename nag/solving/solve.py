@@ -10,8 +10,9 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.solving.branch_solutions import solve_apart
-from nag.solving.counted import Verdict, counted, doubtful, verdict, with_far_zeros
+from nag.solving.counted import Verdict, counted, doubtful, verdict
 from nag.solving.judged_ends import JudgedEnds, judged_ends
+from nag.solving.missing_zeros import with_missing_zeros
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import check_kind, choose
@@ -99,14 +100,14 @@ def _solve_whole(
         chosen, separating = ends.close, replace(named(settings), evidence=SEPARATING)
         paths = _once_more(begin, paths, chosen, separating, threads)
         ends = replace(judged_ends(problem, begin, paths, rng, finite), count=ends.count)
-    ends = with_far_zeros(problem, paths, ends, rng)
+    ends = with_missing_zeros(problem, begin, paths, ends, rng)
     if verdict(ends) in (Verdict.MISSING, Verdict.TOO_MANY):
         # An end that is not proved may be another one: what is near it, or a jump.
         chosen = doubtful(paths)
         separating = replace(tighter(named(settings)), evidence=SEPARATING)
         more = _once_more(begin, paths, chosen, separating, threads)
         again = replace(judged_ends(problem, begin, more, rng, finite), count=ends.count)
-        again = with_far_zeros(problem, more, again, rng)
+        again = with_missing_zeros(problem, begin, more, again, rng)
         if again.zeros > ends.zeros or verdict(again) is Verdict.ALL:
             paths, ends = more, again
     return _result(problem, begin, reason, paths, ends, seed, name)
