@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.one_equation import is_one_equation
+from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
 from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
@@ -49,6 +52,16 @@ def _rank_text(equations: int, rank: int, variables: int, assembled: bool) -> st
         f"{text} in {unknowns}, by exact linear algebra: every component has dimension {free} or "
         f"more{', so it moves' if assembled else ''}"
     )
+
+
+def _exact_rows(system: PolynomialSystem) -> list[tuple[str, str]]:
+    if not is_one_equation(Reduction.of(system, scaled=True)):
+        return []
+    text = (
+        "exact linear algebra leaves one equation: its factors over the complex numbers are the "
+        "components, by algebra alone, without paths"
+    )
+    return [("exact", text)]
 
 
 def _mobility_rows(
@@ -95,6 +108,8 @@ def answer_lines(
 ) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
+    if decomposition.paths.tracked == 0:
+        head[1:1] = _exact_rows(decomposition.system)
     if model is not None:
         head = _model_rows(model) + head
     if case.assembly is not None:
@@ -127,7 +142,7 @@ def answer_lines(
 def model_lines(case: Case, model: Model | None) -> list[str]:
     """The polynomial system of a case, line by line."""
     system = system_of(case, model)
-    head = [("system", system_line(system))]
+    head = [("system", system_line(system)), *_exact_rows(system)]
     if model is not None:
         head = _model_rows(model) + body_rows(model) + head
     if case.assembly is not None:
