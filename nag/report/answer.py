@@ -10,10 +10,11 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
+from nag.files.dh_case import is_table
 from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
 from nag.report.assemblies import assembly_rows, parts_rows
-from nag.report.formulations import alternative_lines, joint_lines
+from nag.report.formulations import alternative_lines, joint_lines, table_lines
 from nag.report.table import (
     component_table,
     labelled,
@@ -159,4 +160,6 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     for name, point in points_of(case, model):
         values = zip(system.variables, point, strict=True)
         lines += [printable(name), "  " + ", ".join(f"{v} = {number_text(x)}" for v, x in values)]
-    return lines if model is None else lines + joint_lines(model) + alternative_lines(model)
+    if model is not None:
+        return lines + joint_lines(model) + alternative_lines(model)
+    return lines + table_lines(case.assembly) if is_table(case) else lines
