@@ -83,9 +83,8 @@ def genus(
     if component.dimension != 1:
         raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
     reason = ""
-    for attempt in range(ATTEMPTS):
+    for attempt, tracker in enumerate(Tracker(settings, threads).attempts(ATTEMPTS)):
         rng = np.random.default_rng([seed, 9, attempt])
-        tracker = Tracker("careful" if attempt else settings, threads)
         try:
             sheets = _sheets(system, component, rng, tracker)
             values = branch_points(sheets, rng, tracker)

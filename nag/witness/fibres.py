@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,6 +14,9 @@ from nag.tracking.track import track
 from nag.witness.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on, sharpen
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
+
+# Called with a stage's name, the step reached and the number of steps.
+Progress = Callable[[str, int, int], None]
 
 # Two ends are one point when they differ by less than this, or than their errors explain.
 SAME = 1e-9
@@ -49,6 +52,14 @@ class Fibre:
     def __len__(self) -> int:
         return len(self.points)
 
+    @property
+    def ordered(self) -> Fibre:
+        """The same points by their first coordinates, however they were found."""
+        if not self.points.shape[1]:
+            return self
+        first = self.points[:, 0]
+        return replace(self, points=self.points[np.lexsort((first.imag, first.real))])
+
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
         return replace(self, points=self.points[mask])
@@ -56,10 +67,25 @@ class Fibre:
 
 @dataclass(frozen=True)
 class Tracker:
-    """How paths are to be tracked: settings, or the name of some, and number of threads."""
+    """How paths are to be tracked: settings, or the name of some, and number of threads.
+
+    ``progress`` is told how far work that takes long has got.
+    """
 
     settings: Settings | str = "default"
     threads: int = 1
+    progress: Progress | None = None
+
+    def tell(self, stage: str, done: int, total: int) -> None:
+        """Tell of the step ``done`` of ``total``; 0 if their number is not known."""
+        if self.progress is not None:
+            self.progress(stage, done, total)
+
+    def attempts(self, count: int) -> Iterator[Tracker]:
+        """How to track where paths may fail: as asked for, and then with the careful settings."""
+        yield self
+        for _ in range(count - 1):
+            yield replace(self, settings="careful")
 
 
 @dataclass(frozen=True, eq=False)
