@@ -73,10 +73,6 @@ LARGER = {
     "tracking/ends/follow.py: lines of _run": 65,
     "tracking/newton_kernel.py: lines of newton_batch": 71,
     "tracking/taylor.py: arguments of _block": 9,
-    "witness/cutting.py: arguments of _regular_subset": 8,
-    "witness/moving.py: lines of witness_at": 61,
-    "witness/real_points.py: lines of real_points_near": 64,
-    "witness/real_points.py: arguments of real_points_near": 8,
 }
 
 

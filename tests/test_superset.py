@@ -31,7 +31,7 @@ def test_what_only_the_first_equations_see_as_multiple_is_not_deflated(seed: int
     found = witness_superset(equations, 3, (), flag, rng, Tracker())
     assert not found.notes and not found.counts.failed
     assert Counter({d: sum(map(len, f)) for d, f in found.fibres.items()}) == Counter({1: 1})
-    assert all(not f.cut.levels for f in found.fibres[1])
+    assert all(not f.cut.deflated for f in found.fibres[1])
 
 
 @pytest.mark.parametrize("size", [1, 30, 1000])

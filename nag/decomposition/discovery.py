@@ -264,7 +264,7 @@ def _is_embedded(
 ) -> tuple[bool, PathCounts]:
     """Whether a set that deflation was needed for lies on one of higher dimension."""
     counts = PathCounts()
-    if not fibre.cut.levels:
+    if not fibre.cut.deflated:
         return False, counts
     for d in sorted({f.dimension for f in above}):
         higher = [f for f in above if f.dimension == d]

@@ -24,7 +24,7 @@ Signs = tuple[int, ...]
 def keeps(cut: Cut, signs: Sequence[int]) -> bool:
     """Whether a sign change carries each polynomial of a cut to itself or to its negative."""
     flipped = [i for i, s in enumerate(signs) if s < 0]
-    return not cut.levels and all(
+    return not cut.deflated and all(
         len({sum(e[i] for i in flipped) % 2 for e in f.terms}) <= 1 for f in cut.polynomials
     )
 

@@ -241,7 +241,7 @@ class _Stage:
             if candidates.unclear:
                 notes.append(f"{candidates.unclear} points may be such as are excluded")
             for fibre in candidates.fibres:
-                if fibre.cut.levels:
+                if fibre.cut.deflated:
                     fibre, doubts, used = self.own(fibre, kept, flag)
                     counts += used
                     notes += doubts

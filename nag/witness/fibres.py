@@ -11,7 +11,16 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
-from nag.witness.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on, sharpen
+from nag.witness.cutting import (
+    MOST_DEFLATIONS,
+    NEAR,
+    ON,
+    Cut,
+    Equations,
+    find_cut,
+    regular_on,
+    sharpen,
+)
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
 
@@ -59,6 +68,24 @@ class Fibre:
             return self
         first = self.points[:, 0]
         return replace(self, points=self.points[np.lexsort((first.imag, first.real))])
+
+    def lifted(self, x: np.ndarray) -> np.ndarray:
+        """A point with values of the added unknowns, to start Newton's method from.
+
+        Where the cut does not keep how it was found, the unknowns are solved for, those that each
+        step of deflation added being linear in its equations.
+        """
+        n = self.cut.n
+        if self.cut.levels or not self.cut.aux:
+            return self.cut.lift(x)
+        z = np.concatenate([x, self.points[np.linalg.norm(self.x - x, axis=1).argmin(), n:]])
+        for _ in range(MOST_DEFLATIONS):
+            slopes, values = (
+                self.cut.evaluator.jacobian(z)[:, n:],
+                self.cut.evaluator.values(z[None]),
+            )
+            z[n:] -= np.linalg.lstsq(slopes, values[0], rcond=None)[0]
+        return z
 
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
@@ -109,7 +136,8 @@ class Moved:
 
 def homogeneous(points: np.ndarray) -> np.ndarray:
     """Affine points as homogeneous ones of norm one."""
-    points = np.hstack([np.ones((len(points), 1)), points])
+    # Columns chosen by indices lie apart in memory; the tracker reads points in one piece.
+    points = np.ascontiguousarray(np.hstack([np.ones((len(points), 1)), points]))
     return points / np.linalg.norm(points, axis=1, keepdims=True)
 
 
@@ -191,9 +219,9 @@ def admit(
     """Put a singular end into the fibre whose cut makes it regular; find a cut if there is none."""
     n = len(x)
     for i, fibre in enumerate(fibres):
-        if bool(fibre.cut.levels) != deflate:
+        if fibre.cut.deflated != deflate:
             continue
-        sharpened = sharpen(fibre.cut.evaluator, rows, fibre.cut.lift(x))
+        sharpened = sharpen(fibre.cut.evaluator, rows, fibre.lifted(x))
         end, scale = sharpened.z[:n], 1 + np.linalg.norm(x)
         near = np.linalg.norm(end - x) < max(1e3 * accuracy, NEAR) * scale
         if (
