@@ -122,7 +122,7 @@ def test_a_component_meets_itself_in_itself(equations) -> None:
 def test_components_of_different_systems_meet() -> None:
     conic, line = system("x y", "x^2 + y^2 - 1"), system("x y", "x - y")
     first, second = decompose(conic).components[0], decompose(line).components[0]
-    found = intersect_components(conic, first, second, other=line)
+    found = intersect_components(conic, first, second)
     assert kinds(found) == {(0, 1): 2}
     points = np.sort_complex(np.array([c.points[0, 0] for c in found.components]))
     assert np.abs(points - [-np.sqrt(0.5), np.sqrt(0.5)]).max() < 1e-15

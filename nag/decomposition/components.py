@@ -10,15 +10,15 @@ import numpy as np
 from nag.algebra.absolute_factors import is_absolutely_irreducible
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import assembled
+from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.independent_parts import decompose_parts
 from nag.decomposition.isolated import contains, is_finite, solved_at_once
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import Progress, intersection_order, witness_superset
-from nag.witness.fibres import Tracker
+from nag.decomposition.superset import Ambient, intersection_order, witness_superset
+from nag.witness.fibres import Progress, Tracker
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, Status
@@ -64,10 +64,11 @@ def decompose(
     """
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
+    tracker = Tracker(settings, threads, progress)
 
     def whole(part: PolynomialSystem, kept: Sequence[SignedPermutation]) -> Decomposition:
         # A branch is not the scheme that was given; its multiplicities are of no interest.
-        return _decompose_whole(part, seed, threads, settings, progress, kept, part is system)
+        return _decompose_whole(part, seed, tracker, kept, part is system)
 
     def undivided(part: PolynomialSystem, kept: Sequence[SignedPermutation]) -> Decomposition:
         apart = decompose_apart(part, whole, kept, seed, threads, settings)
@@ -80,24 +81,21 @@ def decompose(
 def _decompose_whole(
     system: PolynomialSystem,
     seed: int,
-    threads: int,
-    settings: str,
-    progress: Progress | None,
+    tracker: Tracker,
     symmetries: Sequence[SignedPermutation],
     scheme: bool,
 ) -> Decomposition:
     """The components of a system as it is, by attempts with different random numbers."""
-    tracker = Tracker(settings, threads)
     rng = np.random.default_rng([seed, ATTEMPTS])
     if is_finite(Reduction.of(system, scaled=True).reduced, rng, tracker):
         points = solved_at_once(system, rng, tracker, symmetries)
         if points is not None:
-            return replace(points, seed=seed, settings=settings)
+            return replace(points, seed=seed, settings=tracker.settings)
     answers: list[Decomposition] = []
     tracked = 0
     for attempt in range(ATTEMPTS):
         rng = np.random.default_rng([seed, attempt] if attempt else seed)
-        answer = _decompose_once(system, rng, tracker, progress, symmetries, scheme)
+        answer = _decompose_once(system, rng, tracker, symmetries, scheme)
         tracked += answer.paths.tracked
         answers.append(answer)
         if answer.complete or tracked > MOST_PATHS:
@@ -110,7 +108,7 @@ def _decompose_whole(
                 break
     best = min(answers, key=lambda a: (not a.complete, _undecided(a), len(a.notes)))
     paths = replace(best.paths, tracked=tracked)
-    return replace(best, paths=paths, seed=seed, settings=settings)
+    return replace(best, paths=paths, seed=seed, settings=tracker.settings)
 
 
 def _undecided(answer: Decomposition) -> int:
@@ -121,7 +119,6 @@ def _decompose_once(
     system: PolynomialSystem,
     rng: np.random.Generator,
     tracker: Tracker,
-    progress: Progress | None,
     symmetries: Sequence[SignedPermutation],
     scheme: bool,
 ) -> Decomposition:
@@ -131,20 +128,17 @@ def _decompose_once(
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
     flag = random_rows(rng, reduced.n, reduced.n, NEARER)
-    superset = witness_superset(equations, reduced.n, reduced.nonzero, flag, rng, tracker, progress)
+    superset = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, tracker)
     notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-    found = assembled(
-        {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()},
-        reduction,
-        rng,
-        tracker,
+    known = Known(
         actions=[Action.of(g, reduction.frame) for g in symmetries if not g.is_identity],
         one=len(equations) == 1 and is_absolutely_irreducible(equations[0], rng),
         scheme=scheme,
-        progress=progress,
     )
+    points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
+    found = assembled(points, reduction, rng, tracker, known)
     return Decomposition(
         system=system,
         components=found.components,
