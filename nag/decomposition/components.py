@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +11,7 @@ from nag.algebra.absolute_factors import is_absolutely_irreducible
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
+from nag.decomposition.attempts import ATTEMPTS, least_doubtful
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.independent_parts import decompose_parts
@@ -21,11 +22,7 @@ from nag.decomposition.superset import Ambient, intersection_order, witness_supe
 from nag.witness.fibres import Progress, Tracker
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
-from nag.witness.witness import Decomposition, Status
-
-# An answer that is left open is tried again with other random numbers, if that is not too long.
-ATTEMPTS = 3
-MOST_PATHS = 20_000
+from nag.witness.witness import Decomposition
 
 
 def decompose(
@@ -86,44 +83,34 @@ def _decompose_whole(
     scheme: bool,
 ) -> Decomposition:
     """The components of a system as it is, by attempts with different random numbers."""
+    reduction = Reduction.of(system, scaled=True)
     rng = np.random.default_rng([seed, ATTEMPTS])
-    if is_finite(Reduction.of(system, scaled=True).reduced, rng, tracker):
+    if is_finite(reduction.reduced, rng, tracker):
         points = solved_at_once(system, rng, tracker, symmetries)
         if points is not None:
             return replace(points, seed=seed, settings=tracker.settings)
-    answers: list[Decomposition] = []
-    tracked = 0
-    for attempt in range(ATTEMPTS):
-        rng = np.random.default_rng([seed, attempt] if attempt else seed)
-        answer = _decompose_once(system, rng, tracker, symmetries, scheme)
-        tracked += answer.paths.tracked
-        answers.append(answer)
-        if answer.complete or tracked > MOST_PATHS:
-            break
-        if not attempt and answer.dimension <= 0:
-            points = solved_at_once(system, rng, tracker, symmetries)
-            if points is not None and contains(points, answer):
-                tracked += points.paths.tracked
-                answers.append(points)
-                break
-    best = min(answers, key=lambda a: (not a.complete, _undecided(a), len(a.notes)))
-    paths = replace(best.paths, tracked=tracked)
-    return replace(best, paths=paths, seed=seed, settings=tracker.settings)
 
+    def answers() -> Iterator[Decomposition]:
+        for attempt in range(ATTEMPTS):
+            rng = np.random.default_rng([seed, attempt] if attempt else seed)
+            answer = _decompose_once(reduction, rng, tracker, symmetries, scheme)
+            yield answer
+            if not attempt and answer.dimension <= 0:
+                points = solved_at_once(system, rng, tracker, symmetries)
+                if points is not None and contains(points, answer):
+                    yield points
 
-def _undecided(answer: Decomposition) -> int:
-    return sum(c.status is Status.UNDECIDED for c in answer.components)
+    return replace(least_doubtful(answers()), seed=seed, settings=tracker.settings)
 
 
 def _decompose_once(
-    system: PolynomialSystem,
+    reduction: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
     symmetries: Sequence[SignedPermutation],
     scheme: bool,
 ) -> Decomposition:
     """One attempt."""
-    reduction = Reduction.of(system, scaled=True)
     reduced = reduction.reduced
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
@@ -140,7 +127,7 @@ def _decompose_once(
     points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
     found = assembled(points, reduction, rng, tracker, known)
     return Decomposition(
-        system=system,
+        system=reduction.system,
         components=found.components,
         paths=superset.counts + found.counts,
         seed=0,

@@ -6,13 +6,14 @@ meet on the diagonal of their product. Neither needs the components to be differ
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
+from nag.decomposition.attempts import ATTEMPTS, least_doubtful
 from nag.decomposition.diagonal import meeting
 from nag.decomposition.factor import Factor, IntersectionError, on_flag
 from nag.decomposition.hypersurface import Sections
@@ -38,9 +39,6 @@ __all__ = [
     "intersect_equations",
     "intersect_pair",
 ]
-
-# An answer that is left open is tried again with other random numbers.
-ATTEMPTS = 3
 
 
 @dataclass(frozen=True)
@@ -192,21 +190,19 @@ def _in_common(
 def _least_doubtful(
     attempt: Callable[[np.random.Generator], Intersection], seed: int, stream: int
 ) -> Intersection:
-    """The first complete answer, slices and constants being drawn anew where doubts are left."""
-    answers: list[Intersection] = []
-    for k in range(ATTEMPTS):
-        rng = np.random.default_rng([seed, stream, k] if k else [seed, stream])
-        try:
-            answers.append(attempt(rng))
-        except IntersectionError:
-            if k + 1 == ATTEMPTS and not answers:
-                raise
-            continue
-        if answers[-1].complete:
-            break
-    best = min(answers, key=lambda a: (not a.complete, len(a.notes)))
-    tracked = sum(a.paths.tracked for a in answers)
-    return replace(best, paths=replace(best.paths, tracked=tracked), seed=seed)
+    """The answer with the fewest doubts, slices and constants being drawn anew where some are."""
+
+    def answers() -> Iterator[Intersection]:
+        found = False
+        for k in range(ATTEMPTS):
+            try:
+                yield attempt(np.random.default_rng([seed, stream, k] if k else [seed, stream]))
+                found = True
+            except IntersectionError:
+                if k + 1 == ATTEMPTS and not found:
+                    raise
+
+    return replace(least_doubtful(answers()), seed=seed)
 
 
 def _check_variables(first: PolynomialSystem, second: PolynomialSystem) -> None:
