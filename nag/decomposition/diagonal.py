@@ -21,9 +21,9 @@ from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import forbidden
-from nag.numerics.coincidence import clusters
+from nag.numerics.coincidence import clusters, coincident
 from nag.witness.cutting import NEAR, Cut, regular_on, sharpen
-from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
+from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import HIT, MISS, Membership, is_member
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import random_rows, unit_complex
@@ -160,7 +160,7 @@ def _regular(cut: Cut, rows: np.ndarray, ends: Moved, chosen: np.ndarray) -> tup
         z = ends.points[i]
         sharpened, scale = sharpen(cut.evaluator, rows, z), 1 + np.linalg.norm(z)
         near = np.linalg.norm(sharpened.z - z) < max(1e3 * ends.accuracy[i], NEAR) * scale
-        alone = (np.linalg.norm(np.vstack(points) - sharpened.z, axis=1) > SAME * scale).all()
+        alone = not coincident(np.vstack(points), sharpened.z, sharpened.step).any()
         if sharpened.converged and near and alone and regular_on(cut.evaluator, rows, sharpened):
             points.append(sharpened.z[None])
         else:
@@ -229,7 +229,7 @@ class _Diagonal:
         fibres = result.fibres[d] = []
         place = common.equations, rows, self.rng
         lost = 0
-        for cluster in clusters(x, accuracy, SAME):
+        for cluster in clusters(x, accuracy):
             best, error = x[cluster[0]], float(accuracy[cluster[0]])
             if admit(best, error, fibres, *place, deflate=False):
                 for i in cluster[1:]:

@@ -16,11 +16,11 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.hypersurface import Crossing, Sections, crossing
-from nag.numerics.coincidence import clusters
+from nag.numerics.coincidence import clusters, coincident
 from nag.numerics.zero_values import possible_zeros
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
-from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
+from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
@@ -107,10 +107,6 @@ class _Candidates:
     unclear: int
 
 
-def _near(points: np.ndarray, x: np.ndarray) -> bool:
-    return bool((np.linalg.norm(points - x, axis=1) < SAME * (1 + np.linalg.norm(x))).any())
-
-
 def _collect(
     pieces: Sequence[tuple[Cut, Moved]],
     rows: np.ndarray,
@@ -126,7 +122,11 @@ def _collect(
         excluded, doubtful = _excluded(nonzero, cut, rows, ends)
         allowed, unclear = ends.finite & ~excluded, unclear + doubtful
         # The tracker has seen that ends of one piece are distinct.
-        chosen = [i for i in np.flatnonzero(allowed & ends.regular) if not _near(seen, x[i])]
+        chosen = [
+            i
+            for i in np.flatnonzero(allowed & ends.regular)
+            if not coincident(seen, x[i], ends.accuracy[i]).any()
+        ]
         if chosen:
             seen = np.vstack([seen, x[chosen]])
             fibres.append(Fibre(cut, d, ends.points[chosen]))
@@ -134,7 +134,7 @@ def _collect(
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])
     points, accuracy = np.vstack(singular), np.concatenate(errors)
-    groups = clusters(points, accuracy, SAME)
+    groups = clusters(points, accuracy)
     several = [[(points[i], float(accuracy[i])) for i in g] for g in groups]
     return _Candidates(fibres, several, unclear)
 
@@ -240,7 +240,7 @@ class _Stage:
         mask = np.ones(len(fibre), dtype=bool)
         for i, x in enumerate(fibre.x):
             answer = Membership.FOREIGN
-            if _near(same, x):
+            if coincident(same, x, REGULAR).any():
                 answer = Membership.MEMBER
             for higher in sorted((e for e in kept if e > d), reverse=True):
                 if answer is not Membership.FOREIGN:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from nag.numerics.coincidence import coincident
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings
@@ -26,9 +27,6 @@ from nag.witness.witness import PathCounts
 
 # Called with a stage's name, the step reached and the number of steps.
 Progress = Callable[[str, int, int], None]
-
-# Two ends are one point when they differ by less than this, or than their errors explain.
-SAME = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,7 +229,7 @@ def admit(
             and equations.evaluator.residuals(end[None]).max(initial=0.0) < ON
         ):
             known = np.vstack([other.x for other in fibres])
-            if (np.linalg.norm(known - end, axis=1) > SAME * scale).all():
+            if not coincident(known, end, sharpened.step).any():
                 points = np.vstack([fibre.points, sharpened.z])
                 fibres[i] = Fibre(fibre.cut, fibre.dimension, points)
             return True

@@ -15,7 +15,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
 from nag.witness.cutting import numerical_corank
-from nag.witness.fibres import SAME, Fibre, Tracker
+from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
 from nag.witness.moving import arrival
 from nag.witness.slices import random_rows, to_slice
@@ -136,7 +136,7 @@ def _pseudo_witness(
         if there.irregular or not there.accuracy < SHARP:
             continue
         x = there.x
-        images = clusters(x[:, list(coordinates)], np.full(len(x), 1e-12), SAME)
+        images = clusters(x[:, list(coordinates)], np.full(len(x), there.accuracy))
         sizes = {len(image) for image in images}
         if len(sizes) == 1:
             return len(images), sizes.pop(), target, x

@@ -14,6 +14,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.coincidence import coincident
 from nag.witness.cutting import ON
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import descend, polish
@@ -23,8 +24,6 @@ from nag.witness.witness import WitnessSet
 STARTS = 24
 # Largest standard deviation of starting points, relative to the size of the given one.
 SPREAD = 0.5
-# Nearest points are known to about half the digits; within this, relative to size, they are one.
-SAME = 1e-6
 # Steps along the component towards the given point, the length of those that have arrived, and of
 # the last one where rounding keeps them from becoming shorter.
 MOST_STEPS = 60
@@ -88,7 +87,7 @@ def real_points_near(
     for start in _starts(near, starts, rng):
         for x, pull in _nearest_zeros(fibres, everything, start, near):
             zeros += 1
-            if (np.linalg.norm(known - x, axis=1) < SAME * (1 + np.linalg.norm(x))).any():
+            if coincident(known, x, pull if pull < ALMOST else 0.0).any():
                 continue
             answer, _ = is_member(x + 0j, 1e-12, fibres, component.slice.rows, rng, tracker)
             undecided += answer is Membership.UNDECIDED
