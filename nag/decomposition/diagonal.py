@@ -21,10 +21,10 @@ from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import forbidden
-from nag.numerics.coincidence import clusters, coincident
+from nag.numerics.coincidence import clusters, coincident, compared
 from nag.witness.cutting import NEAR, Cut, regular_on, sharpen
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
-from nag.witness.membership import HIT, MISS, Membership, is_member
+from nag.witness.membership import Membership, is_member
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
@@ -192,9 +192,9 @@ class _Diagonal:
             result.counts += ends.counts
             gaps = np.full(len(ends.points), np.inf)
             gaps[ends.finite] = product.gaps(ends.points[ends.finite])
-            here = ends.finite & (gaps < np.maximum(HIT, 1e2 * ends.accuracy))
-            away = ends.finite & ~here
-            unclear = int((gaps[away] < np.maximum(MISS, 1e4 * ends.accuracy[away])).sum())
+            on_it, doubtful = compared(gaps, ends.accuracy)
+            here, away = ends.finite & on_it, ends.finite & ~on_it
+            unclear = int(np.sum(away & doubtful))
             on.append(ends.points[here, : product.n])
             errors.append(ends.accuracy[here])
             if d > 0 and away.any():
@@ -213,7 +213,7 @@ class _Diagonal:
         """Add the pairs of isolated points that are equal."""
         accuracy = max(self.product.first.accuracy, self.product.second.accuracy)
         z = np.vstack([fibre.x for fibre in fibres])
-        near = self.product.gaps(z) < max(HIT, 1e2 * accuracy)
+        near, _ = compared(self.product.gaps(z), accuracy)
         self.take(z[near], np.full(int(near.sum()), accuracy), 0)
 
     def take(self, z: np.ndarray, accuracy: np.ndarray, d: int) -> None:

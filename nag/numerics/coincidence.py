@@ -13,6 +13,9 @@ import numpy as np
 # Estimated errors of points may be too small by this factor, and errors in doubles that are
 # smaller than LEAST, relative to the point, are not believed.
 SAFETY, LEAST = 1e2, 1e-11
+# Ends of paths that may have led to a known point: nearer than HIT they have, or than errors
+# explain; beyond MISS, and beyond so many times the errors, they have not.
+HIT, MISS, BEYOND = 1e-8, 1e-5, 1e4
 
 
 def reach(points: np.ndarray, errors: np.ndarray | float) -> np.ndarray:
@@ -51,6 +54,17 @@ def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray,
         near = np.flatnonzero(difference <= np.maximum(width[apart:], width[:-apart]))
         if len(near):
             yield order[near], order[near + apart]
+
+
+def compared(distances: np.ndarray, errors: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
+    """Which ends of paths have led to a known point, and of which that is not clear.
+
+    Args:
+        distances: from the point, relative to its size, shape ``(P,)``.
+        errors: the larger ones of the relative errors of the ends and of the point.
+    """
+    same = distances < np.maximum(HIT, SAFETY * errors)
+    return same, ~same & (distances < np.maximum(MISS, BEYOND * errors))
 
 
 def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
