@@ -21,6 +21,8 @@ from nag.machine_code.records import address
 
 LANES = 8
 ALIGNMENT = 64
+# Bytes of a vector.
+VECTOR = 8 * LANES
 
 
 def _vector(data: Any, index: int) -> np.ndarray:

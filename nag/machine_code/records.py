@@ -123,20 +123,39 @@ def table(values: Any) -> Table:
         return values
     layout = _layout(type(values))
     words = np.zeros(len(layout), dtype=np.int64)
-    doubles = words.view(np.float64)
     for k, (value, dtype) in enumerate(zip(values, layout, strict=True)):
-        if dtype is int:
-            words[k] = index(value)
-        elif dtype is bool:
-            words[k] = bool(value)
-        elif dtype is float:
-            doubles[k] = value
-        else:
-            if value.dtype != dtype or not value.flags.c_contiguous:
-                name = f"{type(values).__name__}.{values._fields[k]}"
-                raise TypeError(f"{name} is no contiguous array of {dtype.name}")
-            words[k] = address(value)
+        _put(words, k, value, dtype, values)
     return Table(words, address(words), values)
+
+
+def replaced(known: Table, **fields: Any) -> Table:
+    """The words of a table's record with other values of some ``fields``.
+
+    Raises:
+        TypeError: as `table` does.
+    """
+    values = known.record._replace(**fields)
+    layout, names = _layout(type(values)), values._fields
+    words = known.words.copy()
+    for name, value in fields.items():
+        k = names.index(name)
+        _put(words, k, value, layout[k], values)
+    return Table(words, address(words), values)
+
+
+def _put(words: np.ndarray, k: int, value: Any, dtype: Any, values: Any) -> None:
+    """Make word ``k``, of a field of ``values``."""
+    if dtype is int:
+        words[k] = index(value)
+    elif dtype is bool:
+        words[k] = bool(value)
+    elif dtype is float:
+        words.view(np.float64)[k] = value
+    else:
+        if value.dtype != dtype or not value.flags.c_contiguous:
+            name = f"{type(values).__name__}.{values._fields[k]}"
+            raise TypeError(f"{name} is no contiguous array of {dtype.name}")
+        words[k] = address(value)
 
 
 def address(array: np.ndarray) -> int:

@@ -238,34 +238,32 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
     """
     P = len(raw.points)
     points = raw.points.copy()
-    status = np.full(P, PathStatus.FAILED, dtype=np.int8)
-    accuracy = np.full(P, np.inf)
-    condition = np.full(P, np.inf)
-    reason = raw.reason.astype(np.int8)
-    regular = np.zeros(P, dtype=bool)
+    good, regular = np.zeros(P, dtype=bool), np.zeros(P, dtype=bool)
+    accuracy, condition = np.full(P, np.inf), np.full(P, np.inf)
     ended = np.flatnonzero(raw.reason == Reason.NONE)
     if len(ended):
         error = np.maximum(raw.error[ended], 1e-15)
-        sharp = refine(homotopy, None, homotopy.normalized(points[ended]))
-        steady = sharp.smallest > 0.5 * sharp.before
+        sharp = refine(homotopy, None, points[ended])
         # Newton's method proves a regular zero where its steps are far smaller than the singular
-        # values.
+        # values, which hardly change on the way.
         near = (sharp.moved <= 1e3 * error + 1e-11) | (sharp.moved <= 0.1 * sharp.smallest)
-        proved = steady & near & (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
-        points[ended] = sharp.points
-        accuracy[ended] = sharp.error
-        condition[ended] = sharp.condition
+        proved = near & (sharp.smallest > 0.5 * sharp.before)
+        proved &= (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
-        known = sizes > RESIDUAL / np.maximum(sharp.smallest, 1e-300)
-        status[ended[proved & known]] = PathStatus.REGULAR
-        regular[ended[proved]] = True
-    failed = status == PathStatus.FAILED
-    reason[failed & (reason == Reason.NONE)] = Reason.ENDGAME
-    accuracy[failed] = np.inf
-    winding = np.where(failed, 0, 1)
-    digits = np.where(failed, 16, 32).astype(np.int16)
-    paths = Paths(points, status, winding, accuracy, condition, raw.steps, digits, reason, ~failed)
-    return paths, regular
+        known = sizes * np.maximum(sharp.smallest, 1e-300) > RESIDUAL
+        points[ended] = sharp.points
+        condition[ended] = sharp.condition
+        regular[ended] = proved
+        good[ended] = proved & known
+        accuracy[ended] = np.where(proved & known, sharp.error, np.inf)
+    status = np.where(good, np.int8(PathStatus.REGULAR), np.int8(PathStatus.FAILED))
+    reason = raw.reason.astype(np.int8)
+    reason[~good & (reason == Reason.NONE)] = Reason.ENDGAME
+    digits = np.where(good, np.int16(32), np.int16(16))
+    winding = good.astype(np.int64)
+    return Paths(
+        points, status, winding, accuracy, condition, raw.steps, digits, reason, good
+    ), regular
 
 
 def _without(paths: Paths, lost: np.ndarray) -> Paths:
