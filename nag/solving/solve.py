@@ -90,7 +90,7 @@ def _solve_whole(
     if progress:
         progress("solve", 0, 1)
     begin, reason = choose(problem.target, start, system.groups, rng, threads)
-    paths = track(begin.homotopy, begin.points, settings, threads)
+    paths = track(begin.homotopy, begin.points, settings, threads, most=begin.most)
     ends = judged_ends(problem, begin, paths, rng, finite)
     if len(ends.close) and not (finite and len(ends.on_components)):
         # What looks like a multiple zero and is none may be simple ones close together.
@@ -112,7 +112,7 @@ def begin_of(
     problem = SquareProblem.of(system, [f for f in system.polynomials if f], rng)
     begin, _ = choose(problem.target, start, system.groups, rng, 1)
     started = time.perf_counter()
-    paths = track(begin.homotopy, begin.points, settings)
+    paths = track(begin.homotopy, begin.points, settings, most=begin.most)
     return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())
 
 
