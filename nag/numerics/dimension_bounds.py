@@ -14,14 +14,8 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.algebraic_point import prime_images
 from nag.numerics.curves import curve_through
-from nag.numerics.deflation import (
-    DIGITS,
-    MOST_WORK,
-    Deflated,
-    Round,
-    sharpen,
-    work,
-)
+from nag.numerics.deflation import MOST_WORK, Deflated
+from nag.numerics.descent import Round, work
 from nag.numerics.digits import doubles, middle, number, working
 from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
@@ -31,6 +25,7 @@ from nag.numerics.local_structure import HIGHEST, NUMBERS, decimal
 from nag.numerics.located_zero import Zero, is_exact, located_zero
 from nag.numerics.null_space import Field, PrimeField, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, Terms
+from nag.numerics.sharpening import DIGITS, sharpen
 
 # Degrees of the dual space from which on sets of zeros through the point are looked for, if it has
 # not become smaller for two degrees.

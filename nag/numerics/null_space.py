@@ -142,11 +142,25 @@ def _schur_complement(
 
 def _well_conditioned(block: np.ndarray) -> tuple[list[int], list[int]]:
     """Rows and columns of a block that doubles see to be regular, as large as possible."""
-    import scipy.linalg
-
-    r, columns = scipy.linalg.qr(block, mode="r", pivoting=True)
-    diagonal = np.abs(np.diag(r))
+    columns, diagonal = _pivoted(block)
     rank = max(1, int(np.sum(diagonal > 1e-8 * diagonal[0])))
-    chosen = columns[:rank]
-    _, rows = scipy.linalg.qr(block[:, chosen].T, mode="r", pivoting=True)
-    return [int(i) for i in rows[:rank]], [int(j) for j in chosen]
+    rows, _ = _pivoted(block[:, columns[:rank]].T)
+    return rows[:rank], columns[:rank]
+
+
+def _pivoted(block: np.ndarray) -> tuple[list[int], np.ndarray]:
+    """The order of the columns in a QR decomposition that always takes the longest, and lengths."""
+    rest, lengths = np.array(block, dtype=complex), []
+    order = list(range(rest.shape[1]))
+    for k in range(min(rest.shape)):
+        norms = np.linalg.norm(rest[:, k:], axis=0)
+        best = k + int(norms.argmax())
+        lengths.append(norms[best - k])
+        if not lengths[-1]:
+            break
+        order[k], order[best] = order[best], order[k]
+        rest[:, [k, best]] = rest[:, [best, k]]
+        q = rest[:, k] / lengths[-1]
+        for _ in range(2):
+            rest[:, k + 1 :] -= np.outer(q, q.conj() @ rest[:, k + 1 :])
+    return order, np.array(lengths)
