@@ -24,7 +24,9 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.intersection import intersect_equations
+from nag.decomposition.reduction import Reduction
 from nag.witness.membership import component_system
+from nag.witness.moving import orthonormal_rows
 from nag.witness.projection import ProjectionError, project
 from nag.witness.witness import PathCounts, Slice, WitnessSet
 
@@ -64,10 +66,11 @@ def rank_drop(
     Raises:
         nag.decomposition.factor.IntersectionError: if the witness points are no regular zeros.
     """
-    own = component_system(system, component)
-    n = own.n
+    reduction = Reduction.of(component_system(system, component))
+    own, frame, n = reduction.reduced, reduction.frame, reduction.n
     if component.dimension in (0, n):
         return RankDrop((), PathCounts(), ())
+    component = _restricted(component, reduction)
     product, start, conditions = _null_space_system(own, component, np.random.default_rng(seed))
     found = intersect_equations(
         product, start, conditions, seed=seed, threads=threads, settings=settings
@@ -76,7 +79,7 @@ def rank_drop(
     notes = list(found.notes)
     for one in found.components:
         if one.dimension == 0:
-            sets.append((0, one.degree, one.points[:, :n]))
+            sets.append((0, one.degree, frame.points(one.points[:, :n])))
             continue
         try:
             image = project(
@@ -85,8 +88,16 @@ def rank_drop(
         except (ProjectionError, ValueError) as reason:
             notes.append(f"a set of points of dimension {one.dimension} at most: {reason}")
             continue
-        sets.append((image.dimension, image.degree, image.points[:, :n]))
+        sets.append((image.dimension, image.degree, frame.points(image.points[:, :n])))
     return RankDrop(tuple(sets), found.paths, tuple(notes))
+
+
+def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:
+    """A component in the coordinates that linear equations leave: the ranks drop where they did."""
+    cut = component.slice
+    rows = orthonormal_rows(reduction.frame.pulled_back(cut.A, cut.b))
+    points = component.points[:, reduction.kept]
+    return replace(component, slice=Slice(rows[:, 1:], -rows[:, 0]), points=points)
 
 
 def _null_space_system(
