@@ -3,7 +3,9 @@
 With r the component's codimension, the rank of J drops at x exactly when w^T J(x) = 0 for some
 w that is not zero, where J has r rows (Theorem 7.1 of PT13 asks for the vanishing of all r x r
 minors instead). Of more equations, r random combinations are taken: their rank drops wherever that
-of all of them does, and further points are told by the rank of all.
+of all of them does, and further points are told by the rank of all. Linear equations are solved
+before, exactly: each would cost a coordinate of w. Where the minors and the equations are quickly
+proved to have no common zeros, there is nothing to look for.
 
 The pairs (x, w), w in an affine chart, are cut out of the product of the component with the space
 of w, equation by equation.
@@ -22,6 +24,7 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.smoothness import is_regular_everywhere
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.intersection import intersect_equations
 from nag.decomposition.reduction import Reduction
@@ -42,11 +45,13 @@ class RankDrop:
         sets: dimension, degree and points on a generic slice, complex, shape ``(P, n)``.
         paths: what the tracker did.
         notes: what was left open.
+        proved: whether exact algebra proves that it drops nowhere.
     """
 
     sets: tuple[tuple[int, int, np.ndarray], ...]
     paths: PathCounts
     notes: tuple[str, ...]
+    proved: bool = False
 
 
 def rank_drop(
@@ -70,6 +75,8 @@ def rank_drop(
     own, frame, n = reduction.reduced, reduction.frame, reduction.n
     if component.dimension in (0, n):
         return RankDrop((), PathCounts(), ())
+    if is_regular_everywhere(own.polynomials, n - component.dimension):
+        return RankDrop((), PathCounts(), (), proved=True)
     component = _restricted(component, reduction)
     product, start, conditions = _null_space_system(own, component, np.random.default_rng(seed))
     found = intersect_equations(
