@@ -40,7 +40,7 @@ def test_tangent_and_local_dimension_at_given_points(name: str) -> None:
 
 @pytest.mark.parametrize("name", sorted(set(MECHANISMS | SETS) - SLOW - NOT_SHARPENED))
 def test_they_are_the_same_in_other_coordinates_beside_the_point(name: str) -> None:
-    found = judged(ALL[name], seed=7)
+    found, _ = judged(ALL[name], seed=7)
     assert right(ALL[name], found) and found.decided, found.reason
 
 

@@ -107,7 +107,9 @@ def ideal(
     given = [f for f in given if f != 0]
     if not given:
         return Ideal(field, (), ())
-    found, finished = flint.fmpz_mpoly_vec(given, field.context).buchberger_naive(limits=bounds or BOUNDS)
+    found, finished = flint.fmpz_mpoly_vec(given, field.context).buchberger_naive(
+        limits=bounds or BOUNDS
+    )
     if not finished:
         raise UnfinishedBasis(f"a Groebner basis of {len(given)} polynomials grows too large")
     return Ideal(field, tuple(found.autoreduction()), tuple(given))

@@ -53,9 +53,21 @@ class PointValues:
             slopes.append((_matrix(derived, here), lowered))
         return cls(n, tuple(made.powers), tuple(made.steps), (values, places), tuple(slopes))
 
+    def _powers(self, x: Sequence[flint.acb]) -> dict[int, flint.acb]:
+        found: dict[int, flint.acb] = {}
+        variable, exponent, value = -1, 0, flint.acb(1)
+        for place in sorted(range(len(self.powers)), key=self.powers.__getitem__):
+            i, k = self.powers[place]
+            if i != variable:
+                variable, exponent, value = i, 0, flint.acb(1)
+            more = k - exponent
+            exponent, value = k, middle(value * (x[i] ** more if more > 1 else x[i]))
+            found[place] = value
+        return found
+
     def _monomials(self, x: Sequence[flint.acb]) -> list[flint.acb]:
         one = flint.acb(1)
-        powers = [middle(x[i] ** k) if k > 1 else flint.acb(x[i]) for i, k in self.powers]
+        powers = self._powers(x)
         values: list[flint.acb] = []
         for before, power in self.steps:
             factor = one if power < 0 else powers[power]
