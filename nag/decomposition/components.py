@@ -88,8 +88,9 @@ def _decompose_whole(
 ) -> Decomposition:
     """The components of a system as it is, by attempts with different random numbers."""
     tracker = Tracker(settings, threads)
+    reduction = Reduction.of(system, scaled=True)
     rng = np.random.default_rng([seed, ATTEMPTS])
-    if is_finite(Reduction.of(system, scaled=True).reduced, rng, tracker):
+    if is_finite(reduction.reduced, rng, tracker):
         points = solved_at_once(system, rng, tracker, symmetries)
         if points is not None:
             return replace(points, seed=seed, settings=settings)
@@ -97,7 +98,7 @@ def _decompose_whole(
     tracked = 0
     for attempt in range(ATTEMPTS):
         rng = np.random.default_rng([seed, attempt] if attempt else seed)
-        answer = _decompose_once(system, rng, tracker, progress, symmetries, scheme)
+        answer = _decompose_once(reduction, rng, tracker, progress, symmetries, scheme)
         tracked += answer.paths.tracked
         answers.append(answer)
         if answer.complete or tracked > MOST_PATHS:
@@ -118,7 +119,7 @@ def _undecided(answer: Decomposition) -> int:
 
 
 def _decompose_once(
-    system: PolynomialSystem,
+    reduction: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
     progress: Progress | None,
@@ -126,7 +127,6 @@ def _decompose_once(
     scheme: bool,
 ) -> Decomposition:
     """One attempt."""
-    reduction = Reduction.of(system, scaled=True)
     reduced = reduction.reduced
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
@@ -146,7 +146,7 @@ def _decompose_once(
         progress=progress,
     )
     return Decomposition(
-        system=system,
+        system=reduction.system,
         components=found.components,
         paths=superset.counts + found.counts,
         seed=0,
