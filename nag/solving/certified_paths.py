@@ -15,11 +15,20 @@ from nag.solving.solutions import SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import KINDS, choose
 from nag.solving.start.target import Start, Target
-from nag.tracking.certified_paths import ENDGAME, certified_paths, distinct, located
+from nag.tracking.certified_paths import (
+    ENDGAME,
+    CertifiedPaths,
+    Located,
+    certified_paths,
+    distinct,
+    located,
+)
 from nag.tracking.moving_discs import MovingSystem
 
 # More paths would take long.
 MOST_PATHS = 4096
+# Where solutions are missing, the other paths are followed down to these t, one after the other.
+FURTHER = (1e-12, 1e-24, 0.0)
 
 
 class PathsError(ValueError):
@@ -53,7 +62,12 @@ class ProvedPaths:
     @property
     def followed(self) -> int:
         """Number of others that are proved down to the endgame."""
-        return int(((self.reached > 0) & (self.reached <= ENDGAME)).sum())
+        return int(self.left.sum())
+
+    @property
+    def left(self) -> np.ndarray:
+        """Which paths these are, shape ``(P,)``."""
+        return (self.reached > 0) & (self.reached <= ENDGAME)
 
     @property
     def lost(self) -> int:
@@ -84,14 +98,26 @@ def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
     except OverflowError as error:
         raise PathsError(str(error)) from None
     starts = located(system, _charted(start.points, patches), 1.0)
-    paths = certified_paths(system, starts)
     known = located(system, _charted(_coordinates(problem.target, start, result), patches), 0.0)
-    ends = np.full(len(start.points), -1)
+    simple = sum(s.multiplicity == 1 for s in result.solutions)
+    paths, steps = certified_paths(system, starts), 0
+    for endgame in FURTHER:
+        ends, steps = _identified(paths, known), steps + paths.steps
+        if len(np.unique(ends[ends >= 0])) >= simple or not (paths.reached > 0).any():
+            break
+        # Solutions far out, or near infinity, are nobody's until t is very small.
+        paths = certified_paths(system, paths.ends, paths.reached, endgame)
+    return ProvedPaths(start.name, distinct(starts), paths.reached, ends, steps)
+
+
+def _identified(paths: CertifiedPaths, known: Located) -> np.ndarray:
+    """For each path that arrived which of the known zeros it ends in, -1 for none."""
+    ends = np.full(len(paths.reached), -1)
     for p in np.flatnonzero(paths.reached == 0).tolist():
         same = np.flatnonzero(paths.ends.only(np.array([p])).same(known))
         if len(same) == 1:
             ends[p] = same[0]
-    return ProvedPaths(start.name, distinct(starts), paths.reached, ends, paths.steps)
+    return ends
 
 
 def _start(

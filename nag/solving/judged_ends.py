@@ -32,7 +32,7 @@ class JudgedEnds:
     solutions: tuple[Solution, ...]
     on_components: np.ndarray
     undecided: np.ndarray
-    excluded: int
+    excluded: tuple[Solution, ...]
     notes: tuple[str, ...]
     close: np.ndarray
 
@@ -191,8 +191,8 @@ def _place(
 
 def _solutions(
     problem: SquareProblem, isolated: list[_Isolated]
-) -> tuple[tuple[Solution, ...], int, int, bool]:
-    """The solutions where nothing vanishes that must not, and how many were left out.
+) -> tuple[tuple[Solution, ...], tuple[Solution, ...], int, bool]:
+    """The solutions where nothing vanishes that must not, and those that were left out.
 
     Also of how many that is not known, and whether the conjugate of each is there.
     """
@@ -204,17 +204,17 @@ def _solutions(
     real = imaginary <= np.maximum(1e2 * accuracy, 1e-10) * sizes
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
     answers = [problem.excluded(s.point, s.accuracy, s.multiplicity > 1) for s in isolated]
-    kept = [answer is False for answer in answers]
-    solutions = tuple(
+    solutions = [
         Solution(
             point, s.multiplicity, bool(is_real), s.residual, s.accuracy, s.condition, s.precision
         )
-        for point, s, is_real, keep in zip(
-            problem.target.original(points), isolated, real, kept, strict=True
-        )
-        if keep
+        for point, s, is_real in zip(problem.target.original(points), isolated, real, strict=True)
+    ]
+    kept, left_out = (
+        tuple(s for s, answer in zip(solutions, answers, strict=True) if answer is wanted)
+        for wanted in (False, True)
     )
-    return solutions, answers.count(True), answers.count(None), paired
+    return kept, left_out, answers.count(None), paired
 
 
 def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:

@@ -186,7 +186,7 @@ def _result(
         solutions=ends.solutions,
         on_components=ends.on_components,
         undecided=ends.undecided,
-        excluded=ends.excluded,
+        excluded=len(ends.excluded),
         paths=counts,
         start=begin.name,
         reason=reason,
@@ -194,4 +194,5 @@ def _result(
         settings=settings,
         complete=complete,
         notes=tuple(notes),
+        excluded_solutions=ends.excluded,
     )

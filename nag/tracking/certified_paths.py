@@ -166,9 +166,7 @@ def certified_paths(
     return CertifiedPaths(t, at, steps, trials)
 
 
-def _corrected(
-    system: MovingSystem, x: np.ndarray, t: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _corrected(system: MovingSystem, x: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Points that Newton's method leads to, and the paths' derivatives by t there."""
     for _ in range(CORRECTIONS):
         values, slopes, _ = system.at(x, t)
@@ -269,7 +267,12 @@ def _tube(
         if k == 0:
             proved = (inner < radii).all(axis=1)
     parts = (step, (bent @ radii[..., None])[..., 0], (wide @ radii[..., None])[..., 0])
-    return _Tube(proved, inner, (rest @ radii[..., None])[..., 0], *((p / radii).max(axis=1, initial=0.0) for p in parts))
+    return _Tube(
+        proved,
+        inner,
+        (rest @ radii[..., None])[..., 0],
+        *((p / radii).max(axis=1, initial=0.0) for p in parts),
+    )
 
 
 def _applied(

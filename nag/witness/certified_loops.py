@@ -21,7 +21,7 @@ from nag.tracking.moving_discs import MovingPart, MovingSystem
 from nag.witness.fibres import Fibre
 from nag.witness.membership import component_fibres
 from nag.witness.slices import padded, random_rows, unit_complex
-from nag.witness.witness import WitnessSet
+from nag.witness.witness import Decomposition, WitnessSet
 
 # Loops that are tried until all points are connected.
 MOST_LOOPS = 12
@@ -48,9 +48,12 @@ class ProvedMonodromy:
 
 
 def prove_monodromy(
-    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator
+    system: PolynomialSystem,
+    component: WitnessSet,
+    rng: np.random.Generator,
+    most: int = MOST_LOOPS,
 ) -> ProvedMonodromy:
-    """Loops of random slices until the witness points are proved to lie on one component.
+    """At most so many random loops, until the points are proved to lie on one component.
 
     Raises:
         ValueError: if the points are not regular zeros of the system or of a deflation of it.
@@ -59,7 +62,7 @@ def prove_monodromy(
     orbits = np.arange(component.degree)
     permutations, steps = [], 0
     fibres = component_fibres(system, component) if component.degree > 1 else []
-    for _ in range(MOST_LOOPS if component.dimension else 0):
+    for _ in range(most if component.dimension else 0):
         if not orbits.any():
             break
         middle = random_rows(rng, component.dimension, system.n)
@@ -69,6 +72,18 @@ def prove_monodromy(
         permutations.append(places)
         orbits = _joined(orbits, places)
     return ProvedMonodromy(tuple(permutations), orbits, steps)
+
+
+def prove_all(decomposition: Decomposition, seed: int = 0) -> tuple[ProvedMonodromy, ...]:
+    """Loops of all components, in their order; those whose points find no equations have none."""
+    found = []
+    for k, component in enumerate(decomposition.components):
+        try:
+            rng = np.random.default_rng([seed, 19, k])
+            found.append(prove_monodromy(decomposition.system, component, rng))
+        except (ValueError, OverflowError):
+            found.append(ProvedMonodromy((), np.arange(component.degree), 0))
+    return tuple(found)
 
 
 def _joined(orbits: np.ndarray, places: np.ndarray) -> np.ndarray:
