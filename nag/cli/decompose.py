@@ -125,10 +125,10 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     lines = answer_lines(decomposition, case, model, points, seconds)
     if failure is not None:
         raise UsageError(failure, lines)
-    if not arguments.certify:
+    if not (arguments.certify or arguments.certify_paths):
         return lines, decomposition.complete
-    certificate, rows = certified(decomposition)
-    return [*lines, "", *labelled(rows)], decomposition.complete and certificate.all_proved
+    proved = certified(decomposition, arguments.certify_paths)
+    return [*lines, "", *labelled(proved.rows)], decomposition.complete and proved.all_proved
 
 
 def _unwritten(decomposition: Decomposition, json: str | None, origin: Origin) -> str | None:
@@ -159,6 +159,7 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
         "--expand": arguments.expand,
         "--method sampling": arguments.method == "sampling",
         "--certify": arguments.certify,
+        "--certify-paths": arguments.certify_paths,
     }
     if arguments.modes == "all" and any(others.values()):
         option = next(name for name, given in others.items() if given)

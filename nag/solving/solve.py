@@ -203,7 +203,7 @@ def _result(
         solutions=ends.solutions,
         on_components=ends.on_components,
         undecided=ends.undecided[:0] if seen is Verdict.ALL else ends.undecided,
-        excluded=ends.excluded,
+        excluded=len(ends.excluded),
         paths=counts,
         start=begin.name,
         reason=reason,
@@ -211,6 +211,7 @@ def _result(
         settings=settings,
         complete=complete,
         notes=tuple(notes),
+        excluded_solutions=ends.excluded,
     )
 
 
