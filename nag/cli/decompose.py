@@ -180,20 +180,20 @@ def _decomposed(
     arguments: argparse.Namespace, case: Case, model: Model | None, progress: Progress
 ) -> tuple[Case, Model | None, Decomposition]:
     """The components, and the case or the model in whose coordinates they are."""
-    from nag.decomposition import by_sampling, decompose
-    from nag.files.problem import symmetries_of, system_of
+    from nag.decomposition import by_sampling
+    from nag.files.problem import decomposed, symmetries_of, system_of
 
     options = {
         "seed": arguments.seed,
         "threads": arguments.threads,
         "settings": arguments.settings,
         "progress": progress,
-        "symmetries": symmetries_of(case, model),
     }
     if arguments.method == "sampling":
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
+        starts["symmetries"] = symmetries_of(case, model)
         return case, model, by_sampling(system_of(case, model), **options, **starts)
-    decomposition = decompose(system_of(case, model), **options)
+    decomposition = decomposed(case, model, **options)
     known = model if case.assembly is None else case.assembly
     if arguments.coordinates != "euler" or known is None or known.formulation == "E":
         return case, model, decomposition
