@@ -211,7 +211,7 @@ def _joined(
         solutions=solutions,
         on_components=on_components,
         undecided=open_points,
-        excluded=excluded,
+        excluded=len(excluded),
         paths=sum((r.paths for r in results), PathStatistics()),
         start=next((r.start for r in results if r.start != "none"), "none"),
         reason=_reason(parts, results, apart),
@@ -219,6 +219,7 @@ def _joined(
         settings=settings,
         complete=complete,
         notes=tuple(dict.fromkeys(notes)),
+        excluded_solutions=excluded,
     )
 
 
@@ -237,22 +238,22 @@ def _reason(parts: Sequence[_Part], results: Sequence[SolveResult], apart: bool)
 
 def _in_scheme(
     system: PolynomialSystem, kept: Sequence[_Found], apart: bool
-) -> tuple[tuple[Solution, ...], list[_Found], int]:
+) -> tuple[tuple[Solution, ...], list[_Found], tuple[Solution, ...]]:
     """The solutions with their multiplicities in the scheme of all equations.
 
-    Also those where that was not found, and the number of those where a polynomial vanishes that
-    must not.
+    Also those where that was not found, and those where a polynomial vanishes that must not, with
+    the multiplicities that they have in their branches.
     """
     equations = [factored(f) for f in system.polynomials if f]
     factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
     points = _points(kept, system.n)
     far = Evaluator.of(factors, system.n).residuals(points) > NONZERO
     residuals = Evaluator.of(system.polynomials, system.n).residuals(points)
-    solutions, left_open, excluded = [], [], 0
+    solutions, left_open, excluded = [], [], []
     for each, nonzero, residual in zip(kept, far, residuals, strict=True):
         forbidden = [each.vanishes(f) for f in system.nonzero]
         if any(forbidden):
-            excluded += 1
+            excluded.append(each.solution)
             continue
         multiplicity = each.solution.multiplicity
         if apart:
@@ -263,7 +264,7 @@ def _in_scheme(
             continue
         size = float(residual.max(initial=0.0))
         solutions.append(replace(each.solution, multiplicity=multiplicity, residual=size))
-    return tuple(solutions), left_open, excluded
+    return tuple(solutions), left_open, tuple(excluded)
 
 
 def _points(found: Sequence[_Found], n: int) -> np.ndarray:

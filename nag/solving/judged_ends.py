@@ -47,7 +47,7 @@ class JudgedEnds:
     """
 
     solutions: tuple[Solution, ...]
-    excluded: int
+    excluded: tuple[Solution, ...]
     notes: tuple[str, ...]
     on_components: np.ndarray
     undecided: np.ndarray
@@ -208,8 +208,8 @@ def _place(
 
 def _solutions(
     problem: SquareProblem, isolated: Sequence[IsolatedZero]
-) -> tuple[tuple[Solution, ...], int, tuple[str, ...]]:
-    """The solutions where nothing vanishes that must not, and how many were left out; notes."""
+) -> tuple[tuple[Solution, ...], tuple[Solution, ...], tuple[str, ...]]:
+    """The solutions where nothing vanishes that must not, and those that were left out; notes."""
     points = np.array([s.point for s in isolated], dtype=complex).reshape(-1, problem.system.n)
     accuracy = np.array([s.accuracy for s in isolated])
     multiplicity = np.array([s.multiplicity for s in isolated], dtype=np.int64)
@@ -218,22 +218,22 @@ def _solutions(
     real = imaginary <= np.maximum(1e2 * accuracy, 1e-10) * sizes
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
     answers = [problem.excluded(s.point, s.accuracy, s.multiplicity > 1) for s in isolated]
-    kept = [answer is False for answer in answers]
-    solutions = tuple(
+    solutions = [
         Solution(
             point, s.multiplicity, bool(is_real), s.residual, s.accuracy, s.condition, s.precision
         )
-        for point, s, is_real, keep in zip(
-            problem.target.original(points), isolated, real, kept, strict=True
-        )
-        if keep
+        for point, s, is_real in zip(problem.target.original(points), isolated, real, strict=True)
+    ]
+    kept, left_out = (
+        tuple(s for s, answer in zip(solutions, answers, strict=True) if answer is wanted)
+        for wanted in (False, True)
     )
     notes = []
     if None in answers:
         notes.append(f"{answers.count(None)} solutions may be such as are excluded")
     if not paired:
         notes.append("the conjugate of a solution is missing")
-    return solutions, answers.count(True), tuple(notes)
+    return kept, left_out, tuple(notes)
 
 
 def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:

@@ -92,7 +92,7 @@ def _solve_whole(
     if progress:
         progress("solve", 0, 1)
     begin, reason = choose(problem.target, start, system.groups, rng, threads)
-    paths = track(begin.homotopy, begin.points, settings, threads)
+    paths = track(begin.homotopy, begin.points, settings, threads, most=begin.most)
     ends = counted(problem, begin, paths, judged_ends(problem, begin, paths, rng, finite))
     unclear = len(ends.close) and not (finite and len(ends.on_components))
     if unclear and verdict(ends) is not Verdict.ALL:
@@ -131,7 +131,7 @@ def begin_of(
     problem = SquareProblem.of(system, [f for f in system.polynomials if f], rng)
     begin, _ = choose(problem.target, start, system.groups, rng, 1)
     started = time.perf_counter()
-    paths = track(begin.homotopy, begin.points, settings)
+    paths = track(begin.homotopy, begin.points, settings, most=begin.most)
     return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())
 
 
@@ -204,7 +204,7 @@ def _result(
         solutions=ends.solutions,
         on_components=ends.on_components,
         undecided=ends.undecided[:0] if seen is Verdict.ALL else ends.undecided,
-        excluded=ends.excluded,
+        excluded=len(ends.excluded),
         paths=counts,
         start=begin.name,
         reason=reason,
@@ -212,6 +212,7 @@ def _result(
         settings=settings,
         complete=complete,
         notes=tuple(notes),
+        excluded_solutions=ends.excluded,
     )
 
 
