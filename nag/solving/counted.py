@@ -38,8 +38,7 @@ def counted(problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds
 def verdict(ends: JudgedEnds) -> Verdict:
     """Whether all zeros were found.
 
-    A count of multiplicities that rest on evidence beside a bound that is proved: more than there
-    can be says that a multiplicity is wrong, or that a zero counts twice.
+    More than there can be say that a multiplicity is wrong, or that a zero counts twice.
     """
     if ends.count is None:
         return Verdict.UNKNOWN

@@ -60,14 +60,16 @@ def _known(problem: SquareProblem, ends: JudgedEnds) -> tuple[np.ndarray, np.nda
 def _at_lost_paths(
     problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds, rng: np.random.Generator
 ) -> list[IsolatedZero]:
-    """Zeros for which the last points of lost paths stand that are none of those found."""
-    lost = paths.where(PathStatus.FAILED)[:MOST_LOST]
+    """Zeros for which singular ends, and the last points of lost paths, stand, if not found."""
+    lost = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)
+    infinite = paths.points[lost][:, list(begin.homotopy.infinity)] == 0
+    lost = lost[~infinite.any(axis=1)][:MOST_LOST]
     known, errors = _known(problem, ends)
     evaluator = Evaluator.of(problem.equations, problem.system.n)
     exact: list[list[Fraction]] = []
     found = []
     for x in begin.affine(paths.points[lost]):
-        if not np.isfinite(x).all() or np.log2(np.abs(x).max()) > EXTREME:
+        if not np.abs(x).max() < 2.0**EXTREME:
             continue
         end = analyse(problem.equations, x, NEAR, rng)
         nearby = end.nearby if end.place is Place.CLUSTER else (end,)
