@@ -21,10 +21,11 @@ from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Progress, forbidden
 from nag.numerics.coincidence import clusters
-from nag.witness.cutting import NEAR, Cut, regular_on, sharpen
+from nag.witness.cutting import NEAR, Cut, regular_on
 from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
 from nag.witness.membership import HIT, MISS, Membership, is_member
 from nag.witness.moving import orthonormal_rows
+from nag.witness.sharpening import sharpen
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
 

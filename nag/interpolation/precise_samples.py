@@ -17,9 +17,10 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.digits import number
-from nag.witness.cutting import ON, Cut, Equations, find_cut, sharpen
+from nag.witness.cutting import ON, Cut, Equations, find_cut
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
+from nag.witness.sharpening import sharpen
 from nag.witness.slices import padded, random_rows, rows_through, unit_complex
 from nag.witness.witness import WitnessSet
 

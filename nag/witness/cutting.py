@@ -17,6 +17,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import CompiledRows, compile_rows
+from nag.witness.sharpening import Sharpened, sharpen
 from nag.witness.slices import padded
 
 # A value relative to the size of its terms: zeros lie below 2.5e-13 at sharpened points, others
@@ -36,10 +37,6 @@ MOST_UNKNOWNS = 80
 MOST_TERMS = 100_000
 # A random choice of null vectors may be an unlucky one.
 ATTEMPTS = 3
-# Gradients below this, relative to what their degree lets them have, are not scaled up further.
-FLAT = 1e-4
-# Newton's method from the end point of a path must arrive within this many steps.
-NEWTON_STEPS = 12
 # Rows of larger matrices are chosen by LAPACK, which takes longer to load than smaller ones take.
 MOST_ENTRIES = 2000
 
@@ -105,54 +102,6 @@ class Cut:
         """The cut with one more equation, given in the system's variables."""
         lifted = f.with_variables(self.n + self.aux, range(self.n))
         return Cut(self.n, self.aux, (*self.polynomials, lifted), self.levels)
-
-
-@dataclass(frozen=True)
-class Sharpened:
-    """What Newton's method made of a point: ``z`` affine, the size of the last step, success."""
-
-    z: np.ndarray
-    step: float
-    converged: bool
-
-
-def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
-    """Gauss-Newton for ``evaluator`` and the slice ``rows`` from the affine point ``z``.
-
-    It succeeds when the steps shrink to rounding at once and the residuals vanish with them, as
-    they do near a regular zero and nowhere else.
-    """
-    a = padded(rows, 1 + len(z))
-    step, slow, floor = np.inf, 0, 1e-10
-    for _ in range(NEWTON_STEPS):
-        values = evaluator.values(z[None])[0]
-        jacobian = evaluator.jacobian(z)
-        matrix = np.vstack([jacobian, a[:, 1:]])
-        right = np.concatenate([values, a[:, 0] + a[:, 1:] @ z])
-        weights = 1 / np.maximum(np.linalg.norm(matrix, axis=1), _floors(evaluator, z, len(a)))
-        delta, _, _, s = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=1e-14)
-        z = z - delta
-        if len(s) and s[-1] > 0:
-            floor = min(max(1e-10, 1e2 * np.finfo(float).eps * s[0] / s[-1]), 1e-8)
-        last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
-        # Rounding alone keeps the steps at a badly conditioned point from shrinking further.
-        if step < 1e-14 or (step < floor and step > 0.25 * last):
-            break
-        slow += step > 0.25 * last
-        if not np.isfinite(step) or slow > 2:
-            return Sharpened(z, np.inf, False)
-    residual = float(evaluator.residuals(z[None]).max(initial=0.0))
-    return Sharpened(z, step, bool(step < floor) and residual < 1e-11)
-
-
-def _floors(evaluator: Evaluator, z: np.ndarray, slices: int) -> np.ndarray:
-    """Least sizes that gradients are scaled by.
-
-    A gradient that vanishes at the solution (that of a square, say) is rounding error near it;
-    scaled to length one it would outvote the equations that determine the point.
-    """
-    size = max(1.0, float(np.abs(z).max(initial=1.0)))
-    return np.concatenate([FLAT * size ** (evaluator.degrees - 1.0), np.full(slices, 1e-300)])
 
 
 def numerical_corank(singular: np.ndarray, columns: int, small: float) -> int:

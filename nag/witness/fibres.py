@@ -11,7 +11,8 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
-from nag.witness.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on, sharpen
+from nag.witness.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on
+from nag.witness.sharpening import sharpen
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
 

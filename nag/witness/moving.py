@@ -8,9 +8,10 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.witness.cutting import ON, sharpen
+from nag.witness.cutting import ON
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
+from nag.witness.sharpening import sharpen
 from nag.witness.slices import to_slice, unit_complex
 from nag.witness.witness import Slice, WitnessSet
 
