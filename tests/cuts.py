@@ -7,9 +7,8 @@ from systems import system
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.witness.cutting import Cut
+from nag.witness.cutting import Cut, sharpen
 from nag.witness.fibres import Fibre
-from nag.witness.sharpening import sharpen
 
 
 def curve(equation: str) -> Polynomial:

@@ -10,12 +10,11 @@ import numpy as np
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.witness.confirm import confirmed
-from nag.witness.cutting import ON, Equations, numerical_corank
+from nag.witness.cutting import ON, Equations, numerical_corank, sharpen_all
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
 from nag.witness.points import Points
-from nag.witness.sharpening import sharpen_all
 from nag.witness.slices import complex_normal, unit_complex
 from nag.witness.witness import PathCounts, Status, WitnessSet
 
@@ -110,7 +109,7 @@ def checked_witness_set(
     y = np.vstack([fibre.x for fibre in chosen])
     x, accuracy = frame.points(y), frame.error(y, accuracy)
     residual = float(reduction.original.residuals(x).max(initial=0.0))
-    coranks = _coranks(reduced, rows, y, not chosen[0].cut.levels, rng)
+    coranks = _coranks(reduced, rows, y, not chosen[0].cut.deflated, rng)
     reasons = [found.reason] if found.reason else []
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
@@ -122,7 +121,7 @@ def checked_witness_set(
     if scheme and not multiple:
         nearest = y[np.linalg.norm(y, axis=1).argmin()]
         multiple = multiplicity(reduced.polynomials, rows, nearest, rng)
-    if scheme and coranks[0] != d and not chosen[0].cut.levels:
+    if scheme and coranks[0] != d and not chosen[0].cut.deflated:
         reasons.append("its points are regular and singular at once: zeros too close")
     if scheme and multiple == 0:
         reasons.append("its multiplicity was not found")

@@ -52,7 +52,8 @@ ends.linear_algebra   1e-6     What a correction leaves of a coordinate that it 
 .GONE                          along the whole path.
 solve.ON *            1e-9     Residual of the equations, relative to their terms, at a solution: a
                                zero of some combinations of the equations only is larger.
-clusters.SAME         1e-8     Distance of ends that are looked at together: no decision, as what is
-                               one and what is several is seen in 150 digits (`nag.numerics`).
+coincidence.LEAST     1e-11    Least relative error of ends in doubles; those within a hundred times
+                               their errors are looked at together: no decision, as what is one and
+                               what is several is seen in 150 digits (`nag.numerics`).
 ====================  =======  =====================================================================
 """
