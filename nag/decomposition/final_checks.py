@@ -10,7 +10,7 @@ import numpy as np
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.witness.confirm import confirmed
-from nag.witness.cutting import ON, Equations, numerical_corank, sharpen
+from nag.witness.cutting import ON, Equations, numerical_corank, sharpen_all
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
@@ -79,7 +79,7 @@ def _sharpened(fibres: Sequence[Fibre], rows: np.ndarray) -> tuple[list[Fibre], 
     """Points to rounding, in an order that does not depend on how they were found."""
     result, largest = [], float(np.finfo(float).eps)
     for fibre in fibres:
-        ends = [sharpen(fibre.cut.evaluator, rows, z) for z in fibre.points]
+        ends = sharpen_all(fibre.cut.evaluator, rows, fibre.points)
         largest = max([largest, *(s.step if np.isfinite(s.step) else np.inf for s in ends)])
         points = np.array([s.z for s in ends])
         if points.shape[1]:
