@@ -64,7 +64,6 @@ LARGER = {
     "decomposition/diagonal.py: arguments of _take": 9,
     "decomposition/discovery.py: lines of by_sampling": 110,
     "decomposition/discovery.py: arguments of regular_on_flag": 9,
-    "decomposition/final_checks.py: lines of checked_witness_set": 62,
     "decomposition/intersection.py: arguments of intersect_components": 8,
     "decomposition/intersection.py: lines of intersect_equations": 62,
     "decomposition/superset.py: lines of witness_superset": 67,
@@ -74,7 +73,6 @@ LARGER = {
     "tracking/newton_kernel.py: lines of newton_batch": 71,
     "tracking/taylor.py: arguments of _block": 9,
     "witness/cutting.py: arguments of _regular_subset": 8,
-    "witness/moving.py: lines of witness_at": 61,
     "witness/real_points.py: lines of real_points_near": 64,
     "witness/real_points.py: arguments of real_points_near": 8,
 }

@@ -10,13 +10,14 @@ import numpy as np
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.witness.confirm import confirmed
-from nag.witness.cutting import ON, Equations, numerical_corank, sharpen
+from nag.witness.cutting import ON, Equations, numerical_corank
+from nag.witness.error_radii import Sharp, framed, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
 from nag.witness.points import Points
 from nag.witness.slices import complex_normal, unit_complex
-from nag.witness.witness import PathCounts, Status, WitnessSet
+from nag.witness.witness import PathCounts, Slice, Status, WitnessSet
 
 # Multidegrees are counted only where so many choices of groups are enough.
 MOST_MULTIDEGREES = 100
@@ -75,17 +76,27 @@ def _coranks(
     return result
 
 
-def _sharpened(fibres: Sequence[Fibre], rows: np.ndarray) -> tuple[list[Fibre], float]:
-    """Points to rounding, in an order that does not depend on how they were found."""
-    result, largest = [], float(np.finfo(float).eps)
-    for fibre in fibres:
-        ends = [sharpen(fibre.cut.evaluator, rows, z) for z in fibre.points]
-        largest = max([largest, *(s.step if np.isfinite(s.step) else np.inf for s in ends)])
-        points = np.array([s.z for s in ends])
-        if points.shape[1]:
-            points = points[np.lexsort((points.imag[:, 0], points.real[:, 0]))]
-        result.append(Fibre(fibre.cut, fibre.dimension, points))
-    return result, largest
+def _in_original(
+    chosen: Sequence[Sharp], rows: np.ndarray, reduction: Reduction
+) -> tuple[list[Sharp], Slice]:
+    """Points in the original coordinates, and their slice.
+
+    A slice of scaled coordinates is rounded on its way to the original ones, and the points on it
+    are found anew.
+    """
+    frame, cut = reduction.frame, reduction.frame.slice(rows)
+    lifted = [_lifted(each.fibre, reduction) for each in chosen]
+    if (frame.scales != 1).any():
+        return [sharpened(fibre, cut.rows) for fibre in lifted], cut
+    radii = [framed(frame, each.fibre.x, each.radii) for each in chosen]
+    whole = zip(lifted, radii, chosen, strict=True)
+    return [Sharp(fibre, r, each.digits) for fibre, r, each in whole], cut
+
+
+def _lifted(fibre: Fibre, reduction: Reduction) -> Fibre:
+    """A fibre in the original coordinates."""
+    points = np.hstack([reduction.frame.points(fibre.x), fibre.points[:, fibre.cut.n :]])
+    return Fibre(reduction.lifted(fibre.cut), fibre.dimension, points)
 
 
 def checked_witness_set(
@@ -105,9 +116,11 @@ def checked_witness_set(
     reduced, frame, groups = reduction.equations, reduction.frame, reduction.system.groups
     chosen, _ = points.fibres(found.indices)
     first = chosen[0].points[0]
-    chosen, accuracy = _sharpened(chosen, rows)
+    sharp = [in_order(sharpened(fibre, rows)) for fibre in chosen]
+    chosen = [each.fibre for each in sharp]
     y = np.vstack([fibre.x for fibre in chosen])
-    x, accuracy = frame.points(y), frame.error(y, accuracy)
+    lifted, cut = _in_original(sharp, rows, reduction)
+    x = np.vstack([each.fibre.x for each in lifted])
     residual = float(reduction.original.residuals(x).max(initial=0.0))
     coranks = _coranks(reduced, rows, y, not chosen[0].cut.levels, rng)
     reasons = [found.reason] if found.reason else []
@@ -130,23 +143,17 @@ def checked_witness_set(
         multidegree, counts = _multidegree(chosen, rows, groups, frame, rng, tracker)
     return (
         WitnessSet(
-            slice=frame.slice(rows),
+            slice=cut,
             points=x,
             multiplicity=multiple,
             status=Status.UNDECIDED if reasons else Status.IRREDUCIBLE,
             residual=residual,
-            accuracy=accuracy,
+            radii=np.vstack([each.radii for each in lifted]),
+            digits=np.concatenate([each.digits for each in lifted]),
             corank=coranks[0],
             multidegree=multidegree,
             note="; ".join(reasons),
-            fibres=tuple(
-                Fibre(
-                    reduction.lifted(fibre.cut),
-                    d,
-                    np.hstack([frame.points(fibre.x), fibre.points[:, fibre.cut.n :]]),
-                )
-                for fibre in chosen
-            ),
+            fibres=tuple(each.fibre for each in lifted),
         ),
         counts,
     )

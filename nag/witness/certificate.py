@@ -87,8 +87,7 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
     for component in decomposition.components:
         rows = component.slice.rows
         singular = np.full(component.degree, component.corank > component.dimension)
-        accuracy = np.full(component.degree, component.accuracy)
-        points = certify_points(equations, rows, component.points, accuracy, singular)
+        points = certify_points(equations, rows, component.points, component.errors, singular)
         same, unknown = overlaps(points.boxes)
         certificates.append(ComponentCertificate(component, points, not same and not unknown))
         key = component.dimension, _signature(equations, points)

@@ -36,11 +36,13 @@ class ExactPoints:
         bits: the unit is ``2 ** -bits``.
         radii: estimated errors of the coordinates, the largest of each point; inf where Newton's
             method did not converge, shape ``(P,)``.
+        balls: which points were found in balls, not in double-double, shape ``(P,)``.
     """
 
     values: np.ndarray
     bits: int
     radii: np.ndarray
+    balls: np.ndarray
 
 
 def bits_of(digits: int) -> int:
@@ -60,9 +62,10 @@ def exact_points(fibre: Fibre, rows: np.ndarray, digits: int) -> ExactPoints:
     radii = np.full(len(fibre), np.inf)
     if digits <= DOUBLE_DOUBLE:
         values, radii = _twice(fibre, rows, bits)
-    for i in np.flatnonzero(~np.isfinite(radii)):
+    balls = ~np.isfinite(radii)
+    for i in np.flatnonzero(balls):
         values[i], radii[i] = _in_balls(fibre.cut, rows, fibre.points[i], digits, bits)
-    return ExactPoints(values, bits, radii)
+    return ExactPoints(values, bits, radii, balls)
 
 
 def _twice(fibre: Fibre, rows: np.ndarray, bits: int) -> tuple[np.ndarray, np.ndarray]:

@@ -20,7 +20,10 @@ def image(component: WitnessSet, symmetry: SignedPermutation) -> WitnessSet:
     cut = Slice(symmetry.of_point(component.slice.A), component.slice.b)
     points = symmetry.of_point(component.points)
     fibres = tuple(_image(fibre, symmetry) for fibre in component.fibres)
-    return replace(component, slice=cut, points=points, orbit=1, images=(), fibres=fibres)
+    radii = np.abs(symmetry.of_point(component.radii))
+    return replace(
+        component, slice=cut, points=points, radii=radii, orbit=1, images=(), fibres=fibres
+    )
 
 
 def _image(fibre: Fibre, symmetry: SignedPermutation) -> Fibre:

@@ -9,6 +9,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.witness.cutting import ON, sharpen
+from nag.witness.error_radii import in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
 from nag.witness.slices import to_slice, unit_complex
@@ -82,28 +83,27 @@ def witness_at(
     for attempt in range(ATTEMPTS):
         tracker = Tracker("careful" if attempt else settings, threads)
         gamma = complex(unit_complex(rng))
-        found, accuracy, infinite, irregular = [], np.finfo(float).eps, 0, 0
+        found, infinite, irregular = [], 0, 0
         for fibre in fibres:
             ends = move(fibre, rows, goal, gamma, tracker, endgame=True)
             infinite += ends.counts.at_infinity
             irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-            z, step = sharpened_ends(fibre, goal, ends.points[ends.regular])
-            if system.n:
-                z = z[np.lexsort((z.imag[:, 0], z.real[:, 0]))]
-            found.append(Fibre(fibre.cut, component.dimension, z))
-            accuracy = max(accuracy, step)
-        points = np.vstack([fibre.x for fibre in found])
+            there = Fibre(fibre.cut, component.dimension, ends.points[ends.regular])
+            found.append(in_order(sharpened(there, goal)))
+        points = np.vstack([sharp.fibre.x for sharp in found])
+        radii = np.vstack([sharp.radii for sharp in found])
         residual = float(
             Evaluator.of(system.polynomials, system.n).residuals(points).max(initial=0.0)
         )
-        if len(points) == component.degree and np.isfinite(accuracy) and residual < ON:
+        if len(points) == component.degree and np.isfinite(radii).all() and residual < ON:
             return replace(
                 component,
                 slice=to_slice(goal),
                 points=points,
                 residual=residual,
-                accuracy=accuracy,
-                fibres=tuple(found),
+                radii=radii,
+                digits=np.concatenate([sharp.digits for sharp in found]),
+                fibres=tuple(sharp.fibre for sharp in found),
             )
         lost = (
             f"of the {component.degree} points of the component, the slice meets {infinite} at "

@@ -9,9 +9,9 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.witness.cutting import ON
-from nag.witness.fibres import Tracker, move
+from nag.witness.error_radii import sharpened
+from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
-from nag.witness.moving import sharpened_ends
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import WitnessSet
 
@@ -25,7 +25,7 @@ class Samples:
     Attributes:
         points: complex, shape ``(count, n)``.
         residual: largest relative residual of the equations at the points.
-        accuracy: largest estimated relative error of a point.
+        accuracy: largest relative error of a point, by its radii (`nag.witness.error_radii`).
     """
 
     points: np.ndarray
@@ -78,10 +78,11 @@ def sample(
                 tracker = Tracker("careful" if attempt else settings, threads)
                 moved = move(one, rows, target, gamma, tracker)
                 ends = moved.points[moved.regular]
-            z, step = sharpened_ends(fibre, target, ends)
-            x = z[:, :n]
-            if len(x) and step < 1e-10 and evaluator.residuals(x).max(initial=0.0) < ON:
-                points[k], accuracy = x[0], max(accuracy, step)
+            found = sharpened(Fibre(fibre.cut, d, ends), target)
+            x, size = found.fibre.x, 1 + np.linalg.norm(found.fibre.x, axis=1)
+            error = (np.linalg.norm(found.radii, axis=1) / size).max(initial=0.0)
+            if len(x) and error < 1e-10 and evaluator.residuals(x).max(initial=0.0) < ON:
+                points[k], accuracy = x[0], max(accuracy, float(error))
                 break
         else:
             some = _samples(evaluator, points[:k], accuracy)
