@@ -2,9 +2,12 @@
 
     python tests/many_seeds.py --seeds 0:1000 [--case NAME ...] [--folder literature ...]
         [--below SECONDS] [--journal FILE] [--formulation E|H] [--symmetric] [--threads N]
+        [--changed]
 
-Prints one line a case and the totals. With a journal, a run that was cut off goes on where it
-stopped. Exit status 1 if any answer differs from what the case file knows, or is incomplete.
+Prints one line a case and the totals. With `--changed`, every seed decomposes the case in other
+coordinates, with other equations (see `changed_system`); multidegrees are those of the old ones.
+With a journal, a run that was cut off goes on where it stopped. Exit status 1 if any answer
+differs from what the case file knows, or is incomplete.
 """
 
 from __future__ import annotations
@@ -14,8 +17,11 @@ import json
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+
+import numpy as np
+from changed_system import changed
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -77,6 +83,13 @@ def subject(path: Path, formulation: str | None, symmetric: bool) -> Subject:
     return Subject(name, system, tuple(case.truth), formulation, symmetries)
 
 
+def moved(of: Subject, seed: int) -> Subject:
+    """The same zero set in coordinates in which nothing is known of its multidegrees."""
+    system = changed(of.system, np.random.default_rng(seed))
+    truth = tuple(replace(t, multidegree=None) for t in of.truth)
+    return replace(of, system=system, truth=truth)
+
+
 def decomposed(of: Subject, seed: int, threads: int, settings: str) -> Result:
     """Decompose once and compare."""
     begin = time.process_time()
@@ -122,7 +135,8 @@ def run(
     for k, seed in enumerate(seeds):
         result = known.get((of.name, seed))
         if result is None:
-            result = decomposed(of, seed, options.threads, options.settings)
+            one = moved(of, seed) if options.changed else of
+            result = decomposed(one, seed, options.threads, options.settings)
             if options.journal is not None:
                 with options.journal.open("a") as file:
                     file.write(json.dumps(asdict(result)) + "\n")
@@ -157,6 +171,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--below", type=float, help="pass over cases that take more seconds a seed")
     parser.add_argument("--journal", type=Path, help="file that keeps the results of every seed")
     parser.add_argument("--symmetric", action="store_true", help="use the systems' symmetries")
+    parser.add_argument("--changed", action="store_true", help="change coordinates and equations")
     parser.add_argument("--formulation", choices=["E", "H"])
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--settings", default="default")
