@@ -59,15 +59,19 @@ def _multidegree(
 
 
 def _coranks(
-    equations: Equations, rows: np.ndarray, x: np.ndarray, regular: bool, rng: np.random.Generator
+    equations: Equations, rows: np.ndarray, fibre: Fibre, rng: np.random.Generator
 ) -> list[int]:
-    """Coranks of the Jacobian at points on the slice ``rows``, shape ``(P, n)``.
+    """Coranks of the Jacobian at the points of a fibre on the slice ``rows``.
 
-    Where the slice cuts the component in ``regular`` points, and doubles say otherwise, as they do
-    where coordinates differ much in size, digits decide.
+    Where the equations cut the component in regular points, and doubles say otherwise, as they do
+    where coordinates differ much in size, digits decide; of points that are close to others, they
+    have.
     """
-    d, result = len(rows), []
-    for point in x:
+    d, result, regular = len(rows), [], not fibre.cut.levels
+    for i, point in enumerate(fibre.x):
+        if regular and i in fibre.fine:
+            result.append(d)
+            continue
         s = np.linalg.svd(equations.evaluator.balanced_jacobian(point), compute_uv=False)
         corank = numerical_corank(s, len(point), 1e-9)
         if regular and corank != d and multiplicity(equations.polynomials, rows, point, rng) == 1:
@@ -82,9 +86,10 @@ def _in_original(
     """Points in the original coordinates, and their slice.
 
     A slice of scaled coordinates is rounded on its way to the original ones, and the points on it
-    are found anew.
+    are found anew; where points are close to each other, it is taken over exactly.
     """
-    frame, cut = reduction.frame, reduction.frame.slice(rows)
+    frame, close = reduction.frame, any(each.fibre.fine for each in chosen)
+    cut = frame.slice(rows, orthonormal=not close)
     lifted = [_lifted(each.fibre, reduction) for each in chosen]
     if (frame.scales != 1).any():
         return [sharpened(fibre, cut.rows) for fibre in lifted], cut
@@ -96,7 +101,8 @@ def _in_original(
 def _lifted(fibre: Fibre, reduction: Reduction) -> Fibre:
     """A fibre in the original coordinates."""
     points = np.hstack([reduction.frame.points(fibre.x), fibre.points[:, fibre.cut.n :]])
-    return Fibre(reduction.lifted(fibre.cut), fibre.dimension, points)
+    fine = {i: reduction.lifted_fine(each) for i, each in fibre.fine.items()}
+    return Fibre(reduction.lifted(fibre.cut), fibre.dimension, points, fine)
 
 
 def checked_witness_set(
@@ -115,18 +121,18 @@ def checked_witness_set(
     rows, d, counts = points.rows, points.dimension, PathCounts()
     reduced, frame, groups = reduction.equations, reduction.frame, reduction.system.groups
     chosen, _ = points.fibres(found.indices)
-    first = chosen[0].points[0]
+    first = chosen[0].points[0], chosen[0].fine.get(0)
     sharp = [in_order(sharpened(fibre, rows)) for fibre in chosen]
     chosen = [each.fibre for each in sharp]
     y = np.vstack([fibre.x for fibre in chosen])
     lifted, cut = _in_original(sharp, rows, reduction)
     x = np.vstack([each.fibre.x for each in lifted])
     residual = float(reduction.original.residuals(x).max(initial=0.0))
-    coranks = _coranks(reduced, rows, y, not chosen[0].cut.levels, rng)
+    coranks = [k for fibre in chosen for k in _coranks(reduced, rows, fibre, rng)]
     reasons = [found.reason] if found.reason else []
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
-    if not confirmed(chosen[0].cut, reduced.polynomials, rows, first):
+    if not confirmed(chosen[0].cut, reduced.polynomials, rows, *first):
         reasons.append("a point does not satisfy all equations in 100 digits: zeros too close")
     if len(set(coranks)) > 1:
         reasons.append("the corank of the Jacobian differs between its points")

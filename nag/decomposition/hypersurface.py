@@ -102,7 +102,7 @@ def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracke
     ends: dict[int, list[tuple[Cut, Moved]]] = {}
     for d in sorted(sections.fibres, reverse=True):
         for fibre in sections.fibres[d]:
-            found = vanishing(fibre.cut, f, sections.flag[:d], fibre.points)
+            found = vanishing(fibre.cut, f, sections.flag[:d], fibre.points, fibre.fine)
             # A point where that is left open is found out by the final checks.
             on = np.array([there is not False for there in found], dtype=bool)
             if on.any():

@@ -135,7 +135,7 @@ def _collect(
         chosen = [i for i in np.flatnonzero(allowed & ends.regular) if not _near(seen, x[i])]
         if chosen:
             seen = np.vstack([seen, x[chosen]])
-            fibres.append(Fibre(cut, d, ends.points[chosen]))
+            fibres.append(ends.fibre(cut, d, chosen))
         rest = allowed & ~ends.regular
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])

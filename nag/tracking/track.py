@@ -73,7 +73,7 @@ def track(
             return paths
         chosen = tighter(chosen)
         paths = merged(paths, _attempt(homotopy, starts[jumped], chosen, threads, endgame), jumped)
-    return _without(paths, collisions(homotopy, paths)) if distinct else paths
+    return without(paths, collisions(homotopy, paths)) if distinct else paths
 
 
 def track_regular(
@@ -141,7 +141,7 @@ def _attempt(
         threads,
     )
     if not endgame:
-        new = _without(new, new.where(PathStatus.SINGULAR))
+        new = without(new, new.where(PathStatus.SINGULAR))
     return merged(paths, new, doubtful)
 
 
@@ -236,7 +236,7 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
     return paths, regular
 
 
-def _without(paths: Paths, lost: np.ndarray) -> Paths:
+def without(paths: Paths, lost: np.ndarray) -> Paths:
     """The same, with the paths at ``lost`` failed."""
     status, reason = paths.status.copy(), paths.reason.copy()
     status[lost], reason[lost] = PathStatus.FAILED, Reason.ENDGAME

@@ -7,10 +7,11 @@ known to the digits of that arithmetic; what Newton's method leaves there comes 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nag.witness.close_points import chosen
 from nag.witness.cutting import sharpen
 from nag.witness.exact_points import ExactPoints, exact_points, fixed
 from nag.witness.fibres import Fibre
@@ -48,12 +49,15 @@ def sharpened(fibre: Fibre, rows: np.ndarray) -> Sharp:
     points = np.array(fibre.points)
     steps = np.full(len(points), np.inf)
     for i, z in enumerate(points):
-        if known[i] and not fibre.cut.aux:
+        if known[i] and i in fibre.fine:
+            points[i] = fibre.fine[i].rounded
+            points[i, : fibre.cut.n] = _rounded(exact, i)
+        elif known[i] and not fibre.cut.aux:
             points[i] = _rounded(exact, i)
         else:
             ends = sharpen(fibre.cut.evaluator, rows, z)
             points[i], steps[i] = ends.z, ends.step if ends.converged else np.inf
-    fibre = Fibre(fibre.cut, fibre.dimension, points)
+    fibre = replace(fibre, points=points)
     radii, digits = _radii(fibre, exact)
     rough = CORRECTION * np.maximum(steps, EPS) * (1 + np.linalg.norm(points, axis=1))
     radii[~known] = rough[~known, None]
@@ -66,7 +70,8 @@ def in_order(found: Sharp) -> Sharp:
     if not points.shape[1]:
         return found
     order = np.lexsort((points.imag[:, 0], points.real[:, 0]))
-    fibre = Fibre(found.fibre.cut, found.fibre.dimension, points[order])
+    fine = chosen(found.fibre.fine, order)
+    fibre = replace(found.fibre, points=points[order], fine=fine)
     return Sharp(fibre, found.radii[order], found.digits[order])
 
 

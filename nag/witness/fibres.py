@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
+from nag.witness.close_points import WORDS, Fine, affine_fine, chosen, close_pairs, distance
 from nag.witness.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on, sharpen
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
 
 # Two ends are one point when they differ by less than this, or than their errors explain.
 SAME = 1e-9
+# Newton's constant of points that are close, over their inverse distance.
+STEEPER = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,11 +28,13 @@ class Fibre:
 
     Attributes:
         points: complex, shape ``(P, n + aux)``, affine.
+        fine: more digits of points that are close to others, by their indices.
     """
 
     cut: Cut
     dimension: int
     points: np.ndarray
+    fine: Mapping[int, Fine] = field(default_factory=dict)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Fibre):
@@ -51,7 +56,8 @@ class Fibre:
 
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
-        return replace(self, points=self.points[mask])
+        fine = chosen(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
+        return replace(self, points=self.points[mask], fine=fine)
 
 
 @dataclass(frozen=True)
@@ -71,6 +77,7 @@ class Moved:
         finite: whether the path ended at a finite point.
         regular: whether it ended at a regular one.
         accuracy: estimated relative errors of the ends.
+        fine: more digits of regular ends that are close to others, by their indices.
     """
 
     points: np.ndarray
@@ -79,6 +86,11 @@ class Moved:
     failed: np.ndarray
     accuracy: np.ndarray
     counts: PathCounts = field(default=PathCounts())
+    fine: Mapping[int, Fine] = field(default_factory=dict)
+
+    def fibre(self, cut: Cut, dimension: int, indices: Sequence[int]) -> Fibre:
+        """Some of the ends."""
+        return Fibre(cut, dimension, self.points[indices], chosen(self.fine, indices))
 
 
 def homogeneous(points: np.ndarray) -> np.ndarray:
@@ -100,14 +112,35 @@ def moved(paths: Paths, keep: int | None = None) -> Moved:
     infinite = paths.status == PathStatus.AT_INFINITY
     failed = ~finite & ~infinite
     points = affine(paths.points)
-    return Moved(
-        points if keep is None else points[:, :keep],
-        finite,
-        paths.status == PathStatus.REGULAR,
-        failed,
-        accuracy,
-        PathCounts(len(finite), int(failed.sum()), int(infinite.sum())),
-    )
+    points = points if keep is None else points[:, :keep]
+    regular = paths.status == PathStatus.REGULAR
+    counts = PathCounts(len(finite), int(failed.sum()), int(infinite.sum()))
+    fine = _fine(paths, points, regular) if paths.balls else {}
+    return Moved(points, finite, regular, failed, accuracy, counts, fine)
+
+
+def _fine(paths: Paths, points: np.ndarray, regular: np.ndarray) -> dict[int, Fine]:
+    """The digits of regular ends in balls that are close to others."""
+    known = np.array(sorted(i for i in paths.balls if regular[i]), dtype=int)
+    found: dict[int, Fine] = {}
+    for pair in close_pairs(points[known]):
+        own = [int(known[k]) for k in pair]
+        first, second = (
+            found[i]
+            if i in found
+            else affine_fine(_words(paths.balls[i]), 1.0).first(points.shape[1])
+            for i in own
+        )
+        size = 1 + float(np.linalg.norm(points[own[0]]))
+        apart = max(distance(points[own[0]], first, points[own[1]], second), 1e-300)
+        for i, each in zip(own, (first, second), strict=True):
+            found[i] = Fine(each.words, max(each.curvature, STEEPER * size / apart))
+    return found
+
+
+def _words(ball: Ball) -> np.ndarray:
+    spare = WORDS - ball.centre.shape[-1]
+    return np.pad(ball.centre, ((0, 0), (0, 0), (0, spare)))
 
 
 def move(
@@ -123,6 +156,8 @@ def move(
     All rows turn with the same ``gamma``: only then do all points of a fibre, and all fibres of a
     set, move as one.
     """
+    if fibre.fine:
+        return _moved_apart(fibre, source, target, gamma, tracker, endgame)
     columns = 1 + fibre.cut.n + fibre.cut.aux
     a0, a1 = padded(target, columns), padded(gamma * source - target, columns)
     paths = track(
@@ -133,6 +168,48 @@ def move(
         endgame=endgame,
     )
     return moved(paths)
+
+
+def _moved_apart(
+    fibre: Fibre,
+    source: np.ndarray,
+    target: np.ndarray,
+    gamma: complex,
+    tracker: Tracker,
+    endgame: bool,
+) -> Moved:
+    """`move` where some points are close to others: their paths are tracked in more digits."""
+    from nag.tracking.close_paths import moving_rows, track_close
+
+    indices = np.array(sorted(fibre.fine))
+    plain = np.setdiff1d(np.arange(len(fibre)), indices)
+    rest = replace(fibre, points=fibre.points[plain], fine={})
+    there = move(rest, source, target, gamma, tracker, endgame)
+    columns = 1 + fibre.cut.n + fibre.cut.aux
+    rows = padded(source, columns), padded(target, columns)
+    paths, curvature = track_close(
+        moving_rows(fibre.cut.rows, *rows, gamma),
+        np.array([fibre.fine[i].homogeneous for i in indices]),
+        np.array([fibre.fine[i].curvature for i in indices]),
+        tracker.settings,
+        tracker.threads,
+        endgame=endgame,
+    )
+    close = moved(replace(paths, balls={}))
+    fine = {
+        int(i): affine_fine(_words(paths.balls[k]), float(curvature[k]))
+        for k, i in enumerate(indices)
+        if close.regular[k]
+    }
+
+    def together(name: str) -> np.ndarray:
+        first, second = getattr(there, name), getattr(close, name)
+        whole = np.zeros((len(fibre), *first.shape[1:]), dtype=first.dtype)
+        whole[plain], whole[indices] = first, second
+        return whole
+
+    names = ("points", "finite", "regular", "failed", "accuracy")
+    return Moved(*map(together, names), there.counts + close.counts, fine)
 
 
 def carried(
@@ -149,7 +226,7 @@ def carried(
         counts += ends.counts.repeatable
         if not ends.regular.all():
             return None, counts
-        result.append(Fibre(fibre.cut, fibre.dimension, ends.points))
+        result.append(ends.fibre(fibre.cut, fibre.dimension, range(len(fibre))))
     return result, counts
 
 
@@ -179,7 +256,7 @@ def admit(
             known = np.vstack([other.x for other in fibres])
             if (np.linalg.norm(known - end, axis=1) > SAME * scale).all():
                 points = np.vstack([fibre.points, sharpened.z])
-                fibres[i] = Fibre(fibre.cut, fibre.dimension, points)
+                fibres[i] = replace(fibre, points=points)
             return True
     found = find_cut(equations, rows, x, accuracy, rng, deflate)
     if found is None:

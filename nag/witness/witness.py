@@ -45,7 +45,8 @@ class Slice:
     """A linear slice ``A x = b`` of codimension ``len(b)`` in affine space.
 
     Attributes:
-        A: complex, shape ``(d, n)``, rows orthonormal.
+        A: complex, shape ``(d, n)``, rows orthonormal; of norms about one only, where that would
+            have rounded them and points are too close to each other for it.
         b: complex, shape ``(d,)``.
     """
 
