@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.decomposition.final_checks import checked_witness_set
-from nag.decomposition.orbits import Action, Orbit, Orbits, irreducible_orbits
+from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.splitting import Class, Progress
+from nag.decomposition.splitting import Progress
 from nag.decomposition.trace import digits_of_evidence
 from nag.witness.fibres import Tracker
 from nag.witness.points import Points
@@ -48,7 +48,6 @@ def assembled(
     tracker: Tracker,
     *,
     actions: Sequence[Action] = (),
-    one: bool = False,
     scheme: bool = True,
     progress: Progress | None = None,
 ) -> Assembly:
@@ -57,7 +56,6 @@ def assembled(
     Args:
         points: by dimension.
         actions: symmetries; one component of each orbit is worked out.
-        one: whether all points are known to be those of one component.
         scheme: whether the sets are components of the scheme of the equations, so that they have
             a multiplicity in it.
     """
@@ -69,12 +67,7 @@ def assembled(
             continue
         if progress is not None:
             progress("splitting", len(components), 0)
-        if one:
-            # What is proved exactly needs no loops and no trace.
-            whole = Orbit(Class(np.arange(len(points[d]))))
-            found = Orbits(points[d], (whole,), PathCounts())
-        else:
-            found = irreducible_orbits(points[d], actions, evidence, rng, tracker)
+        found = irreducible_orbits(points[d], actions, evidence, rng, tracker)
         counts += found.counts
         notes += [f"dimension {d}: {note}" for note in found.notes]
         sets = []

@@ -129,7 +129,9 @@ def framed(frame: Frame, y: np.ndarray, radii: np.ndarray) -> np.ndarray:
     rounding = EPS * (np.abs(y) @ np.abs(frame.T).T + np.abs(frame.t))
     exact = (np.count_nonzero(frame.T, axis=1) == 1) & (frame.t == 0) & _powers(frame.T)
     rounding[:, exact] = 0.0
-    return radii @ np.abs(frame.T).T + rounding * terms
+    known = np.where(np.isfinite(radii), radii, 0.0) @ np.abs(frame.T).T + rounding * terms
+    known[~np.isfinite(radii).all(axis=1)] = np.inf
+    return known
 
 
 def _powers(T: np.ndarray) -> np.ndarray:
