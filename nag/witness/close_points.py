@@ -89,6 +89,19 @@ def affine_fine(centre: np.ndarray, curvature: float) -> Fine:
         return in_words([z / first for z in others], curvature)
 
 
+def with_roots(point: Fine, f: Polynomial) -> list[Fine]:
+    """A point with each root of ``u^m = f`` there, for f of degree m, as a further coordinate."""
+    import flint
+
+    from nag.numerics.digits import number
+
+    with flint.ctx.workdps(2 * DIGITS):
+        x, m = point.balls(), f.degree
+        root = f(x[: f.n], number).root(m)
+        turns = [flint.acb(flint.fmpq(2 * k, m)).exp_pi_i() for k in range(m)]
+        return [in_words([*x, root * turn], point.curvature) for turn in turns]
+
+
 def zero_from(
     polynomials: Sequence[Polynomial], rows: np.ndarray, start: Fine, digits: int
 ) -> tuple[list[Any], float] | None:

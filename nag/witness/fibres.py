@@ -179,37 +179,54 @@ def _moved_apart(
     endgame: bool,
 ) -> Moved:
     """`move` where some points are close to others: their paths are tracked in more digits."""
-    from nag.tracking.close_paths import moving_rows, track_close
+    from nag.tracking.close_paths import moving_rows
 
     indices = np.array(sorted(fibre.fine))
     plain = np.setdiff1d(np.arange(len(fibre)), indices)
     rest = replace(fibre, points=fibre.points[plain], fine={})
-    there = move(rest, source, target, gamma, tracker, endgame)
     columns = 1 + fibre.cut.n + fibre.cut.aux
     rows = padded(source, columns), padded(target, columns)
+    starts = [fibre.fine[i] for i in indices]
+    close = moved_close(moving_rows(fibre.cut.rows, *rows, gamma), starts, tracker, endgame)
+    return joined(
+        {0: plain, 1: indices}, (move(rest, source, target, gamma, tracker, endgame), close)
+    )
+
+
+def moved_close(
+    homotopy: Homotopy, starts: Sequence[Fine], tracker: Tracker, endgame: bool
+) -> Moved:
+    """Where paths end that start at points that are close to others."""
+    from nag.tracking.close_paths import track_close
+
     paths, curvature = track_close(
-        moving_rows(fibre.cut.rows, *rows, gamma),
-        np.array([fibre.fine[i].homogeneous for i in indices]),
-        np.array([fibre.fine[i].curvature for i in indices]),
+        homotopy,
+        np.array([start.homogeneous for start in starts]),
+        np.array([start.curvature for start in starts]),
         tracker.settings,
         tracker.threads,
         endgame=endgame,
     )
     close = moved(replace(paths, balls={}))
     fine = {
-        int(i): affine_fine(_words(paths.balls[k]), float(curvature[k]))
-        for k, i in enumerate(indices)
-        if close.regular[k]
+        int(i): affine_fine(_words(paths.balls[i]), float(curvature[i]))
+        for i in np.flatnonzero(close.regular)
     }
+    return replace(close, fine=fine)
 
-    def together(name: str) -> np.ndarray:
-        first, second = getattr(there, name), getattr(close, name)
-        whole = np.zeros((len(fibre), *first.shape[1:]), dtype=first.dtype)
-        whole[plain], whole[indices] = first, second
-        return whole
 
-    names = ("points", "finite", "regular", "failed", "accuracy")
-    return Moved(*map(together, names), there.counts + close.counts, fine)
+def joined(places: Mapping[int, np.ndarray], parts: Sequence[Moved]) -> Moved:
+    """Ends of several parts in one: those of part ``k`` at ``places[k]``."""
+    count = sum(map(len, places.values()))
+    arrays = {}
+    for name in ("points", "finite", "regular", "failed", "accuracy"):
+        pieces = [getattr(part, name) for part in parts]
+        whole = np.zeros((count, *pieces[0].shape[1:]), dtype=pieces[0].dtype)
+        for k, piece in enumerate(pieces):
+            whole[places[k]] = piece
+        arrays[name] = whole
+    fine = {int(places[k][i]): f for k, part in enumerate(parts) for i, f in part.fine.items()}
+    return Moved(**arrays, counts=sum((p.counts for p in parts), PathCounts()), fine=fine)
 
 
 def carried(

@@ -134,6 +134,14 @@ class Points:
         return nearest if distances[nearest] < SAME * (1 + np.linalg.norm(x)) else None
 
 
+def with_fine(fibres: Sequence[Fibre], rows: np.ndarray) -> list[Fibre]:
+    """Fibres on a common slice with more digits of all points that are close to others."""
+    if not close_pairs(np.vstack([fibre.x for fibre in fibres])):
+        return list(fibres)
+    points = Points.of(fibres, rows)
+    return points.fibres(range(len(points)))[0]
+
+
 def moved_points(
     points: Points, indices: Sequence[int], target: np.ndarray, gamma: complex, tracker: Tracker
 ) -> tuple[Points, np.ndarray, PathCounts]:
