@@ -135,12 +135,7 @@ def _intersect_close(
     target[d - 1, -1] = 1
     starts = [start for i in indices for start in with_roots(fibre.fine[i], f)]
     homotopy = moving_rows(_with_power(cut, f), source, target, gamma)
-    close = moved_close(homotopy, starts, tracker, endgame=True)
-    close = replace(
-        close,
-        points=close.points[:, :total],
-        fine={i: each.first(total) for i, each in close.fine.items()},
-    )
+    close = moved_close(homotopy, starts, cut.extended(f), flag[: d - 1], tracker, endgame=True)
     places = {
         k: (own[:, None] * degree + np.arange(degree)).ravel()
         for k, own in enumerate((plain, indices))

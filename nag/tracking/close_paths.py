@@ -50,7 +50,7 @@ def track_close(
     threads: int = 1,
     *,
     endgame: bool = True,
-) -> tuple[Paths, np.ndarray]:
+) -> Paths:
     """Track paths whose starts are known to many digits, from t = 1 to t = 0.
 
     Args:
@@ -62,15 +62,15 @@ def track_close(
         endgame: False where a path that does not end regularly has failed.
 
     Returns:
-        The paths, whose regular ends are balls, and Newton's constants there.
+        The paths, whose regular ends are balls.
     """
     chosen, curvature = named(settings), np.array(curvature, dtype=float)
     words = min(DIGITS) if (curvature < STEEP).all() else WORDS
-    paths, at_ends = follow_whole(homotopy, starts[..., :words], curvature, chosen, threads)
+    paths = follow_whole(homotopy, starts[..., :words], curvature, chosen, threads)
     failed = paths.where(PathStatus.FAILED)
     if words < WORDS and len(failed):
         again = follow_whole(homotopy, starts[failed], curvature[failed], chosen, threads)
-        paths, at_ends[failed] = merged(paths, again[0], failed), again[1]
+        paths = merged(paths, again, failed)
     if not endgame:
         paths = without(paths, paths.where(PathStatus.SINGULAR))
-    return without(paths, collisions(homotopy, paths)), at_ends
+    return without(paths, collisions(homotopy, paths))

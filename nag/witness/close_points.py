@@ -27,6 +27,9 @@ WORDS, DIGITS = 4, 62
 # Newton's method for close points: corrections, and the part of the distance to the next point
 # that it may move a point by.
 STEPS, BASIN = 14, 0.1
+# Digits behind the point to which Newton's constant is probed: beyond all distances of points that
+# can be tracked, before what is left of their digits.
+OFF = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +90,34 @@ def affine_fine(centre: np.ndarray, curvature: float) -> Fine:
     with flint.ctx.workdps(2 * DIGITS):
         first, *others = Fine(centre, curvature).balls()
         return in_words([z / first for z in others], curvature)
+
+
+def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> Fine:
+    """A zero of a square system on a slice with Newton's constant there, relative to its size.
+
+    Two of Newton's corrections from a point that is a little off: their quotient over the first.
+    """
+    import flint
+
+    from nag.numerics.ball_polynomials import BallPolynomials
+
+    exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
+    size, most = 1 + float(np.linalg.norm(point.rounded)), 1.0
+    with flint.ctx.workdps(3 * DIGITS):
+        centre, off = point.balls(), flint.arb(10) ** -OFF * size
+        for turn in (1, 2):
+            way = np.exp(1j * np.arange(1, len(centre) + 1) ** 2 * turn)
+            x = [z + flint.acb(complex(v)) * off for z, v in zip(centre, way, strict=True)]
+            lengths = []
+            for _ in range(2):
+                try:
+                    step = exact.jacobian(x).mid().solve(exact(x).mid())
+                except ZeroDivisionError:
+                    return Fine(point.words, np.inf)
+                x = [_middle(z - step[i, 0]) for i, z in enumerate(x)]
+                lengths.append(float(max(abs(step[i, 0]) for i in range(len(x))).mid()) / size)
+            most = max(most, lengths[1] / lengths[0] ** 2)
+    return Fine(point.words, most)
 
 
 def with_roots(point: Fine, f: Polynomial) -> list[Fine]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -11,7 +11,15 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
-from nag.witness.close_points import WORDS, Fine, affine_fine, chosen, close_pairs, distance
+from nag.witness.close_points import (
+    WORDS,
+    Fine,
+    affine_fine,
+    chosen,
+    close_pairs,
+    distance,
+    rated,
+)
 from nag.witness.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on, sharpen
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
@@ -87,6 +95,13 @@ class Moved:
     accuracy: np.ndarray
     counts: PathCounts = field(default=PathCounts())
     fine: Mapping[int, Fine] = field(default_factory=dict)
+
+    def without(self, indices: Iterable[int]) -> Moved:
+        """The ends but for some."""
+        kept = np.setdiff1d(np.arange(len(self.points)), list(indices))
+        names = ("points", "finite", "regular", "failed", "accuracy")
+        arrays = {name: getattr(self, name)[kept] for name in names}
+        return replace(self, **arrays, fine=chosen(self.fine, kept))
 
     def fibre(self, cut: Cut, dimension: int, indices: Sequence[int]) -> Fibre:
         """Some of the ends."""
@@ -187,19 +202,28 @@ def _moved_apart(
     columns = 1 + fibre.cut.n + fibre.cut.aux
     rows = padded(source, columns), padded(target, columns)
     starts = [fibre.fine[i] for i in indices]
-    close = moved_close(moving_rows(fibre.cut.rows, *rows, gamma), starts, tracker, endgame)
+    homotopy = moving_rows(fibre.cut.rows, *rows, gamma)
+    close = moved_close(homotopy, starts, fibre.cut, target, tracker, endgame)
     return joined(
         {0: plain, 1: indices}, (move(rest, source, target, gamma, tracker, endgame), close)
     )
 
 
 def moved_close(
-    homotopy: Homotopy, starts: Sequence[Fine], tracker: Tracker, endgame: bool
+    homotopy: Homotopy,
+    starts: Sequence[Fine],
+    cut: Cut,
+    rows: np.ndarray,
+    tracker: Tracker,
+    endgame: bool,
 ) -> Moved:
-    """Where paths end that start at points that are close to others."""
+    """Where paths end that start at points that are close to others.
+
+    Their ends are zeros of ``cut`` on the slice ``rows``; further coordinates are left out.
+    """
     from nag.tracking.close_paths import track_close
 
-    paths, curvature = track_close(
+    paths = track_close(
         homotopy,
         np.array([start.homogeneous for start in starts]),
         np.array([start.curvature for start in starts]),
@@ -207,10 +231,10 @@ def moved_close(
         tracker.threads,
         endgame=endgame,
     )
-    close = moved(replace(paths, balls={}))
+    close, total = moved(replace(paths, balls={}), keep=cut.n + cut.aux), cut.n + cut.aux
     fine = {
-        int(i): affine_fine(_words(paths.balls[i]), float(curvature[i]))
-        for i in np.flatnonzero(close.regular)
+        i: rated(cut.polynomials, rows, affine_fine(_words(paths.balls[i]), 1.0).first(total))
+        for i in np.flatnonzero(close.regular).tolist()
     }
     return replace(close, fine=fine)
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.witness.cutting import ON, sharpen
+from nag.witness.cutting import ON
 from nag.witness.error_radii import in_order, sharpened
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Tracker, move
 from nag.witness.membership import component_fibres
 from nag.witness.slices import to_slice, unit_complex
 from nag.witness.witness import Slice, WitnessSet
@@ -38,16 +38,6 @@ def orthonormal_rows(rows: np.ndarray) -> np.ndarray:
     if len(rows) > rows.shape[1] - 1 or s[-1] <= DEPENDENT * s[0]:
         raise SliceError("the equations of the slice are linearly dependent")
     return np.hstack([(u.conj().T @ rows[:, :1]) / s[:, None], vh])
-
-
-def sharpened_ends(fibre: Fibre, rows: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, float]:
-    """Points of a fibre to rounding, with added unknowns, and the largest last step."""
-    found, steps = np.zeros(points.shape, dtype=complex), [0.0]
-    for i, z in enumerate(points):
-        sharpened = sharpen(fibre.cut.evaluator, rows, z)
-        found[i] = sharpened.z
-        steps.append(sharpened.step if sharpened.converged else np.inf)
-    return found, max(steps)
 
 
 def witness_at(
@@ -88,7 +78,7 @@ def witness_at(
             ends = move(fibre, rows, goal, gamma, tracker, endgame=True)
             infinite += ends.counts.at_infinity
             irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-            there = Fibre(fibre.cut, component.dimension, ends.points[ends.regular])
+            there = ends.fibre(fibre.cut, component.dimension, np.flatnonzero(ends.regular))
             found.append(in_order(sharpened(there, goal)))
         points = np.vstack([sharp.fibre.x for sharp in found])
         radii = np.vstack([sharp.radii for sharp in found])

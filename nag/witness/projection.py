@@ -15,9 +15,9 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
 from nag.witness.cutting import numerical_corank
+from nag.witness.error_radii import sharpened
 from nag.witness.fibres import SAME, Fibre, Tracker, move
 from nag.witness.membership import component_fibres
-from nag.witness.moving import sharpened_ends
 from nag.witness.slices import padded, random_rows, to_slice, unit_complex
 from nag.witness.witness import Slice, WitnessSet
 
@@ -134,15 +134,16 @@ def _pseudo_witness(
         target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
         gamma, points, unclear = complex(unit_complex(rng)), [], False
         for fibre in fibres:
-            ends = fibre.points
+            ends = fibre
             if d:
                 moved = move(fibre, rows, padded(target, rows.shape[1]), gamma, tracker, True)
                 # Finite points of a generic slice are regular (Bertini's theorem).
                 unclear |= bool((moved.failed | (moved.finite & ~moved.regular)).any())
-                ends = moved.points[moved.regular]
-            z, step = sharpened_ends(fibre, target, ends)
-            unclear |= not step < 1e-8
-            points.append(z[:, : fibre.cut.n])
+                ends = moved.fibre(fibre.cut, d, np.flatnonzero(moved.regular))
+            found = sharpened(ends, target)
+            sizes = 1 + np.linalg.norm(found.fibre.x, axis=1, keepdims=True)
+            unclear |= not (found.radii < 1e-8 * sizes).all()
+            points.append(found.fibre.x)
         if unclear:
             continue
         x = np.vstack(points)

@@ -10,7 +10,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.witness.cutting import ON
 from nag.witness.error_radii import sharpened
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Tracker, move
 from nag.witness.membership import component_fibres
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import WitnessSet
@@ -73,12 +73,12 @@ def sample(
             fibre, i = owners[int(rng.integers(len(owners)))]
             target, gamma = random_rows(rng, d, n), complex(unit_complex(rng))
             one = fibre.only(np.arange(len(fibre)) == i)
-            ends = one.points
+            there = one
             if d:
                 tracker = Tracker("careful" if attempt else settings, threads)
                 moved = move(one, rows, target, gamma, tracker)
-                ends = moved.points[moved.regular]
-            found = sharpened(Fibre(fibre.cut, d, ends), target)
+                there = moved.fibre(fibre.cut, d, np.flatnonzero(moved.regular))
+            found = sharpened(there, target)
             x, size = found.fibre.x, 1 + np.linalg.norm(found.fibre.x, axis=1)
             error = (np.linalg.norm(found.radii, axis=1) / size).max(initial=0.0)
             if len(x) and error < 1e-10 and evaluator.residuals(x).max(initial=0.0) < ON:

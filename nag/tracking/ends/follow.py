@@ -161,7 +161,7 @@ def follow_whole(
     curvature: np.ndarray,
     settings: Settings,
     threads: int = 1,
-) -> tuple[Paths, np.ndarray]:
+) -> Paths:
     """Follow paths from t = 1 on, in the arithmetic that their starts are given in.
 
     Args:
@@ -169,11 +169,11 @@ def follow_whole(
         curvature: estimates of Newton's constant there, shape ``(P,)``.
 
     Returns:
-        The paths, those that ask for more digits failed, and Newton's constants at their ends.
+        The paths; those whose ends ask for more digits have failed.
     """
     states = _States.from_start(starts, curvature)
     _follow_in(homotopy, states, np.arange(len(starts)), starts.shape[-1], settings, threads)
-    return _paths(homotopy, states), states.curvature
+    return _paths(homotopy, states)
 
 
 def digits_of_evidence(homotopy: Homotopy, beyond: int) -> int:
