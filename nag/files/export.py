@@ -20,6 +20,7 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
+from nag.files.close_points import close_document, close_points
 from nag.files.json_text import lay_out, pairs, real_or_null, system_document
 from nag.files.json_values import (
     ExportError,
@@ -142,6 +143,7 @@ def document(decomposition: Decomposition, origin: Origin | None = None) -> dict
                     "points": len(f),
                     "unknowns": pairs(f.points[:, system.n :]),
                 }
+                | ({"close": close_document(f.fine)} if f.fine else {})
                 for f in c.fibres
             ]
         }
@@ -233,7 +235,9 @@ def _fibres(
             raise wrong(f"{here}.unknowns", "one row for each of the points")
         if len(cut.polynomials) != cut.n + cut.aux - dimension:
             raise wrong(f"{here}.equations", "that of as many equations as cut the component")
-        found.append(Fibre(cut, dimension, np.hstack([points[first:last], unknowns])))
+        own = np.hstack([points[first:last], unknowns])
+        close = close_points(table.get("close", []), own, f"{here}.close")
+        found.append(Fibre(cut, dimension, own, close))
         first = last
     if found and first != len(points):
         raise wrong(place, "one cut for each of the points")

@@ -45,6 +45,11 @@ class Fine:
     words: np.ndarray
     curvature: float
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Fine):
+            return NotImplemented
+        return self.curvature == other.curvature and np.array_equal(self.words, other.words)
+
     def first(self, count: int) -> Fine:
         """The first coordinates only."""
         return Fine(self.words[:count], self.curvature)

@@ -52,6 +52,7 @@ class Fibre:
             and self.cut.n == other.cut.n
             and self.dimension == other.dimension
             and np.array_equal(self.points, other.points)
+            and self.fine == other.fine
         )
 
     @property
