@@ -67,7 +67,7 @@ def _coranks(
     where coordinates differ much in size, digits decide; of points that are close to others, they
     have.
     """
-    d, result, regular = len(rows), [], not fibre.cut.levels
+    d, result, regular = len(rows), [], not fibre.cut.deflated
     for i, point in enumerate(fibre.x):
         if regular and i in fibre.fine:
             result.append(d)
@@ -140,7 +140,7 @@ def checked_witness_set(
     if scheme and not multiple:
         nearest = y[np.linalg.norm(y, axis=1).argmin()]
         multiple = multiplicity(reduced.polynomials, rows, nearest, rng)
-    if scheme and coranks[0] != d and not chosen[0].cut.levels:
+    if scheme and coranks[0] != d and not chosen[0].cut.deflated:
         reasons.append("its points are regular and singular at once: zeros too close")
     if scheme and multiple == 0:
         reasons.append("its multiplicity was not found")

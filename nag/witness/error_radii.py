@@ -41,6 +41,12 @@ class Sharp:
     radii: np.ndarray
     digits: np.ndarray
 
+    @property
+    def errors(self) -> np.ndarray:
+        """Errors of the points, relative to one and their sizes, shape ``(P,)``."""
+        sizes = 1 + np.linalg.norm(self.fibre.x, axis=1)
+        return np.linalg.norm(self.radii, axis=1) / sizes
+
 
 def sharpened(fibre: Fibre, rows: np.ndarray) -> Sharp:
     """The regular points of a fibre on the slice ``rows``, to rounding."""
