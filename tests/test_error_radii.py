@@ -125,4 +125,4 @@ def test_an_accuracy_is_that_of_the_radii() -> None:
     sizes = 1 + np.linalg.norm(component.points, axis=1)
     errors = np.linalg.norm(component.radii, axis=1) / sizes
     assert component.accuracy == errors.max()
-    assert component.precision == component.digits.min() == 32
+    assert component.precision == component.digits.min() == 40

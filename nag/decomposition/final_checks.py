@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations_with_replacement, permutations
+from itertools import combinations_with_replacement, permutations, repeat
 
 import numpy as np
 
@@ -120,9 +120,11 @@ def checked_witness_set(
     """
     rows, d, counts = points.rows, points.dimension, PathCounts()
     reduced, frame, groups = reduction.equations, reduction.frame, reduction.system.groups
-    chosen, _ = points.fibres(found.indices)
+    chosen, order = points.fibres(found.indices)
     first = chosen[0].points[0], chosen[0].fine.get(0)
-    sharp = [in_order(sharpened(fibre, rows)) for fibre in chosen]
+    sizes = np.cumsum([len(fibre) for fibre in chosen])[:-1]
+    exact = [points.exact.only(own) for own in np.split(order, sizes)]
+    sharp = [in_order(sharpened(*each)) for each in zip(chosen, repeat(rows), exact)]
     chosen = [each.fibre for each in sharp]
     y = np.vstack([fibre.x for fibre in chosen])
     lifted, cut = _in_original(sharp, rows, reduction)

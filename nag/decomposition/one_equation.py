@@ -28,6 +28,7 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.witness.close_points import Fine, close_pairs, in_words
 from nag.witness.cutting import Cut
+from nag.witness.exact_points import ExactPoints, of_balls
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
@@ -102,7 +103,7 @@ def _components(
         return []
     multidegree = _multidegree(reduction, rng)
     fibre = Fibre(Cut(reduction.n, 0, (f,)), len(rows), line.points, line.close)
-    points = Points.of([fibre], rows)
+    points = replace(Points.of([fibre], rows), known=line.exact)
     # Without groups: what these are asked for is known from the equation.
     plain = replace(reduction, system=replace(reduction.system, groups=()))
     result = []
@@ -159,6 +160,13 @@ class _Line:
     @property
     def points(self) -> np.ndarray:
         return np.array([[complex(c) for c in ball] for ball in self.balls])
+
+    @property
+    def exact(self) -> ExactPoints:
+        import flint
+
+        with flint.ctx.workprec(BITS):
+            return of_balls(self.balls)
 
     @property
     def close(self) -> dict[int, Fine]:

@@ -16,7 +16,7 @@ import numpy as np
 from nag.algebra.number import decimal_digits
 from nag.algebra.polynomial import Polynomial
 from nag.witness.close_points import Fine
-from nag.witness.exact_points import ExactPoints, exact_points, fixed
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, fixed
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.points import Points, moved_points
 from nag.witness.slices import unit_complex
@@ -26,7 +26,7 @@ from nag.witness.witness import PathCounts
 # digit of the system's coefficients beyond those of round numbers.
 EVIDENCE, ROUND_NUMBERS = 18, 6
 # Points get twice the digits so often, from those of double-double on.
-DIGITS = (28, 60, 120, 240)
+DIGITS = (FEWEST, 60, 120, 240)
 # Bits behind the point of an offset of a slice, beyond those of the points.
 SMALLEST = 60
 # Subsets of more classes than this are not searched; those are looked at more closely whose sums
@@ -123,7 +123,10 @@ class Trace:
         first = 0
         for fibre in fibres:
             own, first = order[first : first + len(fibre)], first + len(fibre)
-            middle = exact_points(fibre, points.rows, digits)
+            if digits == FEWEST:
+                middle = points.exact.only(own)
+            else:
+                middle = exact_points(fibre, points.rows, digits)
             sides = [
                 exact_points(self._side(fibre, own, k), target, digits)
                 for k, target in enumerate(self.sides)

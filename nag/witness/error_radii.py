@@ -13,13 +13,13 @@ import numpy as np
 
 from nag.witness.close_points import chosen
 from nag.witness.cutting import sharpen
-from nag.witness.exact_points import ExactPoints, exact_points, fixed
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, fixed
 from nag.witness.fibres import Fibre
 from nag.witness.frame import EPS, Frame
 from nag.witness.witness import DOUBLE
 
-# Digits that are asked for: in double-double, said to have so many, and in balls.
-WANTED, DOUBLE_DOUBLE, IN_BALLS = 28, 32, 40
+# Digits that double-double is said to have, and those that are asked of balls.
+DOUBLE_DOUBLE, IN_BALLS = 32, 40
 # Where double-double leaves more of an error than this, relative to the point, balls do not.
 ENOUGH = 1e-18
 # Estimated errors in many digits, and last corrections in doubles, count so many times.
@@ -48,17 +48,21 @@ class Sharp:
         return np.linalg.norm(self.radii, axis=1) / sizes
 
 
-def sharpened(fibre: Fibre, rows: np.ndarray) -> Sharp:
-    """The regular points of a fibre on the slice ``rows``, to rounding."""
-    exact = _exact(fibre, rows)
-    known = np.isfinite(exact.radii)
+def sharpened(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) -> Sharp:
+    """The regular points of a fibre on the slice ``rows``, to rounding.
+
+    Args:
+        known: the points in as many digits as `nag.witness.points.Points.exact` has.
+    """
+    exact = _exact(fibre, rows, known)
+    good = np.isfinite(exact.radii)
     points = np.array(fibre.points)
     steps = np.full(len(points), np.inf)
     for i, z in enumerate(points):
-        if known[i] and i in fibre.fine:
+        if good[i] and i in fibre.fine:
             points[i] = fibre.fine[i].rounded
             points[i, : fibre.cut.n] = _rounded(exact, i)
-        elif known[i] and not fibre.cut.aux:
+        elif good[i] and not fibre.cut.aux:
             points[i] = _rounded(exact, i)
         else:
             ends = sharpen(fibre.cut.evaluator, rows, z)
@@ -66,7 +70,7 @@ def sharpened(fibre: Fibre, rows: np.ndarray) -> Sharp:
     fibre = replace(fibre, points=points)
     radii, digits = _radii(fibre, exact)
     rough = CORRECTION * np.maximum(steps, EPS) * (1 + np.linalg.norm(points, axis=1))
-    radii[~known] = rough[~known, None]
+    radii[~good] = rough[~good, None]
     return Sharp(fibre, radii, digits)
 
 
@@ -94,9 +98,9 @@ def error_radii(fibre: Fibre, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return radii, digits
 
 
-def _exact(fibre: Fibre, rows: np.ndarray) -> ExactPoints:
+def _exact(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) -> ExactPoints:
     """The points in digits that leave hardly an error beside rounding, where that is to be had."""
-    found = exact_points(fibre, rows, WANTED)
+    found = exact_points(fibre, rows, FEWEST) if known is None else known
     poor = found.radii > ENOUGH * (1 + np.abs(fibre.x).max(axis=1, initial=0.0))
     poor &= ~found.balls
     if not poor.any():

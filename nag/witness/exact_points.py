@@ -18,6 +18,8 @@ from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, homogeneous
 from nag.witness.slices import padded
 
+# Digits that points are known to at least, where their condition allows it.
+FEWEST = 28
 # Digits for which Newton's method with residuals in double-double may be enough.
 DOUBLE_DOUBLE = 30
 # Error of a step that is solved in doubles, in roundings times the condition, and of residuals in
@@ -46,6 +48,22 @@ class ExactPoints:
     bits: int
     radii: np.ndarray
     balls: np.ndarray
+
+    def only(self, indices: Sequence[int]) -> ExactPoints:
+        """Some of the points."""
+        return ExactPoints(
+            self.values[indices], self.bits, self.radii[indices], self.balls[indices]
+        )
+
+
+def of_balls(points: Sequence[Sequence[Any]]) -> ExactPoints:
+    """Points from balls (FLINT's ``acb``) that hold their coordinates, in the fewest digits."""
+    bits = bits_of(FEWEST)
+    values = np.array([_whole(point, bits) for point in points], dtype=object)
+    radii = [max((float(z.rad()) for z in point), default=0.0) for point in points]
+    return ExactPoints(
+        values, bits, np.array(radii) + 2.0 ** (1 - bits), np.ones(len(points), dtype=bool)
+    )
 
 
 def bits_of(digits: int) -> int:

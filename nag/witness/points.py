@@ -19,6 +19,7 @@ from nag.witness.close_points import (
     zero_from,
 )
 from nag.witness.cutting import Cut
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points
 from nag.witness.fibres import STEEPER, Fibre, Tracker, move
 from nag.witness.witness import PathCounts
 
@@ -36,6 +37,7 @@ class Points:
         which: for each point, the index of its cut.
         z: each point with the unknowns that deflation added, shape ``(n + aux,)``.
         fine: more digits of points that are close to others, by their indices.
+        known: all points in the fewest digits that are of use, where these have been found.
     """
 
     rows: np.ndarray
@@ -43,6 +45,7 @@ class Points:
     which: tuple[int, ...] = ()
     z: tuple[np.ndarray, ...] = ()
     fine: Mapping[int, Fine] = field(default_factory=dict)
+    known: ExactPoints | None = None
 
     @classmethod
     def of(cls, fibres: Sequence[Fibre], rows: np.ndarray) -> Points:
@@ -118,6 +121,22 @@ class Points:
                 found.append(Fibre(cut, self.dimension, points, chosen(self.fine, own)))
                 order.append(own)
         return found, np.concatenate(order) if order else np.zeros(0, dtype=int)
+
+    @cached_property
+    def exact(self) -> ExactPoints:
+        """All points in the fewest digits that are of use, in their order."""
+        if self.known is not None:
+            return self.known
+        fibres, order = self.fibres(range(len(self)))
+        parts = [exact_points(fibre, self.rows, FEWEST) for fibre in fibres]
+        if len(parts) == 1:
+            return parts[0]
+        arrays = ("values", "radii", "balls")
+        values, radii, balls = (
+            np.concatenate([getattr(part, name) for part in parts])[np.argsort(order)]
+            for name in arrays
+        )
+        return ExactPoints(values, parts[0].bits, radii, balls)
 
     def with_point(self, cut: Cut, z: np.ndarray, fine: Fine | None = None) -> Points:
         """One point more, at the end."""
