@@ -14,7 +14,7 @@ from nag.decomposition import decompose
 from nag.decomposition.monodromy import located
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.splitting import join
-from nag.decomposition.superset import witness_superset
+from nag.decomposition.superset import Ambient, witness_superset
 from nag.files.cases import read_case
 from nag.files.export import read_decomposition, write_decomposition
 from nag.report.agreement import Verdict, compare, kinds
@@ -151,7 +151,7 @@ def test_a_missing_point_is_noticed() -> None:
     equations = system("x y", "(x^2 - 2)*(y^2 - 2)").polynomials
     rng, tracker = np.random.default_rng(0), Tracker()
     flag = random_rows(rng, 2, 2)
-    fibres = witness_superset(equations, 2, (), flag, rng, tracker).fibres[1]
+    fibres = witness_superset(equations, Ambient.space(flag), rng, tracker).fibres[1]
     action = Action.of(swap, Frame(np.eye(2), np.zeros(2), (0, 1), np.ones(2)))
     points = Points.of(fibres, flag[:1])
     found = irreducible_orbits(points, [action], 20, rng, tracker)

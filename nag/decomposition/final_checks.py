@@ -109,7 +109,7 @@ def checked_witness_set(
     y = np.vstack([fibre.x for fibre in chosen])
     x, accuracy = frame.points(y), frame.error(y, accuracy)
     residual = float(reduction.original.residuals(x).max(initial=0.0))
-    coranks = _coranks(reduced, rows, y, not chosen[0].cut.levels, rng)
+    coranks = _coranks(reduced, rows, y, not chosen[0].cut.deflated, rng)
     reasons = [found.reason] if found.reason else []
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
@@ -121,7 +121,7 @@ def checked_witness_set(
     if scheme and not multiple:
         nearest = y[np.linalg.norm(y, axis=1).argmin()]
         multiple = multiplicity(reduced.polynomials, rows, nearest, rng)
-    if scheme and coranks[0] != d and not chosen[0].cut.levels:
+    if scheme and coranks[0] != d and not chosen[0].cut.deflated:
         reasons.append("its points are regular and singular at once: zeros too close")
     if scheme and multiple == 0:
         reasons.append("its multiplicity was not found")

@@ -7,15 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nag.numerics.coincidence import compared
 from nag.witness.fibres import Tracker
 from nag.witness.points import Points, moved_points
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
-# An end is one of the known points when it is that near and the next one is a thousand times
-# farther; it is none of them when it is farther than the second bound from all.
-NEAR = 1e-6
-FAR = 1e-4
+# Relative errors that ends of loops may have, whatever the tracker thinks of them.
+ROUGH = 1e-8
 # Above so many distances a tree is searched.
 MOST_DISTANCES = 100_000
 
@@ -44,8 +43,9 @@ def located(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
         return np.zeros(len(ends), dtype=int)
     nearest, closest, next_one = _two_nearest(ends, points)
     scale = 1 + np.linalg.norm(points[nearest], axis=1)
-    hit = (closest < NEAR * scale) & (closest < 1e-3 * next_one)
-    if not (hit | (closest > FAR * scale)).all():
+    near, doubtful = compared(closest / scale, ROUGH)
+    hit = near & (closest < 1e-3 * next_one)
+    if (doubtful | (near & ~hit)).any():
         return None
     return np.where(hit, nearest, -1)
 

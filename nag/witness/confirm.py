@@ -29,7 +29,7 @@ def confirmed(cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np
     """
     matrix = np.vstack([cut.evaluator.jacobian(z), padded(rows, 1 + len(z))[:, 1:]])
     smallest = np.linalg.svd(matrix, compute_uv=False).min(initial=np.inf)
-    if not cut.levels and len(cut.polynomials) == len(equations) and smallest > REGULAR:
+    if not cut.deflated and len(cut.polynomials) == len(equations) and smallest > REGULAR:
         return True
     return _at_zero(cut, equations, rows, z) is True
 

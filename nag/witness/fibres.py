@@ -2,21 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from nag.numerics.coincidence import coincident
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
-from nag.witness.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on, sharpen
+from nag.witness.cutting import (
+    MOST_DEFLATIONS,
+    NEAR,
+    ON,
+    Cut,
+    Equations,
+    find_cut,
+    regular_on,
+    sharpen,
+)
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
 
-# Two ends are one point when they differ by less than this, or than their errors explain.
-SAME = 1e-9
+# Called with a stage's name, the step reached and the number of steps.
+Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +59,32 @@ class Fibre:
     def __len__(self) -> int:
         return len(self.points)
 
+    @property
+    def ordered(self) -> Fibre:
+        """The same points by their first coordinates, however they were found."""
+        if not self.points.shape[1]:
+            return self
+        first = self.points[:, 0]
+        return replace(self, points=self.points[np.lexsort((first.imag, first.real))])
+
+    def lifted(self, x: np.ndarray) -> np.ndarray:
+        """A point with values of the added unknowns, to start Newton's method from.
+
+        Where the cut does not keep how it was found, the unknowns are solved for, those that each
+        step of deflation added being linear in its equations.
+        """
+        n = self.cut.n
+        if self.cut.levels or not self.cut.aux:
+            return self.cut.lift(x)
+        z = np.concatenate([x, self.points[np.linalg.norm(self.x - x, axis=1).argmin(), n:]])
+        for _ in range(MOST_DEFLATIONS):
+            slopes, values = (
+                self.cut.evaluator.jacobian(z)[:, n:],
+                self.cut.evaluator.values(z[None]),
+            )
+            z[n:] -= np.linalg.lstsq(slopes, values[0], rcond=None)[0]
+        return z
+
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
         return replace(self, points=self.points[mask])
@@ -56,10 +92,25 @@ class Fibre:
 
 @dataclass(frozen=True)
 class Tracker:
-    """How paths are to be tracked: settings, or the name of some, and number of threads."""
+    """How paths are to be tracked: settings, or the name of some, and number of threads.
+
+    ``progress`` is told how far work that takes long has got.
+    """
 
     settings: Settings | str = "default"
     threads: int = 1
+    progress: Progress | None = None
+
+    def tell(self, stage: str, done: int, total: int) -> None:
+        """Tell of the step ``done`` of ``total``; 0 if their number is not known."""
+        if self.progress is not None:
+            self.progress(stage, done, total)
+
+    def attempts(self, count: int) -> Iterator[Tracker]:
+        """How to track where paths may fail: as asked for, and then with the careful settings."""
+        yield self
+        for _ in range(count - 1):
+            yield replace(self, settings="careful")
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +134,8 @@ class Moved:
 
 def homogeneous(points: np.ndarray) -> np.ndarray:
     """Affine points as homogeneous ones of norm one."""
-    points = np.hstack([np.ones((len(points), 1)), points])
+    # Columns chosen by indices lie apart in memory; the tracker reads points in one piece.
+    points = np.ascontiguousarray(np.hstack([np.ones((len(points), 1)), points]))
     return points / np.linalg.norm(points, axis=1, keepdims=True)
 
 
@@ -165,9 +217,9 @@ def admit(
     """Put a singular end into the fibre whose cut makes it regular; find a cut if there is none."""
     n = len(x)
     for i, fibre in enumerate(fibres):
-        if bool(fibre.cut.levels) != deflate:
+        if fibre.cut.deflated != deflate:
             continue
-        sharpened = sharpen(fibre.cut.evaluator, rows, fibre.cut.lift(x))
+        sharpened = sharpen(fibre.cut.evaluator, rows, fibre.lifted(x))
         end, scale = sharpened.z[:n], 1 + np.linalg.norm(x)
         near = np.linalg.norm(end - x) < max(1e3 * accuracy, NEAR) * scale
         if (
@@ -177,7 +229,7 @@ def admit(
             and equations.evaluator.residuals(end[None]).max(initial=0.0) < ON
         ):
             known = np.vstack([other.x for other in fibres])
-            if (np.linalg.norm(known - end, axis=1) > SAME * scale).all():
+            if not coincident(known, end, sharpened.step).any():
                 points = np.vstack([fibre.points, sharpened.z])
                 fibres[i] = Fibre(fibre.cut, fibre.dimension, points)
             return True

@@ -11,15 +11,12 @@ import numpy as np
 from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.coincidence import compared
 from nag.witness.cutting import ON, Equations
 from nag.witness.fibres import Fibre, Tracker, cut_fibres, move
 from nag.witness.slices import rows_through, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
-# Ends of membership paths lay within 5e-11 of a member and beyond 7e-4 of any other point in all
-# systems measured; what falls between is asked again on another slice.
-HIT = 1e-8
-MISS = 1e-5
 ATTEMPTS = 4
 
 
@@ -51,21 +48,19 @@ def is_member(
         return Membership.FOREIGN, counts
     dimension = fibres[0].dimension
     scale = 1 + float(np.linalg.norm(point))
-    hit, miss = max(HIT, 1e2 * accuracy), max(MISS, 1e4 * accuracy)
     for _ in range(ATTEMPTS):
         target = rows_through(rng, dimension, point)
         gamma = complex(unit_complex(rng))
-        nearest, unclear = np.inf, False
+        unclear = False
         for fibre in fibres:
             ends = move(fibre, flag[:dimension], target, gamma, tracker, endgame=True)
             counts += ends.counts.repeatable
             x = ends.points[ends.finite, : fibre.cut.n]
             distances = np.linalg.norm(x - point, axis=1) / scale
-            nearest = distances.min(initial=nearest)
-            if nearest < hit:
+            if compared(distances, accuracy)[0].any():
                 return Membership.MEMBER, counts
-            unclear |= bool(ends.failed.any() or (distances < miss).any())
-            unclear |= bool((distances < 1e4 * ends.accuracy[ends.finite]).any())
+            errors = np.maximum(accuracy, ends.accuracy[ends.finite])
+            unclear |= bool(ends.failed.any() or np.any(compared(distances, errors)))
         if not unclear:
             return Membership.FOREIGN, counts
     return Membership.UNDECIDED, counts

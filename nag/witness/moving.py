@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -39,14 +40,51 @@ def orthonormal_rows(rows: np.ndarray) -> np.ndarray:
     return np.hstack([(u.conj().T @ rows[:, :1]) / s[:, None], vh])
 
 
-def sharpened_ends(fibre: Fibre, rows: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, float]:
-    """Points of a fibre to rounding, with added unknowns, and the largest last step."""
-    found, steps = np.zeros(points.shape, dtype=complex), [0.0]
-    for i, z in enumerate(points):
-        sharpened = sharpen(fibre.cut.evaluator, rows, z)
-        found[i] = sharpened.z
-        steps.append(sharpened.step if sharpened.converged else np.inf)
-    return found, max(steps)
+@dataclass(frozen=True, eq=False)
+class Arrival:
+    """Points on the slice that they were carried to, sharpened there.
+
+    Attributes:
+        fibres: the regular ends of the paths.
+        accuracy: largest last step of Newton's method, infinite where one did not converge.
+        infinite, irregular: numbers of paths that ended at infinity, and of those that failed or
+            ended where the slice cuts no regular point.
+    """
+
+    fibres: list[Fibre]
+    accuracy: float
+    infinite: int
+    irregular: int
+
+    @property
+    def x(self) -> np.ndarray:
+        """The points without added unknowns, shape ``(P, n)``."""
+        return np.vstack([fibre.x for fibre in self.fibres])
+
+
+def arrival(
+    fibres: Sequence[Fibre],
+    rows: np.ndarray,
+    target: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    endgame: bool = True,
+) -> Arrival:
+    """What becomes of fibres when the slice moves from ``rows`` to ``target``."""
+    gamma, found = complex(unit_complex(rng)), []
+    accuracy, infinite, irregular = float(np.finfo(float).eps), 0, 0
+    for fibre in fibres:
+        points = fibre.points
+        if len(rows):
+            ends = move(fibre, rows, target, gamma, tracker, endgame)
+            infinite += ends.counts.at_infinity
+            irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
+            points = ends.points[ends.regular]
+        sharpened = [sharpen(fibre.cut.evaluator, target, z) for z in points]
+        accuracy = max([accuracy, *(s.step if s.converged else np.inf for s in sharpened)])
+        z = np.array([s.z for s in sharpened], dtype=complex).reshape(points.shape)
+        found.append(Fibre(fibre.cut, fibre.dimension, z))
+    return Arrival(found, accuracy, infinite, irregular)
 
 
 def witness_at(
@@ -78,35 +116,24 @@ def witness_at(
     rng = np.random.default_rng([seed, 2])
     rows, goal = component.slice.rows, orthonormal_rows(target.rows)
     fibres = component_fibres(system, component)
+    evaluator = Evaluator.of(system.polynomials, system.n)
     lost = ""
-    for attempt in range(ATTEMPTS):
-        tracker = Tracker("careful" if attempt else settings, threads)
-        gamma = complex(unit_complex(rng))
-        found, accuracy, infinite, irregular = [], np.finfo(float).eps, 0, 0
-        for fibre in fibres:
-            ends = move(fibre, rows, goal, gamma, tracker, endgame=True)
-            infinite += ends.counts.at_infinity
-            irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-            z, step = sharpened_ends(fibre, goal, ends.points[ends.regular])
-            if system.n:
-                z = z[np.lexsort((z.imag[:, 0], z.real[:, 0]))]
-            found.append(Fibre(fibre.cut, component.dimension, z))
-            accuracy = max(accuracy, step)
+    for tracker in Tracker(settings, threads).attempts(ATTEMPTS):
+        there = arrival(fibres, rows, goal, rng, tracker)
+        found = [fibre.ordered for fibre in there.fibres]
         points = np.vstack([fibre.x for fibre in found])
-        residual = float(
-            Evaluator.of(system.polynomials, system.n).residuals(points).max(initial=0.0)
-        )
-        if len(points) == component.degree and np.isfinite(accuracy) and residual < ON:
+        residual = float(evaluator.residuals(points).max(initial=0.0))
+        if len(points) == component.degree and np.isfinite(there.accuracy) and residual < ON:
             return replace(
                 component,
                 slice=to_slice(goal),
                 points=points,
                 residual=residual,
-                accuracy=accuracy,
+                accuracy=there.accuracy,
                 fibres=tuple(found),
             )
         lost = (
-            f"of the {component.degree} points of the component, the slice meets {infinite} at "
-            f"infinity and {irregular} where the intersection is not transversal"
+            f"of the {component.degree} points of the component, the slice meets {there.infinite} "
+            f"at infinity and {there.irregular} where the intersection is not transversal"
         )
     raise SliceError(lost)
