@@ -24,7 +24,7 @@ from nag.solving.solve import solve
 from nag.solving.start.target import StartError
 from nag.witness.cutting import dyadic, numerical_corank
 from nag.witness.fibres import Tracker
-from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet, even_radii
 
 # Solutions that are the same, found by two ways: relative distance.
 SAME = 1e-8
@@ -132,7 +132,8 @@ def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSyste
         multiplicity=solution.multiplicity,
         status=Status.IRREDUCIBLE,
         residual=solution.residual,
-        accuracy=solution.accuracy,
+        radii=even_radii(solution.point[None], solution.accuracy),
+        digits=[solution.precision],
         corank=corank,
         multidegree=np.array(1) if system.groups else None,
     )

@@ -11,7 +11,7 @@ from enum import Enum
 
 import numpy as np
 
-from nag.algebra.zero_count import most_zeros
+from nag.algebra.zero_count import ZeroCount, most_zeros
 from nag.solving.judged_ends import JudgedEnds
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
@@ -32,6 +32,8 @@ def counted(problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds
     proved = bool((paths.status == PathStatus.REGULAR).all()) or ends.zeros == len(paths)
     if (begin.complete and proved) or problem.added or len(ends.on_components):
         return ends
+    if ends.zeros == begin.most:
+        return replace(ends, count=ZeroCount(begin.most, False))
     patient = bool(ends.unclear) or len(paths.where(PathStatus.FAILED)) > 0
     return replace(ends, count=most_zeros(problem.system.polynomials, ends.zeros, patient))
 
