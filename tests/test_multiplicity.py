@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.factoring import factored
+from nag.algebra.generic_multiplicity import is_own_ring
+from nag.algebra.polynomial import Polynomial
 from nag.witness.multiplicity import multiplicity
 from nag.witness.slices import rows_through
 
@@ -30,3 +33,17 @@ def test_it_does_not_depend_on_how_far_out_the_point_lies(
         t = size * np.exp(2j * np.pi * rng.random())
         x = np.array(point(t), dtype=complex)
         assert multiplicity(polynomials, rows_through(rng, d, x), x, rng) == expected
+
+
+def test_a_branch_by_a_linear_factor_has_the_local_ring_of_all_equations() -> None:
+    x, y = Polynomial.variables(2)
+    circle, line, other = x * x + y * y - 6, x - y, x + 5
+
+    def own(first: Polynomial, branch: tuple[Polynomial, ...]) -> bool:
+        equations = [factored(first), factored(circle)]
+        return is_own_ring(equations, branch, lambda p: p != other)
+
+    assert own(line * other, (line, y * y - 3))
+    assert own(line * other, (line, circle))
+    assert not own(line * other, (line, y * y - 5))
+    assert not own(line * line * other, (line, y * y - 3))
