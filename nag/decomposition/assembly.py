@@ -12,9 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.decomposition.final_checks import checked_witness_set
-from nag.decomposition.orbits import Action, Orbit, Orbits, irreducible_orbits
+from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.splitting import Class
 from nag.decomposition.trace import digits_of_evidence
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import Membership, is_member
@@ -28,7 +27,6 @@ class Known:
 
     Attributes:
         actions: symmetries; one component of each orbit is worked out.
-        one: whether all points are those of one component.
         scheme: whether the sets are components of the scheme of the equations, so that they have
             a multiplicity in it.
         embedded: whether sets that deflation made reduced may lie on larger ones; those that do
@@ -36,7 +34,6 @@ class Known:
     """
 
     actions: Sequence[Action] = ()
-    one: bool = False
     scheme: bool = True
     embedded: bool = False
 
@@ -98,12 +95,7 @@ def assembled(
         if not len(points[d]):
             continue
         tracker.tell("splitting", len(pieces), 0)
-        if known.one:
-            # What is proved exactly needs no loops and no trace.
-            whole = Orbit(Class(np.arange(len(points[d]))))
-            found = Orbits(points[d], (whole,), PathCounts())
-        else:
-            found = irreducible_orbits(points[d], known.actions, evidence, rng, tracker)
+        found = irreducible_orbits(points[d], known.actions, evidence, rng, tracker)
         counts += found.counts
         notes += [f"dimension {d}: {note}" for note in found.notes]
         here = []

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.algebra.absolute_factors import is_absolutely_irreducible
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
@@ -16,6 +15,7 @@ from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.independent_parts import decompose_parts
 from nag.decomposition.isolated import contains, is_finite, solved_at_once
+from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
@@ -39,8 +39,9 @@ def decompose(
     Equations that share no variables are decomposed apart, and their components multiplied. Where
     equations factor over the rationals, the parts that the system falls into are decomposed
     apart; zeros of polynomials in one variable, and of two equations in two, are isolated exactly
-    where they are few. Otherwise linear equations are solved exactly first, and then equations are
-    intersected one by one. Where doubts are left and only points were found, the equations are
+    where they are few. Otherwise linear equations are solved exactly first. One equation that is
+    left is factored over the complex numbers, exactly and without paths; several are intersected
+    one by one. Where doubts are left and only points were found, the equations are
     solved all at once; else slices and constants are drawn anew, and the least doubtful answer is
     given. The same seed gives the same answer, byte for byte, whatever the number
     of threads.
@@ -85,6 +86,10 @@ def _decompose_whole(
     """The components of a system as it is, by attempts with different random numbers."""
     reduction = Reduction.of(system, scaled=True)
     rng = np.random.default_rng([seed, ATTEMPTS])
+    moving = any(not g.is_identity for g in symmetries)
+    exact = decompose_one_equation(reduction, rng, tracker, scheme, one=moving)
+    if exact is not None:
+        return replace(exact, seed=seed)
     if is_finite(reduction.reduced, rng, tracker):
         points = solved_at_once(system, rng, tracker, symmetries)
         if points is not None:
@@ -121,7 +126,6 @@ def _decompose_once(
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
     known = Known(
         actions=[Action.of(g, reduction.frame) for g in symmetries if not g.is_identity],
-        one=len(equations) == 1 and is_absolutely_irreducible(equations[0], rng),
         scheme=scheme,
     )
     points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}

@@ -17,6 +17,7 @@ from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.dh import DHModel
+from nag.mechanism.dh_euler import DHEulerModel
 from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.joint_types import freedoms_in
@@ -75,13 +76,14 @@ class Subject:
             counted, what = parts.framework.freedoms, "of a framework"
         elif isinstance(parts, LinkageModel):
             space, counted, what = "planar", parts.linkage.gruebler_kutzbach, "of a linkage"
-        elif isinstance(parts, DHModel):
-            space, counted, what = "spatial", len(parts.loop.open) - 6, "of the closed table"
+        elif isinstance(parts, DHModel | DHEulerModel):
+            space, counted = "spatial", len(parts.loop.open) - 6
+            what = f"formulation {parts.formulation} of the closed table"
         else:
             raise ValueError(f"parts of type {type(parts).__name__} are not known")
         reference = None if parts.reference is None else tuple(parts.reference)
         symmetries = tuple(parts.symmetries)
-        return cls(parts.system, symmetries, reference, space, counted, what, 0, parts)
+        return cls(parts.system, symmetries, reference, space, counted, what, (), parts)
 
 
 def mobility(
