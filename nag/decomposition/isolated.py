@@ -17,6 +17,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.symmetric_images import in_orbits
+from nag.numerics.coincidence import coincident
 from nag.solving.solutions import Solution
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError
@@ -24,8 +25,6 @@ from nag.witness.cutting import dyadic, numerical_corank
 from nag.witness.fibres import Tracker
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
-# Solutions that are the same, found by two ways: relative distance.
-SAME = 1e-8
 # Singular values of a Jacobian, relative to its size, that count as zero at a multiple point.
 ZERO = 1e-9
 # Values of an equation, beside their terms, that are certainly not zero.
@@ -117,11 +116,11 @@ def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSyste
 def contains(answer: Decomposition, other: Decomposition) -> bool:
     """Whether all points that ``other`` is sure of are points of ``answer`` as well."""
     points = np.vstack([c.points for c in answer.components] or [np.zeros((0, answer.system.n))])
+    error = max((c.accuracy for c in answer.components), default=0.0)
     for component in other.components:
         if component.status is Status.UNDECIDED:
             continue
         for x in component.points:
-            distance = np.linalg.norm(points - x, axis=1).min(initial=np.inf)
-            if distance > SAME * (1 + np.linalg.norm(x)):
+            if not coincident(points, x, max(error, component.accuracy)).any():
                 return False
     return True
