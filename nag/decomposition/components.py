@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +10,6 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
-from nag.decomposition.attempts import ATTEMPTS, least_doubtful
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.independent_parts import decompose_parts
@@ -41,10 +40,9 @@ def decompose(
     apart; zeros of polynomials in one variable, and of two equations in two, are isolated exactly
     where they are few. Otherwise linear equations are solved exactly first. One equation that is
     left is factored over the complex numbers, exactly and without paths; several are intersected
-    one by one. Where doubts are left and only points were found, the equations are
-    solved all at once; else slices and constants are drawn anew, and the least doubtful answer is
-    given. The same seed gives the same answer, byte for byte, whatever the number
-    of threads.
+    one by one. Where doubts are left and only points were found, the equations are solved all at
+    once. Nothing is tried again: what is left open is said to be. The same seed gives the same
+    answer, byte for byte, whatever the number of threads.
 
     Args:
         system: the equations; components on which a polynomial of ``system.nonzero`` vanishes
@@ -83,9 +81,9 @@ def _decompose_whole(
     symmetries: Sequence[SignedPermutation],
     scheme: bool,
 ) -> Decomposition:
-    """The components of a system as it is, by attempts with different random numbers."""
+    """The components of a system as it is."""
     reduction = Reduction.of(system, scaled=True)
-    rng = np.random.default_rng([seed, ATTEMPTS])
+    rng = np.random.default_rng([seed, 3])
     moving = any(not g.is_identity for g in symmetries)
     exact = decompose_one_equation(reduction, rng, tracker, scheme, one=moving)
     if exact is not None:
@@ -95,27 +93,23 @@ def _decompose_whole(
         if points is not None:
             return replace(points, seed=seed, settings=tracker.settings)
 
-    def answers() -> Iterator[Decomposition]:
-        for attempt in range(ATTEMPTS):
-            rng = np.random.default_rng([seed, attempt] if attempt else seed)
-            answer = _decompose_once(reduction, rng, tracker, symmetries, scheme)
-            yield answer
-            if not attempt and answer.dimension <= 0:
-                points = solved_at_once(system, rng, tracker, symmetries)
-                if points is not None and contains(points, answer):
-                    yield points
-
-    return replace(least_doubtful(answers()), seed=seed, settings=tracker.settings)
+    answer = _one_by_one(reduction, np.random.default_rng(seed), tracker, symmetries, scheme)
+    if not answer.complete and answer.dimension <= 0:
+        points = solved_at_once(system, rng, tracker, symmetries)
+        if points is not None and contains(points, answer):
+            tracked = answer.paths.tracked + points.paths.tracked
+            answer = replace(points, paths=replace(points.paths, tracked=tracked))
+    return replace(answer, seed=seed, settings=tracker.settings)
 
 
-def _decompose_once(
+def _one_by_one(
     reduction: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
     symmetries: Sequence[SignedPermutation],
     scheme: bool,
 ) -> Decomposition:
-    """One attempt."""
+    """The components by intersecting with one equation after the other."""
     reduced = reduction.reduced
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
