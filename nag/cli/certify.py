@@ -6,7 +6,8 @@ import argparse
 import time
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import UsageError, check_json
+from nag.cli.arguments import UsageError
+from nag.cli.running import writing_json
 
 if TYPE_CHECKING:
     from nag.solving.certificate import SolutionsCertificate
@@ -40,18 +41,13 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         UsageError: if the export cannot be read, or the certificate cannot be written.
     """
     from nag.files.certificate_export import write_certificate
-    from nag.files.written_file import TargetError
     from nag.report.table import labelled, printable, system_line
 
-    if options.json is not None:
-        check_json(options.json, options.export)
     found, title = _read(options.export)
     certificate, rows = certified(found)
     if options.json is not None:
-        try:
+        with writing_json():
             write_certificate(certificate, options.json)
-        except TargetError as error:
-            raise UsageError(f"--json: {error}") from None
     rows = [("system", system_line(found.system)), *rows]
     return [printable(title), "", *labelled(rows)], certificate.all_proved
 
