@@ -24,14 +24,14 @@ from nag.files.export import (
     export_text,
     read_decomposition,
     read_export,
-    schema,
     write_decomposition,
 )
+from nag.files.schemas import schema
 from nag.files.written_file import TargetError, check_target, write_target
 from nag.witness.moving import witness_at
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
-VALIDATOR = jsonschema.Draft202012Validator(schema())
+VALIDATOR = jsonschema.Draft202012Validator(schema("nag-decomposition", 2))
 
 doubles = st.floats(allow_nan=False, allow_infinity=False)
 names = st.lists(

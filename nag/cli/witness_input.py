@@ -6,7 +6,6 @@ Components are numbered from 1 in the order of the export; of an orbit, each one
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -213,13 +212,6 @@ def head(found: Given, kind: str, options: argparse.Namespace) -> dict[str, Any]
         "seed": options.seed,
         "settings": options.settings,
     }
-
-
-def schema(kind: str) -> dict[str, Any]:
-    """The JSON Schema of ``"nag-membership"``, ``"nag-samples"`` or ``"nag-intersection"``."""
-    from importlib import resources
-
-    return json.loads((resources.files("nag.files") / "schema" / f"{kind}-1.json").read_text())
 
 
 def write_document(document: dict[str, Any], target: str) -> None:

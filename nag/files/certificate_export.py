@@ -5,9 +5,7 @@ The format is ``nag-certificate``, version 1; its JSON Schema is in ``schema/`` 
 
 from __future__ import annotations
 
-import json
 import os
-from importlib import resources
 from typing import Any
 
 from nag.files.json_text import lay_out, pairs, real_or_null, system_document
@@ -20,12 +18,6 @@ FORMAT = "nag-certificate"
 VERSION = 1
 # Decimal digits of the centres of boxes for which doubles do not suffice.
 DIGITS = 60
-
-
-def schema() -> dict[str, Any]:
-    """The JSON Schema of the format."""
-    name = f"{FORMAT}-{VERSION}.json"
-    return json.loads((resources.files("nag.files") / "schema" / name).read_text("utf-8"))
 
 
 def _points(points: CertifiedPoints) -> list[dict[str, Any]]:
