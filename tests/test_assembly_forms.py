@@ -190,29 +190,6 @@ def test_henneberg_graphs_have_two_realisations_for_each_further_point(points, s
     assert len(answer.components) == 2 ** (points - 2)
 
 
-def test_isotropic_and_cartesian_coordinates_find_the_same_realisations():
-    places = {"A": (0, 0), "B": (3, 0), "C": (1, 2), "D": (4, 3)}
-    exact = {p: tuple(map(Fraction, place)) for p, place in places.items()}
-    placed = placed_framework(2, exact, [tuple(b) for b in ("AB", "BC", "CA", "BD", "CD")])
-    models = [
-        framework_model(placed),
-        framework_model(Framework(2, placed.points, placed.bars, placed.squared_lengths)),
-    ]
-    assert [m.coordinates for m in models] == ["xy", "zw"]
-    answers = [[c.points[0] for c in decompose(m.system).components] for m in models]
-    assert [len(a) for a in answers] == [4, 4]
-    plane = np.array(answers[0])
-    isotropic = np.hstack(
-        [
-            np.stack([p[:, 0] + 1j * p[:, 1], p[:, 0] - 1j * p[:, 1]], axis=1)
-            for p in (plane[:, :2], plane[:, 2:])
-        ]
-    )
-    gaps = np.abs(isotropic[:, None] - np.array(answers[1])[None]).max(axis=2)
-    assert gaps.min(axis=1).max() < 1e-12
-    assert all(m.is_real(x) for m, a in zip(models, answers, strict=True) for x in a)
-
-
 def test_ranks_tell_shaky_from_rigid_and_from_mobile():
     conic = read_case(CASES / "shaky" / "k33-on-conic.toml").assembly.framework
     assert (conic.freedoms, conic.generic_motions(), conic.infinitesimal_motions()) == (0, 0, 1)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import intersection_order, witness_superset
+from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.files.cases import read_case
 from nag.files.problem import system_of
 from nag.witness.fibres import Tracker
@@ -23,7 +23,7 @@ def test_ends_that_ask_for_more_digits_are_reached_at_the_first_attempt(seed: in
     reduced, rng = reduction.reduced, np.random.default_rng(seed)
     equations = [reduced.polynomials[i] for i in intersection_order(reduced.polynomials)]
     flag = random_rows(rng, reduced.n, reduced.n, 0.3)
-    found = witness_superset(equations, reduced.n, reduced.nonzero, flag, rng, Tracker())
+    found = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, Tracker())
     assert found.counts.failed == 0
     assert found.notes == ()
     assert {d: sum(map(len, f)) for d, f in found.fibres.items() if f} == {1: 16}

@@ -70,10 +70,10 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         with writing_json():
             write_solutions(result, options.json, case.title, os.path.basename(options.case))
     lines = solution_lines(result, case, model, seconds(options))
-    if not options.certify:
+    if not (options.certify or options.certify_paths):
         return lines, result.complete
-    certificate, rows = certified(result)
-    return [*lines, "", *labelled(rows)], result.complete and certificate.all_proved
+    proved = certified(result, options.certify_paths)
+    return [*lines, "", *labelled(proved.rows)], result.complete and proved.all_proved
 
 
 def solve_case(

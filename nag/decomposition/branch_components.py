@@ -13,7 +13,11 @@ from nag.algebra.branches import branches
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
-from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
+from nag.algebra.generic_multiplicity import (
+    generic_multiplicity,
+    independent_gradients,
+    is_own_ring,
+)
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
@@ -320,6 +324,11 @@ def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
     witness = component.witness
     n = witness.points.shape[1]
     x = witness.points[np.linalg.norm(witness.points, axis=1).argmin()]
+
+    simple = component.zero is None and witness.multiplicity == 1
+    regular = simple and witness.corank == witness.dimension
+    if regular and is_own_ring(equations, component.system.polynomials, component.vanishes):
+        return 1
 
     def independent(polynomials: Sequence[Polynomial]) -> bool:
         if component.zero is not None and all(f.exact for f in polynomials):

@@ -74,7 +74,8 @@ class SolveResult:
         solutions: the isolated solutions, each once.
         on_components: end points on solution sets of positive dimension, shape ``(k, n)``.
         undecided: end points that are solutions but may or may not be isolated, ``(k, n)``.
-        excluded: isolated solutions left out because one of `PolynomialSystem.nonzero` vanishes.
+        excluded: number of isolated solutions left out because one of `PolynomialSystem.nonzero`
+            vanishes; excluded_solutions: these, where they were kept.
         paths: what became of the paths of the last attempt, by status.
         start: ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``,
             ``"parameter"`` or ``"none"`` where nothing had to be tracked.
@@ -97,6 +98,7 @@ class SolveResult:
     settings: str
     complete: bool
     notes: tuple[str, ...] = ()
+    excluded_solutions: tuple[Solution, ...] = ()
 
     @property
     def points(self) -> np.ndarray:

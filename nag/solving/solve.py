@@ -10,6 +10,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.solving.branch_solutions import solve_apart
+from nag.solving.counted import Verdict, counted, doubtful, verdict, with_far_zeros
 from nag.solving.judged_ends import JudgedEnds, judged_ends
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 from nag.solving.square_problem import SquareProblem
@@ -17,7 +18,7 @@ from nag.solving.start.choice import check_kind, choose
 from nag.solving.start.target import Start, Target
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
-from nag.tracking.settings import Settings, named
+from nag.tracking.settings import Settings, named, tighter
 from nag.tracking.track import merged, track
 
 Progress = Callable[[str, int, int], None]
@@ -90,15 +91,32 @@ def _solve_whole(
     if progress:
         progress("solve", 0, 1)
     begin, reason = choose(problem.target, start, system.groups, rng, threads)
-    paths = track(begin.homotopy, begin.points, settings, threads)
-    ends = judged_ends(problem, begin, paths, rng, finite)
-    if len(ends.close) and not (finite and len(ends.on_components)):
+    paths = track(begin.homotopy, begin.points, settings, threads, most=begin.most)
+    ends = counted(problem, begin, paths, judged_ends(problem, begin, paths, rng, finite))
+    unclear = len(ends.close) and not (finite and len(ends.on_components))
+    if unclear and verdict(ends) is not Verdict.ALL:
         # What looks like a multiple zero and is none may be simple ones close together.
-        separating = replace(named(settings), evidence=SEPARATING)
-        more = track(begin.homotopy, begin.points[ends.close], separating, threads)
-        paths = merged(paths, more, ends.close)
-        ends = judged_ends(problem, begin, paths, rng, finite)
+        chosen, separating = ends.close, replace(named(settings), evidence=SEPARATING)
+        paths = _once_more(begin, paths, chosen, separating, threads)
+        ends = replace(judged_ends(problem, begin, paths, rng, finite), count=ends.count)
+    ends = with_far_zeros(problem, paths, ends, rng)
+    if verdict(ends) in (Verdict.MISSING, Verdict.TOO_MANY):
+        # An end that is not proved may be another one: what is near it, or a jump.
+        chosen = doubtful(paths)
+        separating = replace(tighter(named(settings)), evidence=SEPARATING)
+        more = _once_more(begin, paths, chosen, separating, threads)
+        again = replace(judged_ends(problem, begin, more, rng, finite), count=ends.count)
+        again = with_far_zeros(problem, more, again, rng)
+        if again.zeros > ends.zeros or verdict(again) is Verdict.ALL:
+            paths, ends = more, again
     return _result(problem, begin, reason, paths, ends, seed, name)
+
+
+def _once_more(
+    begin: Start, paths: Paths, chosen: np.ndarray, settings: Settings, threads: int
+) -> Paths:
+    """The paths, those chosen tracked with other settings."""
+    return merged(paths, track(begin.homotopy, begin.points[chosen], settings, threads), chosen)
 
 
 def begin_of(
@@ -112,7 +130,7 @@ def begin_of(
     problem = SquareProblem.of(system, [f for f in system.polynomials if f], rng)
     begin, _ = choose(problem.target, start, system.groups, rng, 1)
     started = time.perf_counter()
-    paths = track(begin.homotopy, begin.points, settings)
+    paths = track(begin.homotopy, begin.points, settings, most=begin.most)
     return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())
 
 
@@ -160,17 +178,16 @@ def _result(
         *(len(paths.where(status)) for status in PathStatus),
         int(paths.steps.sum()),
     )
-    notes = list(ends.notes)
-    if counts.failed:
-        causes = ", ".join(f"{k} because {why}" for why, k in paths.failures.items())
-        notes.append(f"{counts.failed} of {counts.tracked} paths failed: {causes}")
-    infinite = paths.where(PathStatus.AT_INFINITY)
-    far = np.abs(paths.points[infinite][:, list(begin.homotopy.infinity)])
-    error = np.minimum(paths.accuracy[infinite], ROUGHLY_INFINITE)
-    unsure = int((far.min(axis=1, initial=np.inf) > np.maximum(INFINITE, error)).sum())
-    if unsure:
-        notes.append(f"{unsure} paths to infinity may end at solutions far out")
-    complete = begin.complete and not notes
+    seen = verdict(ends)
+    if seen is Verdict.ALL:
+        notes = list(ends.notes)
+        proof = "linear algebra modulo a prime proves that there are no more than"
+        reason = f"{reason}; {proof} {ends.zeros}"
+    else:
+        notes = [*ends.unclear, *_open(begin, paths), *ends.notes]
+        if seen is not Verdict.UNKNOWN:
+            notes.append(f"{ends.zeros} zeros were found, and there are {ends.count.bound}")
+    complete = (begin.complete or seen is Verdict.ALL) and not notes
     if len(ends.on_components):
         notes.append(
             f"the solution set has positive dimension; {len(ends.on_components)} end points lie "
@@ -185,8 +202,8 @@ def _result(
         system=problem.system,
         solutions=ends.solutions,
         on_components=ends.on_components,
-        undecided=ends.undecided,
-        excluded=ends.excluded,
+        undecided=ends.undecided[:0] if seen is Verdict.ALL else ends.undecided,
+        excluded=len(ends.excluded),
         paths=counts,
         start=begin.name,
         reason=reason,
@@ -194,4 +211,21 @@ def _result(
         settings=settings,
         complete=complete,
         notes=tuple(notes),
+        excluded_solutions=ends.excluded,
     )
+
+
+def _open(begin: Start, paths: Paths) -> list[str]:
+    """What is left open of the paths that failed, and of those to infinity."""
+    notes = []
+    failed = len(paths.where(PathStatus.FAILED))
+    if failed:
+        causes = ", ".join(f"{k} because {why}" for why, k in paths.failures.items())
+        notes.append(f"{failed} of {len(paths)} paths failed: {causes}")
+    infinite = paths.where(PathStatus.AT_INFINITY)
+    far = np.abs(paths.points[infinite][:, list(begin.homotopy.infinity)])
+    error = np.minimum(paths.accuracy[infinite], ROUGHLY_INFINITE)
+    unsure = int((far.min(axis=1, initial=np.inf) > np.maximum(INFINITE, error)).sum())
+    if unsure:
+        notes.append(f"{unsure} paths to infinity may end at solutions far out")
+    return notes

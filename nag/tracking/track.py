@@ -30,6 +30,8 @@ RESIDUAL = 1e-29
 ALIKE = 1e-9
 # Their next coefficients, over the sum of their sizes.
 BENT = 1e-4
+# A coordinate that exceeds the error of its point so many times does not vanish.
+NONZERO = 1e3
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -42,6 +44,7 @@ def track(
     *,
     endgame: bool = True,
     distinct: bool = True,
+    most: int | None = None,
 ) -> Paths:
     """Track ``starts`` from t = 1 to t = 0.
 
@@ -54,6 +57,8 @@ def track(
             end, and one that ends otherwise has failed.
         distinct: the starts are pairwise distinct, so that equal regular ends betray a path jump;
             such paths are tracked again with tighter control.
+        most: where it is known that a target with so many regular zeros, none of whose coordinates
+            vanish, has no other zeros: once these are found, all other paths lead to infinity.
 
     Raises:
         ValueError: if the starts have a wrong shape, or settings an unknown name.
@@ -63,7 +68,7 @@ def track(
     if starts.ndim != 2 or starts.shape[1] != homotopy.N:
         raise ValueError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
     starts = homotopy.normalized(starts)
-    paths = _attempt(homotopy, starts, chosen, threads, endgame)
+    paths = _attempt(homotopy, starts, chosen, threads, endgame, most if distinct else None)
     for attempt in range(chosen.retries if distinct else 0):
         jumped = collisions(homotopy, paths)
         if attempt == 0:
@@ -119,7 +124,12 @@ class _Raw:
 
 
 def _attempt(
-    homotopy: Homotopy, starts: np.ndarray, settings: Settings, threads: int, endgame: bool
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    settings: Settings,
+    threads: int,
+    endgame: bool,
+    most: int | None = None,
 ) -> Paths:
     raw = _run(homotopy, starts, settings, threads, endgame)
     paths, regular = _judged(homotopy, raw)
@@ -127,6 +137,8 @@ def _attempt(
     doubtful = doubtful[raw.reason[doubtful] != Reason.START]
     if not len(doubtful) or settings.digits < 32:
         return paths
+    if most is not None and _all_are_found(homotopy, paths, most):
+        return _to_infinity(homotopy, paths, doubtful)
     from nag.tracking.ends.follow import follow
 
     reached = raw.reason[doubtful] == Reason.NONE
@@ -143,6 +155,26 @@ def _attempt(
     if not endgame:
         new = _without(new, new.where(PathStatus.SINGULAR))
     return merged(paths, new, doubtful)
+
+
+def _all_are_found(homotopy: Homotopy, paths: Paths, most: int) -> bool:
+    """Whether there are ``most`` distinct regular finite ends, no coordinate of which vanishes."""
+    regular = paths.where(PathStatus.REGULAR)
+    if len(regular) != most or len(collisions(homotopy, paths)):
+        return False
+    sizes = np.abs(paths.points[regular]).min(axis=1)
+    return bool((sizes > NONZERO * paths.accuracy[regular]).all())
+
+
+def _to_infinity(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> Paths:
+    """The same, with the paths ``chosen`` known to lead to infinity, though not where."""
+    status, reason, points = paths.status.copy(), paths.reason.copy(), paths.points.copy()
+    status[chosen], reason[chosen] = PathStatus.AT_INFINITY, Reason.NONE
+    infinite = np.array(homotopy.infinity)
+    least = infinite[np.abs(points[np.ix_(chosen, infinite)]).argmin(axis=1)]
+    points[chosen, least] = 0.0
+    points[chosen] = homotopy.normalized(points[chosen])
+    return replace(paths, points=points, status=status, reason=reason)
 
 
 def _run(
@@ -206,34 +238,32 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
     """
     P = len(raw.points)
     points = raw.points.copy()
-    status = np.full(P, PathStatus.FAILED, dtype=np.int8)
-    accuracy = np.full(P, np.inf)
-    condition = np.full(P, np.inf)
-    reason = raw.reason.astype(np.int8)
-    regular = np.zeros(P, dtype=bool)
+    good, regular = np.zeros(P, dtype=bool), np.zeros(P, dtype=bool)
+    accuracy, condition = np.full(P, np.inf), np.full(P, np.inf)
     ended = np.flatnonzero(raw.reason == Reason.NONE)
     if len(ended):
         error = np.maximum(raw.error[ended], 1e-15)
-        sharp = refine(homotopy, None, homotopy.normalized(points[ended]))
-        steady = sharp.smallest > 0.5 * sharp.before
+        sharp = refine(homotopy, None, points[ended])
         # Newton's method proves a regular zero where its steps are far smaller than the singular
-        # values.
+        # values, which hardly change on the way.
         near = (sharp.moved <= 1e3 * error + 1e-11) | (sharp.moved <= 0.1 * sharp.smallest)
-        proved = steady & near & (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
-        points[ended] = sharp.points
-        accuracy[ended] = sharp.error
-        condition[ended] = sharp.condition
+        proved = near & (sharp.smallest > 0.5 * sharp.before)
+        proved &= (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
-        known = sizes > RESIDUAL / np.maximum(sharp.smallest, 1e-300)
-        status[ended[proved & known]] = PathStatus.REGULAR
-        regular[ended[proved]] = True
-    failed = status == PathStatus.FAILED
-    reason[failed & (reason == Reason.NONE)] = Reason.ENDGAME
-    accuracy[failed] = np.inf
-    winding = np.where(failed, 0, 1)
-    digits = np.where(failed, 16, 32).astype(np.int16)
-    paths = Paths(points, status, winding, accuracy, condition, raw.steps, digits, reason, ~failed)
-    return paths, regular
+        known = sizes * np.maximum(sharp.smallest, 1e-300) > RESIDUAL
+        points[ended] = sharp.points
+        condition[ended] = sharp.condition
+        regular[ended] = proved
+        good[ended] = proved & known
+        accuracy[ended] = np.where(proved & known, sharp.error, np.inf)
+    status = np.where(good, np.int8(PathStatus.REGULAR), np.int8(PathStatus.FAILED))
+    reason = raw.reason.astype(np.int8)
+    reason[~good & (reason == Reason.NONE)] = Reason.ENDGAME
+    digits = np.where(good, np.int16(32), np.int16(16))
+    winding = good.astype(np.int64)
+    return Paths(
+        points, status, winding, accuracy, condition, raw.steps, digits, reason, good
+    ), regular
 
 
 def _without(paths: Paths, lost: np.ndarray) -> Paths:
