@@ -9,7 +9,7 @@ import numpy as np
 from nag.algebra.number import decimal_digits
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limit, Limits
-from nag.tracking.ends.runs import MAX_STEPS, ORDER, run
+from nag.tracking.ends.runs import MAX_STEPS, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import ROUNDING, refine
@@ -55,6 +55,18 @@ class States:
     errors: np.ndarray
     limits: dict[int, Limit]
     found: dict[int, np.ndarray]
+    most: int = MAX_STEPS
+
+    @classmethod
+    def from_start(cls, starts: np.ndarray, curvature: np.ndarray) -> States:
+        """Paths at t = 1, at points in words, shape ``(P, N, 2, words)``."""
+        P, N, _, words = starts.shape
+        states = cls.of(np.zeros((P, N)), np.zeros(P, bool), np.zeros((P, N)), np.ones(P))
+        states.where, states.safe, states.ends = starts.copy(), starts.copy(), starts.copy()
+        states.t = np.tile(np.eye(1, words), (P, 1))
+        states.safe_t = states.t.copy()
+        states.curvature, states.most = curvature.copy(), MOST_STEPS
+        return states
 
     @classmethod
     def of(cls, ends: np.ndarray, reached: np.ndarray, safe: np.ndarray, t: np.ndarray) -> States:
@@ -141,6 +153,27 @@ def follow(
     return _paths(homotopy, states)
 
 
+def follow_whole(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    curvature: np.ndarray,
+    settings: Settings,
+    threads: int = 1,
+) -> Paths:
+    """Follow paths from t = 1 on, in the arithmetic that their starts are given in.
+
+    Args:
+        starts: points at t = 1 in words, of norms about one, shape ``(P, N, 2, words)``.
+        curvature: estimates of Newton's constant there, shape ``(P,)``.
+
+    Returns:
+        The paths; those whose ends ask for more digits have failed.
+    """
+    states = States.from_start(starts, curvature)
+    _follow_in(homotopy, states, np.arange(len(starts)), starts.shape[-1], settings, threads)
+    return _paths(homotopy, states)
+
+
 def digits_of_evidence(homotopy: Homotopy, beyond: int) -> int:
     """To how many digits an end must satisfy the equations: so many more than these have.
 
@@ -189,7 +222,7 @@ def _follow_in(
                 verdict = _limit(states, limits, path, found[k], need)
                 if verdict != end_run.LIMIT:
                     states.outcome[path] = end_run.LOST
-                    hopeful = verdict == end_run.OPEN and states.steps[path] < MAX_STEPS
+                    hopeful = verdict == end_run.OPEN and states.steps[path] < states.most
                     (again if hopeful else later).append(path)
             elif outcome == end_run.REGULAR:
                 centre = states.found[path]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 # Order of the Taylor coefficients.
 ORDER = 14
-MAX_STEPS = 300
+MAX_STEPS, MOST_STEPS = 300, 3000
 MAX_WINDING = 40
 # Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
 # those of the settings.
@@ -84,7 +84,7 @@ def _batch(
         np.zeros(count * N * 4 * 2 * words),
         np.zeros(count * N),
         states.curvature[own],
-        MAX_STEPS,
+        states.most,
         MAX_WINDING,
         ACCURACY * settings.tolerance,
         CONTRACTION * settings.contraction,
