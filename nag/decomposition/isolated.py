@@ -20,7 +20,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import most_zeros
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.coincidence import coincident
-from nag.solving.solutions import Solution
+from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError
 from nag.witness.cutting import dyadic, numerical_corank
@@ -52,12 +52,8 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
     for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
         plane = plane + x * Fraction(float(weight))
     cut = PolynomialSystem(system.variables, (*others, plane))
-    seed = int(rng.integers(2**31))
-    try:
-        found = solve(
-            cut, seed=seed, threads=tracker.threads, settings=tracker.settings, finite=True
-        )
-    except StartError:
+    found = _solved(cut, rng, tracker)
+    if found is None:
         return False
     last = Evaluator.of([system.polynomials[hardest]], n)
     met = bool((last.residuals(found.points) <= NONZERO).any())
@@ -65,6 +61,17 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
         return True
     # What paths leave open may be proved.
     return not met and most_zeros(system.polynomials) is not None
+
+
+def _solved(
+    system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker
+) -> SolveResult | None:
+    """The isolated solutions of a system; None if it has no start system."""
+    seed, how = int(rng.integers(2**31)), {"settings": tracker.settings, "threads": tracker.threads}
+    try:
+        return solve(system, seed=seed, finite=True, **how)
+    except StartError:
+        return None
 
 
 def solved_at_once(
@@ -76,14 +83,8 @@ def solved_at_once(
     """The points of a solution set, if it is finite and the solver has no doubts."""
     if len(system.polynomials) < system.n:
         return None
-    seed = int(rng.integers(2**31))
-    try:
-        found = solve(
-            system, seed=seed, threads=tracker.threads, settings=tracker.settings, finite=True
-        )
-    except StartError:
-        return None
-    if not found.complete or found.positive_dimensional:
+    found = _solved(system, rng, tracker)
+    if found is None or not found.complete or found.positive_dimensional:
         return None
     evaluator = Evaluator.of(system.polynomials, system.n)
     components = [_component(s, evaluator, system) for s in found.solutions]
