@@ -55,5 +55,10 @@ solve.ON *            1e-9     Residual of the equations, relative to their term
 coincidence.LEAST     1e-11    Least relative error of ends in doubles; those within a hundred times
                                their errors are looked at together: no decision, as what is one and
                                what is several is seen in 150 digits (`nag.numerics`).
+missing_zeros.SAFETY  1e3      Errors of a zero that was found in which no other one is looked for.
+tropical_zeros.APART  1e-3     Relative distance, beyond those errors, of a zero of extreme size
+                               from all that were found: nearer ones are for paths to find.
+missing_zeros         2^26     Sizes from which zeros are looked for where they cannot be counted;
+.EXTREME                       ends so far out may satisfy the least evidence of infinity.
 ====================  =======  =====================================================================
 """
