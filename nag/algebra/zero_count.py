@@ -1,11 +1,12 @@
-"""How many zeros a system has at most, each counted by its multiplicity: proved modulo a prime.
+"""How many zeros a system has at most, each counted by its multiplicity: modulo two primes.
 
 The polynomials of an ideal I up to degree D that are seen to lie in it, V, make multiples of each
 other: V grows until no product of its members with a variable up to degree D lies outside. Where
 every monomial of some degree d is, modulo V, a combination of lower ones, the monomials that are
-none span the quotient by I, which therefore has as many dimensions at most. Independence modulo
-a prime is independence over the rationals, so that the bound holds whatever the prime is. If V is
-closed at a degree beyond d, the bound is the number of zeros itself, modulo the prime.
+none span the quotient by I, which therefore has as many dimensions at most. If V is closed at a
+degree beyond d, the bound is the number of zeros itself. A prime that divides a leading coefficient
+of a member of V may bring zeros to infinity (p x - 1 has none modulo p), so that the larger bound
+of two primes counts: it is wrong only where both are unlucky.
 
 References:
     Mourrain, A new criterion for normal form algorithms, 1999; Mourrain & Trebuchet, Solving
@@ -19,39 +20,57 @@ from itertools import combinations_with_replacement
 from math import comb, lcm
 from typing import NamedTuple
 
-import flint
 import numpy as np
 
 from nag.algebra.polynomial import Exponents, Polynomial
 
 # Sums of so many products of residues are whole numbers that doubles hold.
-PRIME = 2**21 - 9
+PRIMES = 2**21 - 9, 2**21 - 19
 MOST_STANDARD = 2**11
 # Monomials up to degree D beyond which nothing is worked out: some 0.5 s.
 MOST_MONOMIALS = 1500
 
 
 class ZeroCount(NamedTuple):
-    """No more than ``bound`` zeros; as many, if ``exact`` and the prime is a good one."""
+    """No more than ``bound`` zeros; as many, if ``exact``."""
 
     bound: int
     exact: bool
 
 
-def most_zeros(polynomials: Sequence[Polynomial], enough: int = -1) -> ZeroCount | None:
+def most_zeros(
+    polynomials: Sequence[Polynomial], enough: int = -1, patient: bool = True
+) -> ZeroCount | None:
     """A bound of the number of common zeros of polynomials with rational coefficients.
 
     Args:
         polynomials: not all zero, in the same variables.
         enough: a bound that is as small as this one need not be improved.
+        patient: whether to try also where generic equations of these degrees have too many
+            monomials: sparse ones may have fewer, but it may take a second to see that they have
+            not.
 
     Returns:
         None where the zeros are not seen to be finitely many within `MOST_MONOMIALS`.
     """
     given = [f for f in polynomials if f]
-    if not given or not all(f.exact for f in given) or not _small(given):
+    if not given or not all(f.exact for f in given):
         return None
-    space = _Quotient(given[0].n)
+    if not patient and not _small(given):
+        return None
+    counts = []
+    for prime in PRIMES:
+        count = _modulo(prime, given, enough)
+        if count is None:
+            return None
+        counts.append(count)
+    bounds = {count.bound for count in counts}
+    return ZeroCount(max(bounds), len(bounds) == 1 and all(count.exact for count in counts))
+
+
+def _modulo(prime: int, given: Sequence[Polynomial], enough: int) -> ZeroCount | None:
+    """What one prime says."""
+    space = _Quotient(given[0].n, prime)
     found = None
     for degree in range(MOST_MONOMIALS):
         if comb(degree + space.n, space.n) > MOST_MONOMIALS:
@@ -81,13 +100,14 @@ class _Quotient:
     """Polynomials up to a degree modulo V, by the monomials that are no leading ones in V.
 
     Attributes:
+        prime: modulo which everything is.
         degrees: of the monomials, which ascend by degree, shape ``(C,)``.
         standard: indices of those that are no leading monomials, shape ``(s,)``.
         forms: each monomial as a combination of those, shape ``(C, s)``.
     """
 
-    def __init__(self, n: int) -> None:
-        self.n = n
+    def __init__(self, n: int, prime: int) -> None:
+        self.n, self.prime = n, prime
         self.top = -1
         self.monomials: list[Exponents] = []
         self.place: dict[Exponents, int] = {}
@@ -118,8 +138,8 @@ class _Quotient:
             lower = self.standard[self.standard < below]
             tails = self.forms[todo][:, : len(lower)]
             for up in products if len(todo) else ():
-                product = self.forms[up[todo]] - np.mod(tails @ self.forms[up[lower]], PRIME)
-                rows = np.vstack([rows, np.mod(product, PRIME)])
+                product = self.forms[up[todo]] - np.mod(tails @ self.forms[up[lower]], self.prime)
+                rows = np.vstack([rows, np.mod(product, self.prime)])
             if not len(todo) and not len(rows):
                 return True
             self._divide_out(rows)
@@ -156,28 +176,30 @@ class _Quotient:
         for row, f in zip(rows, polynomials, strict=True):
             common = lcm(*(c.denominator for c in f.terms.values()))
             for e, c in f.terms.items():
-                row[self.place[e]] = c.numerator * (common // c.denominator) % PRIME
-        return np.mod(rows @ self.forms, PRIME)
+                row[self.place[e]] = c.numerator * (common // c.denominator) % self.prime
+        return np.mod(rows @ self.forms, self.prime)
 
     def _divide_out(self, rows: np.ndarray) -> None:
         """Combinations of the standard monomials lie in the ideal as well."""
         rows = np.unique(rows[rows.any(axis=1)], axis=0)
         if not len(rows):
             return
+        import flint
+
         columns = len(self.standard)
         entries = rows[:, ::-1].astype(np.int64).ravel().tolist()
-        echelon, rank = flint.nmod_mat(len(rows), columns, entries, PRIME).rref()
+        echelon, rank = flint.nmod_mat(len(rows), columns, entries, self.prime).rref()
         pivots, k = [], 0
         for j in range(columns):
             if k < rank and echelon[k, j] != 0:
                 pivots.append(j)
                 k += 1
         others = [j for j in range(columns) if j not in set(pivots)]
-        tails = np.array([[-int(echelon[k, j]) % PRIME for j in others] for k in range(rank)])
+        tails = np.array([[-int(echelon[k, j]) % self.prime for j in others] for k in range(rank)])
         tails = tails.reshape(rank, len(others))[:, ::-1].astype(float)
         kept = columns - 1 - np.array(others[::-1], dtype=np.int64)
         gone = columns - 1 - np.array(pivots, dtype=np.int64)
-        self.forms = np.mod(self.forms[:, kept] + self.forms[:, gone] @ tails, PRIME)
+        self.forms = np.mod(self.forms[:, kept] + self.forms[:, gone] @ tails, self.prime)
         self.standard = self.standard[kept]
 
 

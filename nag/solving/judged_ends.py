@@ -14,15 +14,12 @@ from nag.numerics.singular_point import Place, analyse
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
-from nag.solving.tropical_zeros import TropicalZero
 from nag.tracking.paths import Paths, PathStatus
 
 # |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
 ON = 1e-9
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
-# Digits in which zeros that no path has reached are known.
-DIGITS = 150
 # Points evaluated at once.
 BLOCK = 2048
 
@@ -161,16 +158,11 @@ def judged_ends(
     )
 
 
-def enlarged(problem: SquareProblem, ends: JudgedEnds, zeros: Sequence[TropicalZero]) -> JudgedEnds:
-    """The same, with zeros in the scaled variables that no path has reached."""
-    isolated = (*ends.isolated, *map(_further, zeros))
+def enlarged(problem: SquareProblem, ends: JudgedEnds, zeros: Sequence[IsolatedZero]) -> JudgedEnds:
+    """The same, with more zeros in the scaled variables."""
+    isolated = (*ends.isolated, *zeros)
     solutions, excluded, notes = _solutions(problem, isolated)
     return replace(ends, solutions=solutions, excluded=excluded, notes=notes, isolated=isolated)
-
-
-def _further(zero: TropicalZero) -> IsolatedZero:
-    end = zero.end
-    return IsolatedZero(zero.point, 1, zero.residual, end.accuracy, end.condition, DIGITS)
 
 
 def _zeros(

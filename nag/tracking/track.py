@@ -79,7 +79,7 @@ def track(
             return paths
         chosen = tighter(chosen)
         paths = merged(paths, _attempt(homotopy, starts[jumped], chosen, threads, endgame), jumped)
-    return _without(paths, collisions(homotopy, paths)) if distinct else paths
+    return without(paths, collisions(homotopy, paths)) if distinct else paths
 
 
 def track_regular(
@@ -154,7 +154,7 @@ def _attempt(
         threads,
     )
     if not endgame:
-        new = _without(new, new.where(PathStatus.SINGULAR))
+        new = without(new, new.where(PathStatus.SINGULAR))
     return merged(paths, new, doubtful)
 
 
@@ -268,7 +268,7 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
     ), regular
 
 
-def _without(paths: Paths, lost: np.ndarray) -> Paths:
+def without(paths: Paths, lost: np.ndarray) -> Paths:
     """The same, with the paths at ``lost`` failed."""
     status, reason, winding = paths.status.copy(), paths.reason.copy(), paths.winding.copy()
     status[lost], reason[lost], winding[lost] = PathStatus.FAILED, Reason.ENDGAME, 0
