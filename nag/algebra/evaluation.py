@@ -42,25 +42,36 @@ class Evaluator:
         return _Monomials.of(self.exponents)
 
     def values(self, points: np.ndarray) -> np.ndarray:
-        """Values, shape ``(P, rows)``, at ``points`` of shape ``(P, n)``."""
-        return self._monomials(np.asarray(points, dtype=complex)) @ self.coefficients.T
+        """Values, shape ``(P, rows)``, at ``points`` of shape ``(P, n)``.
+
+        Those beyond the range of doubles are inf or NaN.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self._monomials(np.asarray(points, dtype=complex)) @ self.coefficients.T
 
     def sizes(self, points: np.ndarray) -> np.ndarray:
         """Sums of the absolute values of the terms, coordinates below one counted as one.
 
         Shape ``(P, rows)``. Without that floor a single term would never be small beside itself.
         """
-        floored = np.maximum(np.abs(points), 1.0)
-        sizes = self._monomials(floored) @ np.abs(self.coefficients).T
+        with np.errstate(over="ignore", invalid="ignore"):
+            floored = np.maximum(np.abs(points), 1.0)
+            sizes = self._monomials(floored) @ np.abs(self.coefficients).T
         return np.where(sizes == 0, 1.0, sizes)
 
     def absolute(self, points: np.ndarray) -> np.ndarray:
         """Sums of the absolute values of the terms, shape ``(P, rows)``."""
-        return self._monomials(np.abs(points)) @ np.abs(self.coefficients).T
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self._monomials(np.abs(points)) @ np.abs(self.coefficients).T
 
     def residuals(self, points: np.ndarray) -> np.ndarray:
-        """Absolute values over sizes, shape ``(P, rows)``: 1e-16 is rounding at any scale."""
-        return np.abs(self.values(points)) / self.sizes(points)
+        """Absolute values over sizes, shape ``(P, rows)``: 1e-16 is rounding at any scale.
+
+        Of points whose values are beyond the range of doubles nothing is known: inf.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = np.abs(self.values(points)) / self.sizes(points)
+        return np.where(np.isnan(found), np.inf, found)
 
     @cached_property
     def _derivatives(self) -> tuple[_Monomials, np.ndarray, np.ndarray, np.ndarray]:
@@ -85,8 +96,9 @@ class Evaluator:
     def jacobian(self, point: np.ndarray) -> np.ndarray:
         """Jacobian matrix, shape ``(rows, n)``, at one point."""
         powers, places, monomials, factors = self._derivatives
-        values = powers(np.asarray(point, dtype=complex)[None])[0]
-        terms = factors * values[monomials]
+        with np.errstate(over="ignore", invalid="ignore"):
+            values = powers(np.asarray(point, dtype=complex)[None])[0]
+            terms = factors * values[monomials]
         size = len(self.coefficients) * self.n
         result = np.bincount(places, terms.real, size) + 1j * np.bincount(places, terms.imag, size)
         return result.reshape(len(self.coefficients), self.n)
