@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from linkages import CASES
 
+from nag.algebra.expression import parse_number
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import Case, read_case
@@ -25,6 +26,7 @@ from nag.mechanism.framework import (
 from nag.mechanism.framework_model import framework_model
 from nag.mechanism.model import model
 from nag.mechanism.quaternion import dual_multiply
+from nag.mechanism.real_assemblies import obstacle
 
 PRISM = ["AB", "BC", "CA", "DE", "EF", "FD", "AD", "BE", "CF"]
 
@@ -231,6 +233,43 @@ def test_links_that_cannot_meet_are_told_from_those_that_can(tmp_path, capsys):
     path.write_text(text.replace('[3, 4, "11/2"]', "[1, 2, 4]"))
     assert main(["decompose", str(path), "--quiet"]) == 0
     assert "2 realisations up to motions, 0 of them real" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("lengths", "said"),
+    [
+        (
+            (7, 1, 2, 3),
+            "there is no real one, which is proved: link base is longer than link crank, ",
+        ),
+        ((6, 1, 2, "3001/1000"), "a real one was found"),
+    ],
+)
+def test_a_mobile_linkage_says_whether_it_has_real_assemblies(tmp_path, capsys, lengths, said):
+    path = tmp_path / "case.toml"
+    names, pins = ("base", "crank", "coupler", "rocker"), ("AD", "AB", "BC", "CD")
+    links = [
+        f'[[link]]\nname = "{name}"\npins = ["{p[0]}", "{p[1]}"]\nlength = "{length}"\n'
+        for name, p, length in zip(names, pins, lengths, strict=True)
+    ]
+    path.write_text('title = "Four-bar"\nkind = "linkage"\nground = "base"\n' + "".join(links))
+    assert main(["decompose", str(path), "--quiet"]) == 0
+    found = " ".join(capsys.readouterr().out.split())
+    assert "mobile, mobility 1 at most" in found
+    assert said in found
+
+
+def test_sides_are_compared_exactly():
+    # At equality the linkage is flat, and real; a hair more is too long.
+    for excess, said in (
+        ("0", ""),
+        ("1/10^40", "bar A-C is longer than bar A-B and bar B-C together"),
+    ):
+        lengths = [parse_number("sqrt(2)"), parse_number("sqrt(3)")]
+        lengths.append(lengths[0] + lengths[1] + parse_number(excess))
+        squares = tuple(x * x for x in lengths)
+        bars = (("A", "B"), ("B", "C"), ("A", "C"))
+        assert obstacle(framework_model(Framework(2, tuple("ABC"), bars, squares))) == said
 
 
 # Lines

@@ -10,6 +10,9 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 
+# Coordinates whose powers may leave the range of doubles.
+HUGE = 1e30
+
 
 @dataclass(frozen=True, eq=False)
 class Evaluator:
@@ -42,36 +45,45 @@ class Evaluator:
         return _Monomials.of(self.exponents)
 
     def values(self, points: np.ndarray) -> np.ndarray:
-        """Values, shape ``(P, rows)``, at ``points`` of shape ``(P, n)``.
-
-        Those beyond the range of doubles are inf or NaN.
-        """
-        with np.errstate(over="ignore", invalid="ignore"):
-            return self._monomials(np.asarray(points, dtype=complex)) @ self.coefficients.T
+        """Values, shape ``(P, rows)``, at ``points`` of shape ``(P, n)``."""
+        return self._monomials(np.asarray(points, dtype=complex)) @ self.coefficients.T
 
     def sizes(self, points: np.ndarray) -> np.ndarray:
         """Sums of the absolute values of the terms, coordinates below one counted as one.
 
         Shape ``(P, rows)``. Without that floor a single term would never be small beside itself.
         """
-        with np.errstate(over="ignore", invalid="ignore"):
-            floored = np.maximum(np.abs(points), 1.0)
-            sizes = self._monomials(floored) @ np.abs(self.coefficients).T
+        floored = np.maximum(np.abs(points), 1.0)
+        sizes = self._monomials(floored) @ np.abs(self.coefficients).T
         return np.where(sizes == 0, 1.0, sizes)
 
     def absolute(self, points: np.ndarray) -> np.ndarray:
         """Sums of the absolute values of the terms, shape ``(P, rows)``."""
-        with np.errstate(over="ignore", invalid="ignore"):
-            return self._monomials(np.abs(points)) @ np.abs(self.coefficients).T
+        return self._monomials(np.abs(points)) @ np.abs(self.coefficients).T
 
     def residuals(self, points: np.ndarray) -> np.ndarray:
-        """Absolute values over sizes, shape ``(P, rows)``: 1e-16 is rounding at any scale.
+        """Absolute values over sizes, shape ``(P, rows)``: 1e-16 is rounding at any scale."""
+        points = np.asarray(points, dtype=complex)
+        far = np.abs(points).max(axis=1, initial=0.0) > HUGE
+        if far.any():
+            result = np.zeros((len(points), len(self.coefficients)))
+            result[~far] = self.residuals(points[~far])
+            result[far] = [self._far_residuals(x) for x in points[far]]
+            return result
+        return np.abs(self.values(points)) / self.sizes(points)
 
-        Of points whose values are beyond the range of doubles nothing is known: inf.
-        """
-        with np.errstate(over="ignore", invalid="ignore"):
-            found = np.abs(self.values(points)) / self.sizes(points)
-        return np.where(np.isnan(found), np.inf, found)
+    def _far_residuals(self, point: np.ndarray) -> np.ndarray:
+        """Residuals where powers of the coordinates may leave the range of doubles."""
+        size = float(np.abs(point).max())
+        weights = self.coefficients * self._lowered(size, self.exponents.sum(axis=1), self.degrees)
+        values = weights @ self._monomials(point[None] / size)[0]
+        floored = np.maximum(np.abs(point), 1.0) / size
+        sizes = np.abs(weights) @ self._monomials(floored[None])[0]
+        return np.abs(values) / np.where(sizes == 0, 1.0, sizes)
+
+    def _lowered(self, size: float, degrees: np.ndarray, tops: np.ndarray) -> np.ndarray:
+        """Powers ``size ** (degrees - tops)``, shape ``(tops, degrees)``; they may be 0."""
+        return np.exp2(np.minimum(np.log2(size) * (degrees[None] - tops[:, None]), 0.0))
 
     @cached_property
     def _derivatives(self) -> tuple[_Monomials, np.ndarray, np.ndarray, np.ndarray]:
@@ -96,9 +108,8 @@ class Evaluator:
     def jacobian(self, point: np.ndarray) -> np.ndarray:
         """Jacobian matrix, shape ``(rows, n)``, at one point."""
         powers, places, monomials, factors = self._derivatives
-        with np.errstate(over="ignore", invalid="ignore"):
-            values = powers(np.asarray(point, dtype=complex)[None])[0]
-            terms = factors * values[monomials]
+        values = powers(np.asarray(point, dtype=complex)[None])[0]
+        terms = factors * values[monomials]
         size = len(self.coefficients) * self.n
         result = np.bincount(places, terms.real, size) + 1j * np.bincount(places, terms.imag, size)
         return result.reshape(len(self.coefficients), self.n)
@@ -136,6 +147,14 @@ class Evaluator:
     def balanced_jacobian(self, point: np.ndarray) -> np.ndarray:
         """The Jacobian with each row divided by the size that its degree lets it have."""
         size = max(1.0, float(np.abs(point).max(initial=1.0)))
+        if size > HUGE:
+            # The derivatives at the point over its size, each term by what it lacks in degree.
+            scaled = Evaluator(
+                self.n,
+                self.exponents,
+                self.coefficients * self._lowered(size, self.exponents.sum(axis=1), self.degrees),
+            )
+            return scaled.jacobian(np.asarray(point) / size)
         return self.jacobian(point) / size ** (self.degrees - 1)[:, None]
 
 

@@ -111,7 +111,7 @@ def counted(answer: Decomposition, scheme: bool) -> Decomposition:
     if answer.dimension > 0 or system.nonzero or len(system.polynomials) < system.n:
         return answer
     zeros = sum((c.multiplicity if scheme else 1) * c.degree * c.orbit for c in answer.components)
-    count = most_zeros(system.polynomials, zeros)
+    count = most_zeros(system.polynomials, zeros, not answer.complete)
     if count is None or (count.bound > zeros and not (count.exact and scheme)):
         return answer
     if count.bound == zeros:

@@ -84,9 +84,10 @@ class _State:
 
     def open_points(self) -> np.ndarray:
         """Points of classes that are not confirmed, nor images of such."""
-        sure = [k for k in np.unique(self.labels).tolist() if self.verdict(k)]
-        done = np.isin(self.orbits, self.orbits[np.isin(self.labels, sure)])
-        return np.flatnonzero(~done)
+        labels = self.labels.tolist()
+        sure = {k for k in set(labels) if self.verdict(k)}
+        done = {o for o, k in zip(self.orbits.tolist(), labels, strict=True) if k in sure}
+        return np.array([i for i, o in enumerate(self.orbits.tolist()) if o not in done], dtype=int)
 
     def forget_symmetries(self) -> None:
         self.permutations, self.orbits = (), np.arange(len(self.labels))

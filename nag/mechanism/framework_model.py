@@ -148,6 +148,20 @@ def _by_pairs(framework: Framework) -> FrameworkModel:
     return FrameworkModel(framework, pinned, "zw", system, None, ())
 
 
+def cartesian_system(framework: Framework) -> PolynomialSystem:
+    """The realisations in coordinates that are real where a realisation is.
+
+    Raises:
+        FrameworkError: as `framework_model` does.
+    """
+    if framework.dimension == 3:
+        return _space_model(framework).system
+    pinned, unit = framework.bars[0], framework.squared_lengths[0]
+    zero, one = Fraction(0), Fraction(1)
+    ends = {pinned[0]: (zero, zero), pinned[1]: (one, zero)}
+    return _metric_model(framework, pinned, ends, [unit, unit]).system
+
+
 def _plane_model(framework: Framework) -> FrameworkModel:
     pinned, unit = framework.bars[0], framework.squared_lengths[0]
     reference = {}

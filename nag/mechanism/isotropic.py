@@ -47,8 +47,32 @@ def isotropic_system(framework: Framework) -> PolynomialSystem | None:
             assert squared is not None
             above, below = above * z + below * (squared / unit), below * z
         equations.append(above)
-    nonzero = (places[b] - places[a] for a, b in framework.bars[1:])
+    nonzero = (places[b] - places[a] for a, b in _excluding(framework, loops))
     return PolynomialSystem(tuple(f"z_{p}" for p in free), tuple(equations), tuple(nonzero))
+
+
+def _excluding(framework: Framework, loops: Sequence[Sequence[str]]) -> list[tuple[str, str]]:
+    """Bars enough: where z is not zero for them, it is for none.
+
+    Where one bar of a loop has z = 0 and the equation holds, another one of it has.
+    """
+    sides = [
+        {frozenset(side) for side in zip(loop, (*loop[1:], loop[0]), strict=True)} for loop in loops
+    ]
+    settled = {frozenset(framework.bars[0])}
+    chosen: list[tuple[str, str]] = []
+    while True:
+        following = {side for bars in sides if len(bars - settled) == 1 for side in bars - settled}
+        if following:
+            settled |= following
+            continue
+        left = [bar for bar in framework.bars if frozenset(bar) not in settled]
+        if not left:
+            return chosen
+        # Bars at points that are placed already have the shortest expressions.
+        placed = {p for side in settled for p in side}
+        chosen.append(max(left, key=lambda bar: len(placed.intersection(bar))))
+        settled.add(frozenset(chosen[-1]))
 
 
 def bar_loops(framework: Framework) -> list[tuple[str, ...]]:
