@@ -38,18 +38,25 @@ class ZeroCount(NamedTuple):
     exact: bool
 
 
-def most_zeros(polynomials: Sequence[Polynomial], enough: int = -1) -> ZeroCount | None:
+def most_zeros(
+    polynomials: Sequence[Polynomial], enough: int = -1, patient: bool = True
+) -> ZeroCount | None:
     """A bound of the number of common zeros of polynomials with rational coefficients.
 
     Args:
         polynomials: not all zero, in the same variables.
         enough: a bound that is as small as this one need not be improved.
+        patient: whether to try also where generic equations of these degrees have too many
+            monomials: sparse ones may have fewer, but it may take a second to see that they have
+            not.
 
     Returns:
         None where the zeros are not seen to be finitely many within `MOST_MONOMIALS`.
     """
     given = [f for f in polynomials if f]
-    if not given or not all(f.exact for f in given) or not _small(given):
+    if not given or not all(f.exact for f in given):
+        return None
+    if not patient and not _small(given):
         return None
     counts = []
     for prime in PRIMES:

@@ -29,7 +29,14 @@ from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
-from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
+from nag.witness.witness import (
+    DOUBLE,
+    Decomposition,
+    PathCounts,
+    Status,
+    WitnessSet,
+    even_radii,
+)
 
 __all__ = [
     "Intersection",
@@ -233,7 +240,8 @@ def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet
         multiplicity=0,
         status=Status.UNDECIDED if note else Status.IRREDUCIBLE,
         residual=residual,
-        accuracy=accuracy,
+        radii=even_radii(point, common.frame.error(x[None], accuracy)),
+        digits=[DOUBLE],
         corank=numerical_corank(s, len(x), NEARLY_SINGULAR),
         note=note,
     )

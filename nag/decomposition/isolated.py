@@ -24,7 +24,7 @@ from nag.solving.solve import solve
 from nag.solving.start.target import StartError
 from nag.witness.cutting import dyadic, numerical_corank
 from nag.witness.fibres import Tracker
-from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet, even_radii
 
 # Solutions that are the same, found by two ways: relative distance.
 SAME = 1e-8
@@ -111,7 +111,7 @@ def counted(answer: Decomposition, scheme: bool) -> Decomposition:
     if answer.dimension > 0 or system.nonzero or len(system.polynomials) < system.n:
         return answer
     zeros = sum((c.multiplicity if scheme else 1) * c.degree * c.orbit for c in answer.components)
-    count = most_zeros(system.polynomials, zeros)
+    count = most_zeros(system.polynomials, zeros, not answer.complete)
     if count is None or (count.bound > zeros and not (count.exact and scheme)):
         return answer
     if count.bound == zeros:
@@ -132,7 +132,8 @@ def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSyste
         multiplicity=solution.multiplicity,
         status=Status.IRREDUCIBLE,
         residual=solution.residual,
-        accuracy=solution.accuracy,
+        radii=even_radii(solution.point[None], solution.accuracy),
+        digits=[solution.precision],
         corank=corank,
         multidegree=np.array(1) if system.groups else None,
     )

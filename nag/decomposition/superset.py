@@ -6,7 +6,7 @@ carries the equations that cut it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -87,9 +87,29 @@ def _excluded(
     for i, *answers in zip(regular, *each, strict=True):
         result[i] = True in answers or None in answers
         unclear += True not in answers and None in answers
-    for i in np.flatnonzero(result & ~ends.regular):
-        unclear += _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
-    return result, unclear
+    singular = np.flatnonzero(result & ~ends.regular)
+    # The least accurate first: what it may stand for, others of its place may as well.
+    doubtful: dict[int, bool] = {}
+    for i in singular[np.argsort(-ends.accuracy[singular], kind="stable")].tolist():
+        twin = None if len(rows) else _conjugate(ends, i, doubtful)
+        known = doubtful.get(twin) if twin is not None else None
+        if known is None:
+            known = _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
+        doubtful[i] = known
+    return result, unclear + sum(doubtful.values())
+
+
+def _conjugate(ends: Moved, i: int, others: Iterable[int]) -> int | None:
+    """The end among ``others`` whose conjugate an end is, as far as both are known.
+
+    Equations are real, and what is true of a zero of theirs alone is of its conjugate as well.
+    """
+    z = ends.points[i].conj()
+    for j in others:
+        error = max(ends.accuracy[j], ROUNDED) * (1 + np.linalg.norm(z))
+        if np.linalg.norm(ends.points[j] - z) <= error:
+            return j
+    return None
 
 
 def _beside(
@@ -140,7 +160,7 @@ def _collect(
         ]
         if chosen:
             seen = np.vstack([seen, x[chosen]])
-            fibres.append(Fibre(cut, d, ends.points[chosen]))
+            fibres.append(ends.fibre(cut, d, chosen))
         rest = allowed & ~ends.regular
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])

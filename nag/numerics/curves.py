@@ -20,9 +20,9 @@ from nag.numerics.sharpening import DIGITS, predicted, sharpen
 # Orders of contact that are seen: all that are possible where there are at most so many zeros,
 # else this one, or the largest degree of an equation. Isolated zeros beside which the equations
 # vanish along some curve to a higher order are not told from others.
-ALL_OF, HIGHEST_CONTACT = 1000, 200
-# Binary logarithms of distances at which a smooth set of zeros is followed, each taken twice; the
-# smaller ones where it bends too much.
+ALL_OF, HIGHEST_CONTACT = 2000, 400
+# Binary logarithms of distances at which a smooth set of zeros is followed; the smaller ones where
+# it bends too much.
 NEAR = (7, 24, 48)
 STEP = 3
 # How many digits smaller than their distance the errors of points there may be, in this order:
@@ -45,25 +45,24 @@ def digits_at(system: ExactSystem, k: int) -> int:
 def smooth_set(system: ExactSystem, point: Point, rounds: Sequence[Round]) -> float:
     """Whether the equations vanish along the smooth set that the rounds leave: 0 if they do.
 
-    They are evaluated at points of the set, at two distances r and to as many digits that r to the
+    They are evaluated at a point of the set, at a distance r and to as many digits that r to the
     power of any possible multiplicity would be seen. If they do not vanish, the order to which they
-    do is returned, roughly; ``inf`` where no further points were found.
+    do is returned, roughly, by a second distance; ``inf`` where no further points were found.
     """
     for k in NEAR:
-        first = _values(system, point, rounds, k, LEAST_DIGITS)
+        digits = LEAST_DIGITS
+        first = _values(system, point, rounds, k, digits)
+        if first is not None and first < -VANISHING * digits:
+            digits = max(digits, digits_at(system, k))
+            if digits > LEAST_DIGITS:
+                first = _values(system, point, rounds, k, digits)
+            if first is not None and first < -VANISHING * digits:
+                return 0.0
         if first is None:
             continue
-        digits = digits_at(system, k + STEP)
-        if first >= -VANISHING * LEAST_DIGITS:
-            digits = LEAST_DIGITS
-        elif digits > LEAST_DIGITS:
-            first = _values(system, point, rounds, k, digits)
         second = _values(system, point, rounds, k + STEP, digits)
-        if first is None or second is None:
-            continue
-        if max(first, second) < -VANISHING * digits:
-            return 0.0
-        return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
+        if second is not None:
+            return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
     return inf
 
 

@@ -26,8 +26,10 @@ from nag.algebra.generic_multiplicity import (
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
+from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import multiplicity_of_all, possible_zeros, vanishes_at_all
+from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
@@ -320,6 +322,9 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
     def independent(polynomials: Sequence[Polynomial]) -> bool:
         if each.zero is not None and all(f.exact for f in polynomials):
             return each.zero.independent(polynomials)
+        if each.solution.precision >= DIGITS:
+            # Each coordinate is known to rounding, however small it is beside the others.
+            return independent_gradients(*scaled_at(polynomials, x), 1e3 * accuracy)
         error = max(1e3 * accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
         return independent_gradients(polynomials, x, error)
 

@@ -14,15 +14,12 @@ from nag.numerics.singular_point import Place, analyse
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
-from nag.solving.tropical_zeros import TropicalZero
 from nag.tracking.paths import Paths, PathStatus
 
 # |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
 ON = 1e-9
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
-# Digits in which zeros that no path has reached are known.
-DIGITS = 150
 # Points evaluated at once.
 BLOCK = 2048
 
@@ -75,12 +72,17 @@ class _Zeros:
     residual: np.ndarray
     regular: np.ndarray
 
+    def alone(self) -> np.ndarray:
+        """Indices of the regular ends, which are distinct, as the tracker has seen."""
+        return np.flatnonzero(self.regular)
+
     def groups(self) -> list[np.ndarray]:
-        """Ends at one point each. Regular ends are distinct, as the tracker has seen."""
+        """The other ends, those at one point each."""
         several = np.flatnonzero(~self.regular)
-        alone = [np.array([i]) for i in np.flatnonzero(self.regular)]
+        if not len(several):
+            return []
         found = clusters(self.points[several], self.accuracy[several])
-        return alone + [several[group] for group in found]
+        return [several[group] for group in found]
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +117,12 @@ def judged_ends(
     isolated: list[IsolatedZero] = []
     elsewhere: dict[Place, list[np.ndarray]] = {Place.ON_COMPONENT: [], Place.UNDECIDED: []}
     close: list[int] = []
-    for group in zeros.groups():
+    groups = zeros.groups()
+    if problem.added or problem.squared:
+        groups = [*zeros.alone()[:, None], *groups]
+    else:
+        isolated = _simple(zeros, zeros.alone(), paths)
+    for group in groups:
         best = int(group[np.argmin(zeros.accuracy[group])])
         found = _place(problem, zeros, best, paths, evaluator, rng)
         if found.isolated is not None:
@@ -151,16 +158,11 @@ def judged_ends(
     )
 
 
-def enlarged(problem: SquareProblem, ends: JudgedEnds, zeros: Sequence[TropicalZero]) -> JudgedEnds:
-    """The same, with zeros in the scaled variables that no path has reached."""
-    isolated = (*ends.isolated, *map(_further, zeros))
+def enlarged(problem: SquareProblem, ends: JudgedEnds, zeros: Sequence[IsolatedZero]) -> JudgedEnds:
+    """The same, with more zeros in the scaled variables."""
+    isolated = (*ends.isolated, *zeros)
     solutions, excluded, notes = _solutions(problem, isolated)
     return replace(ends, solutions=solutions, excluded=excluded, notes=notes, isolated=isolated)
-
-
-def _further(zero: TropicalZero) -> IsolatedZero:
-    end = zero.end
-    return IsolatedZero(zero.point, 1, zero.residual, end.accuracy, end.condition, DIGITS)
 
 
 def _zeros(
@@ -182,6 +184,23 @@ def _zeros(
     return kept, int(lost.sum())
 
 
+def _simple(zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
+    """Regular ends as zeros of the equations."""
+    path = zeros.path[chosen]
+    columns = (
+        zeros.residual[chosen],
+        zeros.accuracy[chosen],
+        paths.condition[path],
+        paths.precision[path],
+    )
+    return [
+        IsolatedZero(point, 1, *numbers)
+        for point, *numbers in zip(
+            zeros.points[chosen], *(column.tolist() for column in columns), strict=True
+        )
+    ]
+
+
 def _place(
     problem: SquareProblem,
     zeros: _Zeros,
@@ -201,9 +220,7 @@ def _place(
             return _Place(Place.UNDECIDED)
         if not solves:
             return _Place(None)
-        residual, condition = float(zeros.residual[i]), float(paths.condition[path])
-        simple = IsolatedZero(point, 1, residual, accuracy, condition, precision)
-        return _Place(Place.ISOLATED, simple)
+        return _Place(Place.ISOLATED, _simple(zeros, np.array([i]), paths)[0])
     end = analyse(problem.equations, point, accuracy, rng)
     if end.place is not Place.ISOLATED:
         return _Place(end.place, close=end.place is Place.UNDECIDED)
@@ -225,12 +242,14 @@ def _solutions(
     imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
     real = imaginary <= np.maximum(1e2 * accuracy, 1e-10) * sizes
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
-    answers = [problem.excluded(s.point, s.accuracy, s.multiplicity > 1) for s in isolated]
+    answers: list[bool | None] = [False] * len(isolated)
+    if problem.nonzero:
+        answers = [problem.excluded(s.point, s.accuracy, s.multiplicity > 1) for s in isolated]
+    original = np.array(problem.target.original(points), dtype=np.complex128)
+    original.setflags(write=False)
     solutions = [
-        Solution(
-            point, s.multiplicity, bool(is_real), s.residual, s.accuracy, s.condition, s.precision
-        )
-        for point, s, is_real in zip(problem.target.original(points), isolated, real, strict=True)
+        Solution(point, s.multiplicity, is_real, s.residual, s.accuracy, s.condition, s.precision)
+        for point, s, is_real in zip(original, isolated, real.tolist(), strict=True)
     ]
     kept, left_out = (
         tuple(s for s, answer in zip(solutions, answers, strict=True) if answer is wanted)

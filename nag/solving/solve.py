@@ -9,9 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.zero_count import ZeroCount
 from nag.solving.branch_solutions import solve_apart
-from nag.solving.counted import Verdict, counted, doubtful, verdict, with_far_zeros
+from nag.solving.counted import Verdict, counted, doubtful, verdict
 from nag.solving.judged_ends import JudgedEnds, judged_ends
+from nag.solving.missing_zeros import with_missing_zeros
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import check_kind, choose
@@ -92,21 +94,25 @@ def _solve_whole(
         progress("solve", 0, 1)
     begin, reason = choose(problem.target, start, system.groups, rng, threads)
     paths = track(begin.homotopy, begin.points, settings, threads, most=begin.most)
-    ends = counted(problem, begin, paths, judged_ends(problem, begin, paths, rng, finite))
+
+    def look(paths: Paths, count: ZeroCount | None = None) -> JudgedEnds:
+        ends = judged_ends(problem, begin, paths, rng, finite)
+        ends = replace(ends, count=count) if count else counted(problem, begin, paths, ends)
+        return with_missing_zeros(problem, begin, paths, ends, rng)
+
+    ends = look(paths)
     unclear = len(ends.close) and not (finite and len(ends.on_components))
     if unclear and verdict(ends) is not Verdict.ALL:
         # What looks like a multiple zero and is none may be simple ones close together.
         chosen, separating = ends.close, replace(named(settings), evidence=SEPARATING)
         paths = _once_more(begin, paths, chosen, separating, threads)
-        ends = replace(judged_ends(problem, begin, paths, rng, finite), count=ends.count)
-    ends = with_far_zeros(problem, paths, ends, rng)
+        ends = look(paths, ends.count)
     if verdict(ends) in (Verdict.MISSING, Verdict.TOO_MANY):
         # An end that is not proved may be another one: what is near it, or a jump.
         chosen = doubtful(paths)
         separating = replace(tighter(named(settings)), evidence=SEPARATING)
         more = _once_more(begin, paths, chosen, separating, threads)
-        again = replace(judged_ends(problem, begin, more, rng, finite), count=ends.count)
-        again = with_far_zeros(problem, more, again, rng)
+        again = look(more, ends.count)
         if again.zeros > ends.zeros or verdict(again) is Verdict.ALL:
             paths, ends = more, again
     return _result(problem, begin, reason, paths, ends, seed, name)
@@ -181,8 +187,7 @@ def _result(
     seen = verdict(ends)
     if seen is Verdict.ALL:
         notes = list(ends.notes)
-        proof = "linear algebra modulo a prime proves that there are no more than"
-        reason = f"{reason}; {proof} {ends.zeros}"
+        reason = f"{reason}; linear algebra modulo two primes shows no more than {ends.zeros}"
     else:
         notes = [*ends.unclear, *_open(begin, paths), *ends.notes]
         if seen is not Verdict.UNKNOWN:

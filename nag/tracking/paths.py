@@ -140,7 +140,7 @@ class Paths:
         """Indices of the paths with one of these statuses."""
         chosen = np.zeros(len(self.status), dtype=bool)
         for one in status:
-            chosen |= self.status == one
+            chosen |= self.status == int(one)
         return np.flatnonzero(chosen)
 
     @property

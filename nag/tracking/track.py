@@ -10,6 +10,7 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cache
 
 import numpy as np
 
@@ -78,7 +79,7 @@ def track(
             return paths
         chosen = tighter(chosen)
         paths = merged(paths, _attempt(homotopy, starts[jumped], chosen, threads, endgame), jumped)
-    return _without(paths, collisions(homotopy, paths)) if distinct else paths
+    return without(paths, collisions(homotopy, paths)) if distinct else paths
 
 
 def track_regular(
@@ -153,7 +154,7 @@ def _attempt(
         threads,
     )
     if not endgame:
-        new = _without(new, new.where(PathStatus.SINGULAR))
+        new = without(new, new.where(PathStatus.SINGULAR))
     return merged(paths, new, doubtful)
 
 
@@ -240,7 +241,7 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
     points = raw.points.copy()
     good, regular = np.zeros(P, dtype=bool), np.zeros(P, dtype=bool)
     accuracy, condition = np.full(P, np.inf), np.full(P, np.inf)
-    ended = np.flatnonzero(raw.reason == Reason.NONE)
+    ended = np.flatnonzero(raw.reason == int(Reason.NONE))
     if len(ended):
         error = np.maximum(raw.error[ended], 1e-15)
         sharp = refine(homotopy, None, points[ended])
@@ -256,22 +257,23 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
         regular[ended] = proved
         good[ended] = proved & known
         accuracy[ended] = np.where(proved & known, sharp.error, np.inf)
-    status = np.where(good, np.int8(PathStatus.REGULAR), np.int8(PathStatus.FAILED))
+    failed = ~good
+    status, digits = np.zeros(P, np.int8), np.full(P, 32, np.int16)
+    status[good], status[failed], digits[failed] = PathStatus.REGULAR, PathStatus.FAILED, 16
     reason = raw.reason.astype(np.int8)
-    reason[~good & (reason == Reason.NONE)] = Reason.ENDGAME
-    digits = np.where(good, np.int16(32), np.int16(16))
+    reason[failed & (reason == int(Reason.NONE))] = Reason.ENDGAME
     winding = good.astype(np.int64)
     return Paths(
         points, status, winding, accuracy, condition, raw.steps, digits, reason, good
     ), regular
 
 
-def _without(paths: Paths, lost: np.ndarray) -> Paths:
+def without(paths: Paths, lost: np.ndarray) -> Paths:
     """The same, with the paths at ``lost`` failed."""
-    status, reason = paths.status.copy(), paths.reason.copy()
-    status[lost], reason[lost] = PathStatus.FAILED, Reason.ENDGAME
-    simple = paths.simple & (status != PathStatus.FAILED)
-    return replace(paths, status=status, reason=reason, simple=simple)
+    status, reason, winding = paths.status.copy(), paths.reason.copy(), paths.winding.copy()
+    status[lost], reason[lost], winding[lost] = PathStatus.FAILED, Reason.ENDGAME, 0
+    simple = paths.simple & (status != int(PathStatus.FAILED))
+    return replace(paths, status=status, reason=reason, winding=winding, simple=simple)
 
 
 def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
@@ -280,8 +282,8 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     Two ends coincide if they do in all digits that both are known to. A limit that is reached
     without winding is compared with the regular ends as well.
     """
-    ended = paths.status != PathStatus.FAILED
-    chosen = np.flatnonzero(paths.simple | (ended & (paths.winding == 1)))
+    # Paths that failed have no winding number.
+    chosen = np.flatnonzero(paths.simple | (paths.winding == 1))
     if len(chosen) < 2 or not paths.simple.any():
         return chosen[:0]
     points = paths.points[chosen]
@@ -289,7 +291,7 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     # ones are neighbours in a window of that coordinate.
     key = np.zeros(len(chosen))
     for indices in homotopy.groups:
-        key += np.abs(points[:, list(indices)] @ np.exp(1j * np.arange(len(indices)) ** 2)) ** 2
+        key += np.abs(points[:, list(indices)] @ _directions(len(indices))) ** 2
     found: set[int] = set()
     tolerance = np.maximum(1e-10, 1e3 * paths.accuracy[chosen])
     for i, j in neighbours(key, np.full(len(key), 1e-6)):
@@ -299,6 +301,11 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
             if paths.same(homotopy, a, b):
                 found |= {a, b}
     return np.array(sorted(found), dtype=np.int64)
+
+
+@cache
+def _directions(n: int) -> np.ndarray:
+    return np.exp(1j * np.arange(n) ** 2)
 
 
 def alike(paths: Paths) -> np.ndarray:

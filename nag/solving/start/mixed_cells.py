@@ -324,7 +324,7 @@ def mixed_cells(
 
 def _volumes(supports: Sequence[np.ndarray], edges: np.ndarray) -> np.ndarray:
     n = len(supports)
-    vectors = np.array(
-        [[s[b] - s[a] for s, (a, b) in zip(supports, cell, strict=True)] for cell in edges]
-    ).reshape(len(edges), n, n)
+    ends = [s[edges[:, i]] for i, s in enumerate(supports)]
+    vectors = np.array([e[:, 1] - e[:, 0] for e in ends]).reshape(n, len(edges), n)
+    vectors = vectors.transpose(1, 0, 2)
     return np.rint(np.abs(np.linalg.det(vectors.astype(float)))).astype(np.int64)
