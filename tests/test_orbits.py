@@ -11,7 +11,7 @@ from systems import system
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.decomposition import decompose
-from nag.decomposition.monodromy import located
+from nag.decomposition.monodromy import places_among
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.splitting import join
 from nag.decomposition.superset import Ambient, witness_superset
@@ -173,6 +173,6 @@ def test_joins_are_carried_on_by_permutations() -> None:
 
 def test_ends_are_located_only_where_that_is_clear() -> None:
     points = np.array([[0.0], [1.0]])
-    assert located(np.array([[1 + 1e-9], [5.0]]), points).tolist() == [1, -1]
-    assert located(np.array([[1e-5]]), points) is None
-    assert located(np.array([[1e-8]]), np.array([[0.0], [3e-8]])) is None
+    assert places_among(np.array([[1 + 1e-9], [5.0]]), points).tolist() == [1, -1]
+    assert places_among(np.array([[1e-5]]), points) is None
+    assert places_among(np.array([[1e-8]]), np.array([[0.0], [3e-8]])) is None

@@ -61,8 +61,15 @@ def vanish_at(equations: Sequence[Polynomial], point: Sequence[tuple[str, str]])
 
     with flint.ctx.workdps(DIGITS + 10):
         z = [_middle(flint.acb(flint.arb(re), flint.arb(im))) for re, im in point]
-        vanishing = flint.arb(VANISHES)
-        return all(_relative(f, z[: f.n]) < vanishing for f in equations)
+        return vanish_in_balls(equations, z)
+
+
+def vanish_in_balls(equations: Sequence[Polynomial], point: Sequence[Any]) -> bool:
+    """Whether equations vanish at a point known to `DIGITS` digits, in FLINT's ``acb``."""
+    import flint
+
+    vanishing = flint.arb(VANISHES)
+    return all(_relative(f, point[: f.n]) < vanishing for f in equations)
 
 
 def zero_near(
@@ -150,5 +157,4 @@ def vanish(
             found = zero_near(square, slices, jacobian, z, 2 * DIGITS)
         if found is None:
             return None
-        vanishing = flint.arb(VANISHES)
-        return all(_relative(f, found[0][: f.n]) < vanishing for f in equations)
+        return vanish_in_balls(equations, found[0])

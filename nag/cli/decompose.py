@@ -125,10 +125,10 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     lines = answer_lines(decomposition, case, model, points, seconds)
     if failure is not None:
         raise UsageError(failure, lines)
-    if not arguments.certify:
+    if not (arguments.certify or arguments.certify_paths):
         return lines, decomposition.complete
-    certificate, rows = certified(decomposition)
-    return [*lines, "", *labelled(rows)], decomposition.complete and certificate.all_proved
+    proved = certified(decomposition, arguments.certify_paths)
+    return [*lines, "", *labelled(proved.rows)], decomposition.complete and proved.all_proved
 
 
 def _unwritten(decomposition: Decomposition, json: str | None, origin: Origin) -> str | None:
@@ -159,6 +159,7 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
         "--expand": arguments.expand,
         "--method sampling": arguments.method == "sampling",
         "--certify": arguments.certify,
+        "--certify-paths": arguments.certify_paths,
     }
     if arguments.modes == "all" and any(others.values()):
         option = next(name for name, given in others.items() if given)
@@ -179,20 +180,20 @@ def _decomposed(
     arguments: argparse.Namespace, case: Case, model: Model | None, progress: Progress
 ) -> tuple[Case, Model | None, Decomposition]:
     """The components, and the case or the model in whose coordinates they are."""
-    from nag.decomposition import by_sampling, decompose
-    from nag.files.problem import symmetries_of, system_of
+    from nag.decomposition import by_sampling
+    from nag.files.problem import decomposed, symmetries_of, system_of
 
     options = {
         "seed": arguments.seed,
         "threads": arguments.threads,
         "settings": arguments.settings,
         "progress": progress,
-        "symmetries": symmetries_of(case, model),
     }
     if arguments.method == "sampling":
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
+        starts["symmetries"] = symmetries_of(case, model)
         return case, model, by_sampling(system_of(case, model), **options, **starts)
-    decomposition = decompose(system_of(case, model), **options)
+    decomposition = decomposed(case, model, **options)
     known = model if case.assembly is None else case.assembly
     if arguments.coordinates != "euler" or known is None or known.formulation == "E":
         return case, model, decomposition

@@ -110,6 +110,11 @@ def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
         if options.formulation is not None:
             case, _ = read_problem(options)
         if options.at is None and case.assembly.reference is None:
+            from nag.mechanism.real_assemblies import obstacle
+
+            reason = obstacle(case.assembly)
+            if reason:
+                raise UsageError(f"{options.case}: its parts have no real assembly: {reason}")
             raise UsageError(f"{options.case}: its parts are not assembled: give --at as well")
         return case, None
     from nag.mechanism.loops import loop_structure

@@ -2,10 +2,9 @@
 
 Read in this order: `components` (the whole); `isolated` (finite sets, solved at once); `superset`
 (equation by equation) on `hypersurface` (one step of it); `splitting` on `monodromy` and `trace`,
-`orbits` (the same up to symmetry); `final_checks` and `assembly`, which put the answer together;
-`attempts`, where doubts are left. `discovery` and `given_points` (on `common_slices`) and
-`intersection` begin elsewhere and end alike. `branch_components` follows what exact factoring
-decides.
+`orbits` (the same up to symmetry); `final_checks` and `assembly`, which put the answer together.
+`discovery` and `given_points` (on `common_slices`) and `intersection` begin elsewhere and end
+alike. `branch_components` follows what exact factoring decides.
 
 What decides, beside the errors of points. ``python tests/measure_thresholds.py --decompose``
 measures how far what is compared with those that are marked with a star lies from them.

@@ -13,7 +13,7 @@ from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.independent_parts import decompose_parts
-from nag.decomposition.isolated import contains, is_finite, solved_at_once
+from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once
 from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
@@ -99,7 +99,7 @@ def _decompose_whole(
         if points is not None and contains(points, answer):
             tracked = answer.paths.tracked + points.paths.tracked
             answer = replace(points, paths=replace(points.paths, tracked=tracked))
-    return replace(answer, seed=seed, settings=tracker.settings)
+    return counted(replace(answer, seed=seed, settings=tracker.settings), scheme)
 
 
 def _one_by_one(

@@ -6,14 +6,13 @@ meet on the diagonal of their product. Neither needs the components to be differ
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
-from nag.decomposition.attempts import ATTEMPTS, least_doubtful
 from nag.decomposition.diagonal import meeting
 from nag.decomposition.factor import Factor, IntersectionError, on_flag
 from nag.decomposition.hypersurface import Sections
@@ -30,7 +29,14 @@ from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
-from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
+from nag.witness.witness import (
+    DOUBLE,
+    Decomposition,
+    PathCounts,
+    Status,
+    WitnessSet,
+    even_radii,
+)
 
 __all__ = [
     "Intersection",
@@ -97,18 +103,17 @@ def intersect_components(
     tracker = Tracker(settings, threads, progress)
     common = Reduction.of(_union(system, other))
 
-    def attempt(rng: np.random.Generator) -> Intersection:
-        found = meeting(*factors, common, rng, tracker)
-        points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
-        result = _intersection(common, points, found.counts, found.notes, rng, tracker)
-        bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
-        return replace(
-            result,
-            components=(*result.components, *bare),
-            complete=result.complete and not any(c.note for c in bare),
-        )
-
-    return _least_doubtful(attempt, seed, 5)
+    rng = np.random.default_rng([seed, 5])
+    found = meeting(*factors, common, rng, tracker)
+    points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
+    result = _intersection(common, points, found.counts, found.notes, rng, tracker)
+    bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
+    return replace(
+        result,
+        components=(*result.components, *bare),
+        complete=result.complete and not any(c.note for c in bare),
+        seed=seed,
+    )
 
 
 def intersect_equations(
@@ -136,21 +141,20 @@ def intersect_equations(
     tracker = Tracker(settings, threads, progress)
     common = Reduction.of(_union(system, equations))
 
-    def attempt(rng: np.random.Generator) -> Intersection:
-        superset = _met(factor, equations, rng, tracker)
-        notes = list(superset.notes)
-        if superset.counts.failed:
-            notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-        points = {}
-        for d, found in superset.fibres.items():
-            if not found:
-                continue
-            points[d], lost = _in_common(found, superset.flag[:d], factor, common, rng)
-            if lost:
-                notes.append(f"{lost} singular points of dimension {d} could not be made regular")
-        return _intersection(common, points, superset.counts, notes, rng, tracker)
-
-    return _least_doubtful(attempt, seed, 6)
+    rng = np.random.default_rng([seed, 6])
+    superset = _met(factor, equations, rng, tracker)
+    notes = list(superset.notes)
+    if superset.counts.failed:
+        notes.append(f"{superset.counts.failed} paths failed; points may be missing")
+    points = {}
+    for d, found in superset.fibres.items():
+        if not found:
+            continue
+        points[d], lost = _in_common(found, superset.flag[:d], factor, common, rng)
+        if lost:
+            notes.append(f"{lost} singular points of dimension {d} could not be made regular")
+    answer = _intersection(common, points, superset.counts, notes, rng, tracker)
+    return replace(answer, seed=seed)
 
 
 def _met(
@@ -185,24 +189,6 @@ def _in_common(
     x = factor.reduction.frame.points(np.vstack([fibre.x for fibre in found]))
     fibres, lost = _with_cuts(x[:, common.kept], common.equations, rows, rng)
     return Points.of(fibres, rows), lost
-
-
-def _least_doubtful(
-    attempt: Callable[[np.random.Generator], Intersection], seed: int, stream: int
-) -> Intersection:
-    """The answer with the fewest doubts, slices and constants being drawn anew where some are."""
-
-    def answers() -> Iterator[Intersection]:
-        found = False
-        for k in range(ATTEMPTS):
-            try:
-                yield attempt(np.random.default_rng([seed, stream, k] if k else [seed, stream]))
-                found = True
-            except IntersectionError:
-                if k + 1 == ATTEMPTS and not found:
-                    raise
-
-    return replace(least_doubtful(answers()), seed=seed)
 
 
 def _check_variables(first: PolynomialSystem, second: PolynomialSystem) -> None:
@@ -254,7 +240,8 @@ def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet
         multiplicity=0,
         status=Status.UNDECIDED if note else Status.IRREDUCIBLE,
         residual=residual,
-        accuracy=accuracy,
+        radii=even_radii(point, common.frame.error(x[None], accuracy)),
+        digits=[DOUBLE],
         corank=numerical_corank(s, len(x), NEARLY_SINGULAR),
         note=note,
     )

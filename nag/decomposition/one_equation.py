@@ -26,7 +26,9 @@ from nag.decomposition.final_checks import MOST_MULTIDEGREES, checked_witness_se
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
+from nag.witness.close_points import Fine, close_pairs, in_words
 from nag.witness.cutting import Cut
+from nag.witness.exact_points import ExactPoints, of_balls
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
@@ -100,8 +102,8 @@ def _components(
     if any(key == p for g in reduction.reduced.nonzero for p, _ in factored(g)):
         return []
     multidegree = _multidegree(reduction, rng)
-    fibre = Fibre(Cut(reduction.n, 0, (f,)), len(rows), line.points)
-    points = Points.of([fibre], rows)
+    fibre = Fibre(Cut(reduction.n, 0, (f,)), len(rows), line.points, line.close)
+    points = replace(Points.of([fibre], rows), known=line.exact)
     # Without groups: what these are asked for is known from the equation.
     plain = replace(reduction, system=replace(reduction.system, groups=()))
     result = []
@@ -120,13 +122,13 @@ class _Line:
     Attributes:
         f: the polynomial.
         normal: in which the line moves to one side.
-        direction: of the line.
+        direction: of the line, in balls.
         balls: coordinates of each zero.
     """
 
     f: Polynomial
     normal: np.ndarray
-    direction: np.ndarray
+    direction: list[Any]
     balls: list[list[Any]]
 
     @classmethod
@@ -135,13 +137,9 @@ class _Line:
         import flint
 
         A = rows[:, 1:]
-        origin = np.linalg.lstsq(A, -rows[:, 0], rcond=None)[0]
         direction = np.linalg.svd(A)[2][-1].conj()
         with flint.ctx.workprec(BITS):
-            images = [
-                flint.acb_poly([complex(p), complex(v)])
-                for p, v in zip(origin, direction, strict=True)
-            ]
+            images = _parametrised(rows, direction)
             restricted = flint.acb_poly([])
             powers = [_powers(image, f.degree) for image in images]
             for exponents, c in f.terms.items():
@@ -157,11 +155,27 @@ class _Line:
             if len(roots) != f.degree:
                 return None
             balls = [[image(root) for image in images] for root in roots]
-        return cls(f, A[-1].conj(), direction, balls)
+        return cls(f, A[-1].conj(), [image[1] for image in images], balls)
 
     @property
     def points(self) -> np.ndarray:
         return np.array([[complex(c) for c in ball] for ball in self.balls])
+
+    @property
+    def exact(self) -> ExactPoints:
+        import flint
+
+        with flint.ctx.workprec(BITS):
+            return of_balls(self.balls)
+
+    @property
+    def close(self) -> dict[int, Fine]:
+        """More digits of the points that are close to others; how close, the points tell."""
+        import flint
+
+        pairs = close_pairs(self.points)
+        with flint.ctx.workprec(BITS):
+            return {i: in_words(self.balls[i], 1.0) for pair in pairs for i in pair}
 
     def classes(self, count: int) -> list[list[int]] | None:
         """The points of each of ``count`` conjugate factors; None if that is not seen."""
@@ -200,7 +214,7 @@ class _Line:
         first = [self.f.derivative(i) for i in range(n)]
         second = [[g.derivative(j) for j in range(n)] for g in first]
         with flint.ctx.workprec(BITS):
-            v = [flint.acb(complex(x)) for x in self.direction]
+            v = self.direction
             w = [flint.acb(complex(x)) for x in self.normal]
             result = []
             for x in self.balls:
@@ -216,6 +230,21 @@ class _Line:
                 size = sum(float(abs(term).mid()) for term in terms)
                 result.append((sum(terms, flint.acb(0)), size))
         return result
+
+
+def _parametrised(rows: np.ndarray, direction: np.ndarray) -> list[Any]:
+    """The coordinates on the line that the rows define, in a parameter along the direction.
+
+    The line is that of the rows themselves: points that are close need all digits of it.
+    """
+    import flint
+
+    n = len(direction)
+    whole = np.vstack([rows[:, 1:], direction.conj()])
+    inverse = flint.acb_mat(n, n, [complex(c) for c in whole.ravel()]).inv()
+    right = flint.acb_mat(n, 2, [c for row in rows[:, 0] for c in (complex(-row), 0)] + [0, 1])
+    points = inverse * right
+    return [flint.acb_poly([points[i, 0], points[i, 1]]) for i in range(n)]
 
 
 def _powers(image: Any, degree: int) -> list[Any]:

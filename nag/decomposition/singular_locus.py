@@ -77,6 +77,7 @@ class SingularLocus:
         paths: what the tracker did.
         complete: whether nothing was left open.
         notes: what was.
+        proved: indices of components that exact algebra proves to be smooth.
     """
 
     sets: tuple[SingularSet, ...]
@@ -84,6 +85,7 @@ class SingularLocus:
     paths: PathCounts
     complete: bool
     notes: tuple[str, ...]
+    proved: tuple[int, ...] = ()
 
     @property
     def smooth(self) -> tuple[int, ...]:
@@ -110,6 +112,7 @@ class _Search:
     options: dict[str, Any]
     candidates: list[_Candidate] = field(default_factory=list)
     examined: list[int] = field(default_factory=list)
+    proved: list[int] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     counts: PathCounts = field(default=PathCounts())
 
@@ -128,6 +131,8 @@ class _Search:
         self.notes += [f"{name}: {note}" for note in found.notes]
         if not found.notes:
             self.examined.append(i)
+        if found.proved:
+            self.proved.append(i)
         self.candidates += [_Candidate(*one, (i,)) for one in found.sets]
 
     def of_pair(self, i: int, j: int) -> None:
@@ -191,7 +196,8 @@ def singular_locus(
     rng = np.random.default_rng([seed, 7])
     sets = _judged_sets(search, rng, Tracker(settings, threads))
     notes = tuple(dict.fromkeys(search.notes))
-    return SingularLocus(sets, tuple(search.examined), search.counts, not notes, notes)
+    examined, proved = tuple(search.examined), tuple(search.proved)
+    return SingularLocus(sets, examined, search.counts, not notes, notes, proved)
 
 
 def _judged_sets(

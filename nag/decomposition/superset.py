@@ -149,7 +149,7 @@ def _collect(
         ]
         if chosen:
             seen = np.vstack([seen, x[chosen]])
-            fibres.append(Fibre(cut, d, ends.points[chosen]))
+            fibres.append(ends.fibre(cut, d, chosen))
         rest = allowed & ~ends.regular
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])

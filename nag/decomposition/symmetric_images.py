@@ -73,7 +73,8 @@ def in_orbits(
 def _first_point(component: WitnessSet) -> WitnessSet:
     """A witness set with one of its points only, to be moved."""
     fibres = tuple(fibre.only(np.arange(len(fibre)) == 0) for fibre in component.fibres[:1])
-    return replace(component, points=component.points[:1], fibres=fibres)
+    own = {name: getattr(component, name)[:1] for name in ("points", "radii", "digits")}
+    return replace(component, **own, fibres=fibres)
 
 
 def _among(end: WitnessSet, component: WitnessSet) -> bool:

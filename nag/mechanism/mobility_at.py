@@ -26,6 +26,7 @@ from nag.mechanism.loops import loop_structure
 from nag.mechanism.mobility import gruebler_kutzbach
 from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model, model
+from nag.mechanism.parts_decomposition import decompose_parts
 from nag.numerics.local_dimension import local_dimension
 from nag.witness.expansion import expanded
 from nag.witness.witness import WitnessSet
@@ -176,13 +177,12 @@ def _components(
     subject: Subject, at: Sequence[Number], seed: int, threads: int, settings: str
 ) -> tuple[list[WitnessSet] | None, str]:
     """The components through a point, or why they are not known."""
-    found = decompose(
-        subject.system,
-        seed=seed,
-        threads=threads,
-        settings=settings,
-        symmetries=subject.symmetries,
-    )
+    options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
+    options["symmetries"] = subject.symmetries
+    if isinstance(subject.model, FrameworkModel):
+        found = decompose_parts(subject.model, **options)
+    else:
+        found = decompose(subject.system, **options)
     if not found.complete:
         return None, f"the decomposition is incomplete: {'; '.join(found.notes)}"
     through = through_points(found, [("the configuration", tuple(at))], threads)[0]

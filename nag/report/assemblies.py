@@ -63,9 +63,8 @@ def assembly_rows(kind: str, assembly: AssemblyModel, decomposition: Decompositi
     if moving:
         largest = max(c.dimension for c in moving)
         count = sum(c.orbit for c in moving)
-        parts.append(
-            f"mobile, mobility {largest} at most, on {count} component{'' if count == 1 else 's'}"
-        )
+        on = f"{count} component{'' if count == 1 else 's'}"
+        parts.append(f"mobile, mobility {largest} at most, on {on}{_reality(assembly)}")
     if isolated:
         each = _points_of_each(assembly)
         count = sum(c.orbit * len(c.points) for c in isolated) // each
@@ -78,6 +77,12 @@ def assembly_rows(kind: str, assembly: AssemblyModel, decomposition: Decompositi
     if not parts:
         parts = [f"no {what}, not even a complex one: the parts do not fit"]
     return [(plural, "; ".join(parts))]
+
+
+def _reality(assembly: AssemblyModel) -> str:
+    from nag.mechanism.real_assemblies import real_text
+
+    return "" if assembly.reference is not None else f"; {real_text(assembly)}"
 
 
 def real_row(kind: str, assembly: AssemblyModel, points: Iterable[Sequence[complex]]) -> Rows:

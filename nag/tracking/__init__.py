@@ -22,6 +22,9 @@ track.ALIKE           1e-9     Leading coefficients of branches that are compare
 track.BENT            1e-4     The same of the coefficients that follow, over their sizes together.
 track.AT_INFINITY     1e-10    Homogenising coordinates of finite zeros in `track_regular`, whose
                                systems have generic coefficients.
+track.NONZERO         1e3      A coordinate over the error of a regular end that is not zero, where
+                               the mixed volume says that all zeros are found: others get 32
+                               digits.
 straight_run          1e-9     Newton corrections in doubles that need not contract any more.
 .ROUNDING
 straight_run          12       Steps behind the safe point before a path that does not get on goes

@@ -6,6 +6,7 @@ if the component is reduced, of their isosingular deflation otherwise (Hauenstei
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -38,6 +39,8 @@ ATTEMPTS = 3
 FLAT = 1e-4
 # Newton's method from the end point of a path must arrive within this many steps.
 NEWTON_STEPS = 12
+# Steps that are rounding errors, and residuals at points that are known.
+ROUNDING, VANISHING = 1e-14, 1e-11
 # Rows of larger matrices are chosen by LAPACK, which takes longer to load than smaller ones take.
 MOST_ENTRIES = 2000
 
@@ -124,13 +127,36 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
             floor = min(max(1e-10, 1e2 * np.finfo(float).eps * s[0] / s[-1]), 1e-8)
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
         # Rounding alone keeps the steps at a badly conditioned point from shrinking further.
-        if step < 1e-14 or (step < floor and step > 0.25 * last):
+        if step < ROUNDING or (step < floor and step > 0.25 * last):
             break
         slow += step > 0.25 * last
         if not np.isfinite(step) or slow > 2:
             return Sharpened(z, np.inf, False)
     residual = float(evaluator.residuals(z[None]).max(initial=0.0))
-    return Sharpened(z, step, bool(step < floor) and residual < 1e-11)
+    return Sharpened(z, step, bool(step < floor) and residual < VANISHING)
+
+
+def sharpen_all(evaluator: Evaluator, rows: np.ndarray, points: np.ndarray) -> list[Sharpened]:
+    """`sharpen` for points of shape ``(P, n)``; those known to rounding take one step together."""
+    found: list[Sharpened | None] = [None] * len(points)
+    a = padded(rows, 1 + points.shape[1])
+    columns = points.shape[1]
+    if len(evaluator.coefficients) + len(a) == columns > 0:
+        jacobians = evaluator.placed_derivatives(columns)(points)
+        slices = np.broadcast_to(a[:, 1:], (len(points), len(a), columns))
+        matrices = np.concatenate([jacobians, slices], axis=1)
+        values = [evaluator.values(points), a[:, 0] + points @ a[:, 1:].T]
+        with contextlib.suppress(np.linalg.LinAlgError):
+            steps = np.linalg.solve(matrices, np.concatenate(values, axis=1)[:, :, None])[:, :, 0]
+            moved = points - steps
+            sizes = np.linalg.norm(steps, axis=1) / (1 + np.linalg.norm(moved, axis=1))
+            residuals = evaluator.residuals(moved).max(axis=1, initial=0.0)
+            for i in np.flatnonzero((sizes < ROUNDING) & (residuals < VANISHING)):
+                found[i] = Sharpened(moved[i], float(sizes[i]), True)
+    return [
+        sharpen(evaluator, rows, z) if known is None else known
+        for z, known in zip(points, found, strict=True)
+    ]
 
 
 def _floors(evaluator: Evaluator, z: np.ndarray, slices: int) -> np.ndarray:

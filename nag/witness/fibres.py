@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from nag.numerics.coincidence import coincident
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
+from nag.witness.close_points import (
+    WORDS,
+    Fine,
+    affine_fine,
+    chosen,
+    close_pairs,
+    distance,
+    rated,
+)
 from nag.witness.cutting import (
     MOST_DEFLATIONS,
     NEAR,
@@ -25,6 +34,9 @@ from nag.witness.cutting import (
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
 
+# Newton's constant of points that are close, over their inverse distance.
+STEEPER = 2.0
+
 # Called with a stage's name, the step reached and the number of steps.
 Progress = Callable[[str, int, int], None]
 
@@ -35,11 +47,13 @@ class Fibre:
 
     Attributes:
         points: complex, shape ``(P, n + aux)``, affine.
+        fine: more digits of points that are close to others, by their indices.
     """
 
     cut: Cut
     dimension: int
     points: np.ndarray
+    fine: Mapping[int, Fine] = field(default_factory=dict)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Fibre):
@@ -49,6 +63,7 @@ class Fibre:
             and self.cut.n == other.cut.n
             and self.dimension == other.dimension
             and np.array_equal(self.points, other.points)
+            and self.fine == other.fine
         )
 
     @property
@@ -58,14 +73,6 @@ class Fibre:
 
     def __len__(self) -> int:
         return len(self.points)
-
-    @property
-    def ordered(self) -> Fibre:
-        """The same points by their first coordinates, however they were found."""
-        if not self.points.shape[1]:
-            return self
-        first = self.points[:, 0]
-        return replace(self, points=self.points[np.lexsort((first.imag, first.real))])
 
     def lifted(self, x: np.ndarray) -> np.ndarray:
         """A point with values of the added unknowns, to start Newton's method from.
@@ -87,7 +94,8 @@ class Fibre:
 
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
-        return replace(self, points=self.points[mask])
+        fine = chosen(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
+        return replace(self, points=self.points[mask], fine=fine)
 
 
 @dataclass(frozen=True)
@@ -122,6 +130,7 @@ class Moved:
         finite: whether the path ended at a finite point.
         regular: whether it ended at a regular one.
         accuracy: estimated relative errors of the ends.
+        fine: more digits of regular ends that are close to others, by their indices.
     """
 
     points: np.ndarray
@@ -130,6 +139,18 @@ class Moved:
     failed: np.ndarray
     accuracy: np.ndarray
     counts: PathCounts = field(default=PathCounts())
+    fine: Mapping[int, Fine] = field(default_factory=dict)
+
+    def without(self, indices: Iterable[int]) -> Moved:
+        """The ends but for some."""
+        kept = np.setdiff1d(np.arange(len(self.points)), list(indices))
+        names = ("points", "finite", "regular", "failed", "accuracy")
+        arrays = {name: getattr(self, name)[kept] for name in names}
+        return replace(self, **arrays, fine=chosen(self.fine, kept))
+
+    def fibre(self, cut: Cut, dimension: int, indices: Sequence[int]) -> Fibre:
+        """Some of the ends."""
+        return Fibre(cut, dimension, self.points[indices], chosen(self.fine, indices))
 
 
 def homogeneous(points: np.ndarray) -> np.ndarray:
@@ -152,14 +173,35 @@ def moved(paths: Paths, keep: int | None = None) -> Moved:
     infinite = paths.status == PathStatus.AT_INFINITY
     failed = ~finite & ~infinite
     points = affine(paths.points)
-    return Moved(
-        points if keep is None else points[:, :keep],
-        finite,
-        paths.status == PathStatus.REGULAR,
-        failed,
-        accuracy,
-        PathCounts(len(finite), int(failed.sum()), int(infinite.sum())),
-    )
+    points = points if keep is None else points[:, :keep]
+    regular = paths.status == PathStatus.REGULAR
+    counts = PathCounts(len(finite), int(failed.sum()), int(infinite.sum()))
+    fine = _fine(paths, points, regular) if paths.balls else {}
+    return Moved(points, finite, regular, failed, accuracy, counts, fine)
+
+
+def _fine(paths: Paths, points: np.ndarray, regular: np.ndarray) -> dict[int, Fine]:
+    """The digits of regular ends in balls that are close to others."""
+    known = np.array(sorted(i for i in paths.balls if regular[i]), dtype=int)
+    found: dict[int, Fine] = {}
+    for pair in close_pairs(points[known]):
+        own = [int(known[k]) for k in pair]
+        first, second = (
+            found[i]
+            if i in found
+            else affine_fine(_words(paths.balls[i]), 1.0).first(points.shape[1])
+            for i in own
+        )
+        size = 1 + float(np.linalg.norm(points[own[0]]))
+        apart = max(distance(points[own[0]], first, points[own[1]], second), 1e-300)
+        for i, each in zip(own, (first, second), strict=True):
+            found[i] = Fine(each.words, max(each.curvature, STEEPER * size / apart))
+    return found
+
+
+def _words(ball: Ball) -> np.ndarray:
+    spare = WORDS - ball.centre.shape[-1]
+    return np.pad(ball.centre, ((0, 0), (0, 0), (0, spare)))
 
 
 def move(
@@ -175,6 +217,8 @@ def move(
     All rows turn with the same ``gamma``: only then do all points of a fibre, and all fibres of a
     set, move as one.
     """
+    if fibre.fine:
+        return _moved_apart(fibre, source, target, gamma, tracker, endgame)
     columns = 1 + fibre.cut.n + fibre.cut.aux
     a0, a1 = padded(target, columns), padded(gamma * source - target, columns)
     paths = track(
@@ -185,6 +229,74 @@ def move(
         endgame=endgame,
     )
     return moved(paths)
+
+
+def _moved_apart(
+    fibre: Fibre,
+    source: np.ndarray,
+    target: np.ndarray,
+    gamma: complex,
+    tracker: Tracker,
+    endgame: bool,
+) -> Moved:
+    """`move` where some points are close to others: their paths are tracked in more digits."""
+    from nag.tracking.close_paths import moving_rows
+
+    indices = np.array(sorted(fibre.fine))
+    plain = np.setdiff1d(np.arange(len(fibre)), indices)
+    rest = replace(fibre, points=fibre.points[plain], fine={})
+    columns = 1 + fibre.cut.n + fibre.cut.aux
+    rows = padded(source, columns), padded(target, columns)
+    starts = [fibre.fine[i] for i in indices]
+    homotopy = moving_rows(fibre.cut.rows, *rows, gamma)
+    close = moved_close(homotopy, starts, fibre.cut, target, tracker, endgame)
+    return joined(
+        {0: plain, 1: indices}, (move(rest, source, target, gamma, tracker, endgame), close)
+    )
+
+
+def moved_close(
+    homotopy: Homotopy,
+    starts: Sequence[Fine],
+    cut: Cut,
+    rows: np.ndarray,
+    tracker: Tracker,
+    endgame: bool,
+) -> Moved:
+    """Where paths end that start at points that are close to others.
+
+    Their ends are zeros of ``cut`` on the slice ``rows``; further coordinates are left out.
+    """
+    from nag.tracking.close_paths import track_close
+
+    paths = track_close(
+        homotopy,
+        np.array([start.homogeneous for start in starts]),
+        np.array([start.curvature for start in starts]),
+        tracker.settings,
+        tracker.threads,
+        endgame=endgame,
+    )
+    close, total = moved(replace(paths, balls={}), keep=cut.n + cut.aux), cut.n + cut.aux
+    fine = {
+        i: rated(cut.polynomials, rows, affine_fine(_words(paths.balls[i]), 1.0).first(total))
+        for i in np.flatnonzero(close.regular).tolist()
+    }
+    return replace(close, fine=fine)
+
+
+def joined(places: Mapping[int, np.ndarray], parts: Sequence[Moved]) -> Moved:
+    """Ends of several parts in one: those of part ``k`` at ``places[k]``."""
+    count = sum(map(len, places.values()))
+    arrays = {}
+    for name in ("points", "finite", "regular", "failed", "accuracy"):
+        pieces = [getattr(part, name) for part in parts]
+        whole = np.zeros((count, *pieces[0].shape[1:]), dtype=pieces[0].dtype)
+        for k, piece in enumerate(pieces):
+            whole[places[k]] = piece
+        arrays[name] = whole
+    fine = {int(places[k][i]): f for k, part in enumerate(parts) for i, f in part.fine.items()}
+    return Moved(**arrays, counts=sum((p.counts for p in parts), PathCounts()), fine=fine)
 
 
 def carried(
@@ -201,7 +313,7 @@ def carried(
         counts += ends.counts.repeatable
         if not ends.regular.all():
             return None, counts
-        result.append(Fibre(fibre.cut, fibre.dimension, ends.points))
+        result.append(ends.fibre(fibre.cut, fibre.dimension, range(len(fibre))))
     return result, counts
 
 
@@ -231,7 +343,7 @@ def admit(
             known = np.vstack([other.x for other in fibres])
             if not coincident(known, end, sharpened.step).any():
                 points = np.vstack([fibre.points, sharpened.z])
-                fibres[i] = Fibre(fibre.cut, fibre.dimension, points)
+                fibres[i] = replace(fibre, points=points)
             return True
     found = find_cut(equations, rows, x, accuracy, rng, deflate)
     if found is None:

@@ -9,7 +9,8 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.witness.cutting import ON, sharpen
+from nag.witness.cutting import ON
+from nag.witness.error_radii import Sharp, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
 from nag.witness.slices import to_slice, unit_complex
@@ -45,21 +46,30 @@ class Arrival:
     """Points on the slice that they were carried to, sharpened there.
 
     Attributes:
-        fibres: the regular ends of the paths.
-        accuracy: largest last step of Newton's method, infinite where one did not converge.
+        sharp: the regular ends of the paths, by fibres, with their error radii.
         infinite, irregular: numbers of paths that ended at infinity, and of those that failed or
             ended where the slice cuts no regular point.
     """
 
-    fibres: list[Fibre]
-    accuracy: float
+    sharp: list[Sharp]
     infinite: int
     irregular: int
+
+    @property
+    def fibres(self) -> list[Fibre]:
+        """The points with the equations that cut them."""
+        return [each.fibre for each in self.sharp]
 
     @property
     def x(self) -> np.ndarray:
         """The points without added unknowns, shape ``(P, n)``."""
         return np.vstack([fibre.x for fibre in self.fibres])
+
+    @property
+    def accuracy(self) -> float:
+        """Largest relative error, infinite where Newton's method did not converge."""
+        errors = np.concatenate([each.errors for each in self.sharp])
+        return float(errors.max(initial=np.finfo(float).eps))
 
 
 def arrival(
@@ -72,19 +82,16 @@ def arrival(
 ) -> Arrival:
     """What becomes of fibres when the slice moves from ``rows`` to ``target``."""
     gamma, found = complex(unit_complex(rng)), []
-    accuracy, infinite, irregular = float(np.finfo(float).eps), 0, 0
+    infinite, irregular = 0, 0
     for fibre in fibres:
-        points = fibre.points
+        there = fibre
         if len(rows):
             ends = move(fibre, rows, target, gamma, tracker, endgame)
             infinite += ends.counts.at_infinity
             irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-            points = ends.points[ends.regular]
-        sharpened = [sharpen(fibre.cut.evaluator, target, z) for z in points]
-        accuracy = max([accuracy, *(s.step if s.converged else np.inf for s in sharpened)])
-        z = np.array([s.z for s in sharpened], dtype=complex).reshape(points.shape)
-        found.append(Fibre(fibre.cut, fibre.dimension, z))
-    return Arrival(found, accuracy, infinite, irregular)
+            there = ends.fibre(fibre.cut, fibre.dimension, np.flatnonzero(ends.regular))
+        found.append(sharpened(there, target))
+    return Arrival(found, infinite, irregular)
 
 
 def witness_at(
@@ -120,8 +127,8 @@ def witness_at(
     lost = ""
     for tracker in Tracker(settings, threads).attempts(ATTEMPTS):
         there = arrival(fibres, rows, goal, rng, tracker)
-        found = [fibre.ordered for fibre in there.fibres]
-        points = np.vstack([fibre.x for fibre in found])
+        found = [in_order(each) for each in there.sharp]
+        points = np.vstack([each.fibre.x for each in found])
         residual = float(evaluator.residuals(points).max(initial=0.0))
         if len(points) == component.degree and np.isfinite(there.accuracy) and residual < ON:
             return replace(
@@ -129,8 +136,9 @@ def witness_at(
                 slice=to_slice(goal),
                 points=points,
                 residual=residual,
-                accuracy=there.accuracy,
-                fibres=tuple(found),
+                radii=np.vstack([each.radii for each in found]),
+                digits=np.concatenate([each.digits for each in found]),
+                fibres=tuple(each.fibre for each in found),
             )
         lost = (
             f"of the {component.degree} points of the component, the slice meets {there.infinite} "
