@@ -222,7 +222,9 @@ def _follow_in(
                 verdict = _limit(states, limits, path, found[k], need)
                 if verdict != end_run.LIMIT:
                     states.outcome[path] = end_run.LOST
-                    hopeful = verdict == end_run.OPEN and states.steps[path] < states.most
+                    # A trial at a limit takes one step, and no path is to be lost for that.
+                    may_go_on = states.steps[path] < states.most or not states.tried[path]
+                    hopeful = verdict == end_run.OPEN and may_go_on
                     (again if hopeful else later).append(path)
             elif outcome == end_run.REGULAR:
                 centre = states.found[path]
