@@ -2,9 +2,12 @@
 
     python tests/many_seeds.py --seeds 0:1000 [--case NAME ...] [--folder literature ...]
         [--below SECONDS] [--journal FILE] [--formulation E|H] [--symmetric] [--threads N]
+        [--changed]
 
-Prints one line a case and the totals. With a journal, a run that was cut off goes on where it
-stopped. Exit status 1 if any answer differs from what the case file knows, or is incomplete.
+Prints one line a case and the totals. With `--changed`, every seed decomposes the case in other
+coordinates, with other equations (see `changed_system`); multidegrees are those of the old ones.
+With a journal, a run that was cut off goes on where it stopped. Exit status 1 if any answer
+differs from what the case file knows, or is incomplete.
 """
 
 from __future__ import annotations
@@ -14,15 +17,20 @@ import json
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+
+import numpy as np
+from changed_system import changed
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
 from nag.files.cases import Truth, read_case
 from nag.files.problem import symmetries_of
+from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.model import model
+from nag.mechanism.parts_decomposition import decompose_parts
 from nag.report.agreement import Verdict, compare, in_words, kinds
 from nag.witness.witness import Status
 
@@ -33,13 +41,18 @@ NOTICE = 60
 
 @dataclass(frozen=True)
 class Subject:
-    """A case in one formulation, ready to be decomposed."""
+    """A case in one formulation, ready to be decomposed.
+
+    Attributes:
+        parts: the model of parts that are not assembled, if it is one.
+    """
 
     name: str
     system: PolynomialSystem
     truth: tuple[Truth, ...]
     formulation: str | None
     symmetries: tuple[SignedPermutation, ...]
+    parts: AssemblyModel | None = None
 
 
 @dataclass(frozen=True)
@@ -74,16 +87,26 @@ def subject(path: Path, formulation: str | None, symmetric: bool) -> Subject:
     else:
         formulation = None
     symmetries = tuple(symmetries_of(case, chosen)) if symmetric else ()
-    return Subject(name, system, tuple(case.truth), formulation, symmetries)
+    return Subject(name, system, tuple(case.truth), formulation, symmetries, case.assembly)
+
+
+def moved(of: Subject, seed: int) -> Subject:
+    """The same zero set in coordinates in which nothing is known of its multidegrees."""
+    system = changed(of.system, np.random.default_rng(seed))
+    truth = tuple(replace(t, multidegree=None) for t in of.truth)
+    return replace(of, system=system, truth=truth, parts=None)
 
 
 def decomposed(of: Subject, seed: int, threads: int, settings: str) -> Result:
     """Decompose once and compare."""
+    options = {"seed": seed, "threads": threads, "settings": settings}
+    options["symmetries"] = of.symmetries
     begin = time.process_time()
     try:
-        answer = decompose(
-            of.system, seed=seed, threads=threads, settings=settings, symmetries=of.symmetries
-        )
+        if of.parts is not None:
+            answer = decompose_parts(of.parts, **options)
+        else:
+            answer = decompose(of.system, **options)
     except Exception as error:  # A run of hours is not to end with one seed.
         spent = time.process_time() - begin
         return Result(of.name, seed, True, True, 0, spent, f"{type(error).__name__}: {error}")
@@ -122,7 +145,8 @@ def run(
     for k, seed in enumerate(seeds):
         result = known.get((of.name, seed))
         if result is None:
-            result = decomposed(of, seed, options.threads, options.settings)
+            one = moved(of, seed) if options.changed else of
+            result = decomposed(one, seed, options.threads, options.settings)
             if options.journal is not None:
                 with options.journal.open("a") as file:
                     file.write(json.dumps(asdict(result)) + "\n")
@@ -157,6 +181,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--below", type=float, help="pass over cases that take more seconds a seed")
     parser.add_argument("--journal", type=Path, help="file that keeps the results of every seed")
     parser.add_argument("--symmetric", action="store_true", help="use the systems' symmetries")
+    parser.add_argument("--changed", action="store_true", help="change coordinates and equations")
     parser.add_argument("--formulation", choices=["E", "H"])
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--settings", default="default")

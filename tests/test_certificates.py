@@ -14,15 +14,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
 from nag.files.certificate_export import schema
 from nag.files.export import write_decomposition
-from nag.files.solutions_export import write_solutions
+from nag.files.solutions_export import read_solutions, write_solutions
+from nag.mechanism.model import model
 from nag.numerics.box_relations import overlaps, real_zeros
-from nag.numerics.certified_points import Proof, certify_points
+from nag.numerics.certified_points import Proof, certify_points, zero_digits
 from nag.numerics.discs import DiscPolynomials, Discs, product
 from nag.numerics.krawczyk import boxes_in_doubles, boxes_of
 from nag.solving.certificate import certify_solutions
@@ -211,6 +213,30 @@ def test_degrees_of_components_are_bounded_from_below_by_proved_points() -> None
     assert certificate.bounds == {1: 3}
     assert certificate.complete
     assert certificate.all_proved
+
+
+def test_degrees_are_bounded_by_all_components_of_an_orbit() -> None:
+    x, y, z = Polynomial.variables(3)
+    system = PolynomialSystem(("x", "y", "z"), (z**2 - 2, x**2 + y**2 - 1))
+    mirror = SignedPermutation((0, 1, 2), (1, 1, -1))
+    answer = decompose(system, symmetries=(mirror,))
+    assert [(c.degree, c.orbit) for c in answer.components] == [(2, 2)]
+    certificate = certify_decomposition(answer)
+    assert certificate.bounds == {1: 4}
+    assert certificate.complete
+
+
+def test_zeros_that_were_left_out_count_for_completeness(tmp_path: Path) -> None:
+    system = model(read_case(CASES / "benchmarks" / "inverse-6r.toml").mechanism).system
+    result = solve(system)
+    write_solutions(result, tmp_path / "solved.json")
+    certificate = certify_solutions(read_solutions(tmp_path / "solved.json").result)
+    assert (certificate.simple, certificate.zeros, certificate.bound) == (16, 24, 24)
+    assert certificate.complete
+    digits = zero_digits(system.nonzero, system.polynomials, certificate.excluded)
+    assert digits.min() > 140
+    without = certify_solutions(replace(result, excluded_solutions=()))
+    assert not without.complete
 
 
 def test_points_of_a_double_curve_bound_no_degree() -> None:

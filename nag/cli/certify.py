@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import argparse
 import time
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import UsageError, check_json
 
 if TYPE_CHECKING:
     from nag.solving.certificate import SolutionsCertificate
+    from nag.solving.certified_paths import ProvedPaths
     from nag.solving.solutions import SolveResult
     from nag.witness.certificate import DecompositionCertificate
+    from nag.witness.certified_loops import ProvedMonodromy
     from nag.witness.witness import Decomposition
 
 
@@ -19,6 +22,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of ``nag certify``."""
     parser.add_argument(
         "export", metavar="EXPORT", help="export of `nag solve --json` or `nag decompose --json`"
+    )
+    parser.add_argument(
+        "--paths",
+        action="store_true",
+        help="prove the paths to solutions as well, from the start system on, and of components "
+        "the loops that connect their points",
     )
     parser.add_argument("--json", metavar="FILE", help="write the boxes to FILE as JSON")
 
@@ -30,6 +39,11 @@ def add_certify(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="prove a zero in a box about each point found, as `nag certify` does of an export; "
         "the answer is complete only if all are proved",
+    )
+    parser.add_argument(
+        "--certify-paths",
+        action="store_true",
+        help="the same, and prove that no path jumped, as `nag certify --paths` does",
     )
 
 
@@ -46,20 +60,33 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if options.json is not None:
         check_json(options.json, options.export)
     found, title = _read(options.export)
-    certificate, rows = certified(found)
+    proved = certified(found, options.paths)
     if options.json is not None:
         try:
-            write_certificate(certificate, options.json)
+            write_certificate(proved.certificate, options.json, proved.paths)
         except TargetError as error:
             raise UsageError(f"--json: {error}") from None
-    rows = [("system", system_line(found.system)), *rows]
-    return [printable(title), "", *labelled(rows)], certificate.all_proved
+    rows = [("system", system_line(found.system)), *proved.rows]
+    return [printable(title), "", *labelled(rows)], proved.all_proved
 
 
-def certified(
-    found: SolveResult | Decomposition,
-) -> tuple[SolutionsCertificate | DecompositionCertificate, list[tuple[str, str]]]:
-    """The certificate of a result, and its lines."""
+@dataclass(frozen=True)
+class Certified:
+    """What was proved of a result.
+
+    Attributes:
+        rows: labelled lines; all_proved: whether nothing was left open.
+        certificate, paths: of the points, and of the paths or loops, if they were asked for.
+    """
+
+    rows: list[tuple[str, str]]
+    all_proved: bool
+    certificate: SolutionsCertificate | DecompositionCertificate
+    paths: ProvedPaths | tuple[ProvedMonodromy, ...] | None = None
+
+
+def certified(found: SolveResult | Decomposition, paths: bool = False) -> Certified:
+    """The certificate of a result, with ``paths`` also of the paths that lead to it."""
     from nag.report.certificate import decomposition_rows, solution_rows
     from nag.solving.certificate import certify_solutions
     from nag.solving.solutions import SolveResult
@@ -67,10 +94,45 @@ def certified(
 
     started = time.perf_counter()
     if isinstance(found, SolveResult):
-        solved = certify_solutions(found)
-        return solved, solution_rows(solved, time.perf_counter() - started)
-    decomposed = certify_decomposition(found)
-    return decomposed, decomposition_rows(decomposed, time.perf_counter() - started)
+        certificate = certify_solutions(found)
+        rows = solution_rows(certificate, time.perf_counter() - started)
+        more = _paths(found) if paths else None
+    else:
+        certificate = certify_decomposition(found)
+        rows = decomposition_rows(certificate, time.perf_counter() - started)
+        more = _loops(found) if paths else None
+    if more is None:
+        return Certified(rows, certificate.all_proved, certificate)
+    proved, further, good = more
+    return Certified([*rows, *further], certificate.all_proved and good, certificate, proved)
+
+
+def _paths(found: SolveResult) -> tuple[ProvedPaths | None, list[tuple[str, str]], bool]:
+    """The proof of the paths to solutions, its lines, and whether nothing was left open."""
+    from nag.report.certificate import paths_rows
+    from nag.solving.certified_paths import PathsError, prove_paths
+
+    started = time.perf_counter()
+    try:
+        proved = prove_paths(found)
+    except PathsError as error:
+        return None, [("paths", f"not proved: {error}")], False
+    rows = paths_rows(proved, len(found.solutions), time.perf_counter() - started)
+    simple = sum(s.multiplicity == 1 for s in found.solutions)
+    return proved, rows, proved.distinct and not proved.lost and len(proved.solutions) >= simple
+
+
+def _loops(
+    found: Decomposition,
+) -> tuple[tuple[ProvedMonodromy, ...], list[tuple[str, str]], bool]:
+    """The proof of the loops of all components, its lines, and whether nothing was left open."""
+    from nag.report.certificate import loops_rows
+    from nag.witness.certified_loops import prove_all
+
+    started = time.perf_counter()
+    proved = prove_all(found)
+    rows = loops_rows(proved, time.perf_counter() - started)
+    return proved, rows, all(m.connected for m in proved)
 
 
 def _read(path: str) -> tuple[SolveResult | Decomposition, str]:

@@ -77,10 +77,10 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             raise UsageError(f"--json: {error}") from None
     seconds = time.perf_counter() - started
     lines = solution_lines(result, case, model, seconds)
-    if not options.certify:
+    if not (options.certify or options.certify_paths):
         return lines, result.complete
-    certificate, rows = certified(result)
-    return [*lines, "", *labelled(rows)], result.complete and certificate.all_proved
+    proved = certified(result, options.certify_paths)
+    return [*lines, "", *labelled(proved.rows)], result.complete and proved.all_proved
 
 
 def solve_case(

@@ -173,6 +173,8 @@ def _times_space(component: WitnessSet, k: int, rng: np.random.Generator) -> Wit
         component,
         slice=Slice(matrix, np.concatenate([component.slice.b, at])),
         points=np.hstack([component.points, np.tile(at, (component.degree, 1))]),
+        # The new coordinates are the slice's doubles.
+        radii=np.hstack([component.radii, np.zeros((component.degree, k))]),
         multidegree=None,
         orbit=1,
         images=(),

@@ -20,6 +20,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.intersection import intersect_components
 from nag.decomposition.rank_drop import rank_drop
+from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
 from nag.witness.expansion import expanded
@@ -30,8 +31,7 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
-# Isolated points nearer to each other than this, relative to their size, are one.
-SAME = 1e-6
+# Relative errors of isolated points that were found as ends of paths.
 ACCURACY = 1e-8
 
 
@@ -204,17 +204,17 @@ def _judged_sets(
     search: _Search, rng: np.random.Generator, tracker: Tracker
 ) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
-    known: list[np.ndarray] = []
+    known = np.zeros((0, search.whole.system.n), dtype=complex)
     others: dict[tuple[object, ...], dict[tuple[int, ...], list[SingularSet]]] = {}
     for candidate in search.candidates:
         x = candidate.points[0]
-        if candidate.dimension == 0 and any(_close(x, y) for y in known):
+        if candidate.dimension == 0 and coincident(known, x, ACCURACY).any():
             continue
         judged = _judged(search, candidate, rng, tracker)
         if judged is None:
             continue
         if candidate.dimension == 0:
-            known.append(x)
+            known = np.vstack([known, x])
             points.append(judged)
             continue
         key = (judged.dimension, judged.degree, tuple(judged.multiplicities.items()))
@@ -223,10 +223,6 @@ def _judged_sets(
     sets = [one for by_source in others.values() for one in max(by_source.values(), key=len)]
     sets.sort(key=lambda one: (-one.dimension, one.degree))
     return (*sets, *points)
-
-
-def _close(x: np.ndarray, y: np.ndarray) -> bool:
-    return bool(np.linalg.norm(x - y) < SAME * (1 + np.linalg.norm(x)))
 
 
 def _judged(
@@ -238,7 +234,7 @@ def _judged(
     if candidate.dimension == 0 and local.tangent_dimension is not None:
         if local.tangent_dimension == local.dimension:
             return None
-        if _close(x, local.point):
+        if coincident(x[None], local.point, ACCURACY).any():
             x = local.point
     multiplicities = {}
     for i, component in enumerate(whole.components):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Sequence
 from importlib import resources
 from typing import Any
 
@@ -14,7 +15,9 @@ from nag.files.json_text import lay_out, pairs, real_or_null, system_document
 from nag.files.written_file import write_target
 from nag.numerics.certified_points import CertifiedPoints
 from nag.solving.certificate import SolutionsCertificate
+from nag.solving.certified_paths import ProvedPaths
 from nag.witness.certificate import DecompositionCertificate
+from nag.witness.certified_loops import ProvedMonodromy
 
 FORMAT = "nag-certificate"
 VERSION = 1
@@ -72,6 +75,7 @@ def solutions_document(certificate: SolutionsCertificate) -> dict[str, Any]:
         "same": [list(pair) for pair in certificate.same],
         "unknown": [list(pair) for pair in certificate.unknown],
         "points": _points(certificate.points),
+        "excluded": _points(certificate.excluded),
     }
 
 
@@ -84,6 +88,7 @@ def decomposition_document(certificate: DecompositionCertificate) -> dict[str, A
             "distinct": c.distinct,
             "slice": {"A": pairs(c.component.slice.A), "b": pairs(c.component.slice.b)},
             "points": _points(c.points),
+            "images": [_points(points) for points in c.images],
         }
         for c in certificate.components
     ]
@@ -101,14 +106,44 @@ def decomposition_document(certificate: DecompositionCertificate) -> dict[str, A
     }
 
 
+def _paths(proved: ProvedPaths) -> dict[str, Any]:
+    return {
+        "start": proved.start,
+        "distinct": proved.distinct,
+        "reached": proved.reached.tolist(),
+        "ends": [int(k) if k >= 0 else None for k in proved.ends],
+        "tubes": proved.steps,
+    }
+
+
+def _loops(proved: ProvedMonodromy) -> dict[str, Any]:
+    return {
+        "connected": proved.connected,
+        "permutations": [
+            [int(k) if k >= 0 else None for k in places] for places in proved.permutations
+        ],
+        "tubes": proved.steps,
+    }
+
+
 def write_certificate(
-    certificate: SolutionsCertificate | DecompositionCertificate, path: str | os.PathLike[str]
+    certificate: SolutionsCertificate | DecompositionCertificate,
+    path: str | os.PathLike[str],
+    paths: ProvedPaths | Sequence[ProvedMonodromy] | None = None,
 ) -> None:
     """Write the certificate to ``path`` in one step.
+
+    Args:
+        paths: what is proved of the paths to solutions, or of loops, one for each component.
 
     Raises:
         nag.files.written_file.TargetError: if the file cannot be written.
     """
     solved = isinstance(certificate, SolutionsCertificate)
     document = (solutions_document if solved else decomposition_document)(certificate)
+    if isinstance(paths, ProvedPaths):
+        document["paths"] = _paths(paths)
+    elif paths is not None:
+        for component, proved in zip(document["components"], paths, strict=True):
+            component["loops"] = _loops(proved)
     write_target(path, lay_out(document) + "\n")

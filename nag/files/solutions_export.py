@@ -82,6 +82,7 @@ def document(
         "system": system_document(system),
         "solutions": [_solution_document(s) for s in result.solutions],
         "excluded": result.excluded,
+        "excluded_solutions": [_solution_document(s) for s in result.excluded_solutions],
         "on_components": pairs(result.on_components),
         "undecided": pairs(result.undecided),
     }
@@ -137,6 +138,12 @@ def _solution(value: Any, n: int, place: str) -> Solution:
     )
 
 
+def _excluded(table: dict[str, Any], n: int) -> tuple[Solution, ...]:
+    """The solutions that were left out, where the file has them; earlier files do not."""
+    values = as_list(table.get("excluded_solutions", []), "excluded_solutions")
+    return tuple(_solution(v, n, f"excluded_solutions[{i}]") for i, v in enumerate(values))
+
+
 def solutions_of(value: Any) -> SolutionsExport:
     """What a document of the format holds.
 
@@ -172,6 +179,7 @@ def solutions_of(value: Any) -> SolutionsExport:
         settings=get("settings", as_text),
         complete=get("complete", as_flag),
         notes=tuple(get("notes", as_texts)),
+        excluded_solutions=_excluded(table, system.n),
         **points,
     )
     if table.get("case") is None:

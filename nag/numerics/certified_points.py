@@ -20,6 +20,7 @@ from scipy.linalg import qr
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.box_relations import fine_box, overlaps
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
 from nag.numerics.digits import middle, number
 from nag.numerics.discs import UP
@@ -128,6 +129,50 @@ def certify_points(
         if i not in refuted:
             _singular(equations, slices, boxes, proofs, digits, i, float(accuracy[i]))
     return CertifiedPoints(points, tuple(proofs), boxes, digits, tuple(refuted))
+
+
+def distinct_simple(groups: Sequence[CertifiedPoints]) -> int:
+    """Number of simple zeros of points of one system that are proved, and proved distinct."""
+    parts = [(g, g.having(Proof.SIMPLE)) for g in groups]
+    fine, start = {}, 0
+    for g, chosen in parts:
+        fine |= {
+            start + k: g.boxes.fine[i] for k, i in enumerate(chosen.tolist()) if i in g.boxes.fine
+        }
+        start += len(chosen)
+    boxes = Boxes(
+        np.concatenate([g.boxes.centres[i] for g, i in parts]),
+        np.concatenate([g.boxes.outer[i] for g, i in parts]),
+        np.concatenate([g.boxes.inner[i] for g, i in parts]),
+        np.concatenate([g.boxes.proved[i] for g, i in parts]),
+        fine,
+    )
+    same, unknown = overlaps(boxes)
+    return start - len({j for _, j in [*same, *unknown]})
+
+
+def zero_digits(
+    polynomials: Sequence[Polynomial], equations: Sequence[Polynomial], points: CertifiedPoints
+) -> np.ndarray:
+    """Digits to which one of the polynomials vanishes at each proved zero, shape ``(P,)``.
+
+    Args:
+        equations: whose zeros these are; simple ones of as many as unknowns are sharpened first.
+    """
+    P, n = points.points.shape
+    none = np.zeros((0, 1 + n), dtype=complex)
+    rows, square = [BallPolynomials.of([f], none) for f in polynomials], None
+    if len(equations) == n:
+        square = BallPolynomials.of(equations, none)
+    digits = np.zeros(P)
+    for i in np.flatnonzero(points.boxes.proved).tolist():
+        box = None
+        if square is not None and points.proofs[i] is Proof.SIMPLE:
+            start = [flint.acb(complex(z)) for z in points.boxes.centres[i]]
+            box = box_about(square, start, (BITS[-1],))
+        box = box or fine_box(points.boxes, i)
+        digits[i] = max((vanishing_digits(row, box) for row in rows), default=0.0)
+    return digits
 
 
 def _enter(boxes: Boxes, places: np.ndarray, found: Boxes) -> None:

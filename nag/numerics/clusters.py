@@ -20,7 +20,7 @@ from nag.numerics.sharpening import DIGITS
 STARTS, MOST_STARTS = 12, 400
 # Starts that lead to points nearer to each other than this, beside the cluster's size, are not
 # followed twice; points are compared again when they are known to all digits.
-SAME = 1e-5
+ALIKE = 1e-5
 
 
 def close_zeros(
@@ -74,6 +74,6 @@ def _zeros(scaled: ScaledSeries, order: int, rng: np.random.Generator) -> Iterat
         u = scaled.newton(start)
         if u is None or np.abs(u).max() > 100:
             continue
-        if all(np.abs(u - v).max() > SAME for v in known):
+        if all(np.abs(u - v).max() > ALIKE for v in known):
             known.append(u)
             yield u

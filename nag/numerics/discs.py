@@ -13,7 +13,7 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -27,6 +27,8 @@ UNIT = 2.0**-53
 # Rounding of a complex product is below sqrt(5) units, of a few operations on radii below 2^-48.
 PRODUCT = 8 * UNIT
 UP = 1 + 2.0**-46
+Terms = Mapping[tuple[int, ...], Number | complex]
+
 # Underflow loses less than this, whatever the sums are long.
 LEAST = 2.0**-1000
 
@@ -130,9 +132,18 @@ class DiscPolynomials:
         Raises:
             OverflowError: if a coefficient is too large or too small for a double.
         """
+        return cls.of_terms([f.terms for f in polynomials], slices)
+
+    @classmethod
+    def of_terms(cls, polynomials: Sequence[Terms], slices: np.ndarray) -> DiscPolynomials:
+        """The same of maps from exponents to exact numbers, or to doubles that are exact.
+
+        Raises:
+            OverflowError: if a coefficient is too large or too small for a double.
+        """
         n = slices.shape[1] - 1
         units = [tuple(int(i == j) for j in range(n)) for i in range(n)]
-        rows: list[list[tuple[tuple[int, ...], Any]]] = [list(f.terms.items()) for f in polynomials]
+        rows: list[list[tuple[tuple[int, ...], Any]]] = [list(f.items()) for f in polynomials]
         rows += [
             [(e, complex(c)) for e, c in zip([(0,) * n, *units], row, strict=True) if c]
             for row in slices

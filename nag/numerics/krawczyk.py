@@ -139,7 +139,7 @@ def _tested(
     """Outer and inner radii about points, and for which of them they are proved."""
     P, n = points.shape
     exact = Discs(points, np.zeros(points.shape))
-    inverse = _inverses(system.jacobian(exact).mid)
+    inverse = inverses(system.jacobian(exact).mid)
     step = _step(inverse, system(exact))
     sides = np.abs(points).max(axis=1, initial=0.0)[:, None] * LEAST_SIDE
     outer = WIDER * step + np.maximum(sides, 1e-300)
@@ -177,7 +177,7 @@ def _grow(
         outer[left] = wider[good]
 
 
-def _inverses(matrices: np.ndarray) -> np.ndarray:
+def inverses(matrices: np.ndarray) -> np.ndarray:
     """Inverses, not exact; not finite where there is none."""
     usable = np.isfinite(matrices).all(axis=(1, 2))
     found = np.full(matrices.shape, np.nan, dtype=complex)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from nag.numerics.certified_points import CertifiedPoints, Proof
+from nag.numerics.certified_points import CertifiedPoints, Proof, zero_digits
 from nag.report.table import magnitude, printable
 from nag.solving.certificate import SolutionsCertificate
+from nag.solving.certified_paths import ProvedPaths
 from nag.witness.certificate import DecompositionCertificate
+from nag.witness.certified_loops import ProvedMonodromy
 
 Rows = list[tuple[str, str]]
 
@@ -36,21 +38,38 @@ def solution_rows(certificate: SolutionsCertificate, seconds: float) -> Rows:
     lost = int((proved & ~certificate.nonzero).sum())
     if lost:
         rows.append(("doubt", f"{lost} may be zeros of what must not vanish"))
+    rows += _excluded_rows(certificate)
     if certificate.bound is not None:
         number = f"{certificate.bound_name}, {certificate.bound}"
         if certificate.complete:
             rows.append(("complete", f"proved: there are no more isolated zeros than {number}"))
         else:
-            text = f"not proved: {certificate.simple} simple zeros, at least, of at most {number}"
+            text = f"not proved: {certificate.zeros} simple zeros, at least, of at most {number}"
             rows.append(("complete", text))
     rows.append(_cost([points], seconds))
     return rows
 
 
+def _excluded_rows(certificate: SolutionsCertificate) -> Rows:
+    """What is proved of the zeros where something vanishes that must not."""
+    left_out, proved = certificate.excluded, int(certificate.excluded.boxes.proved.sum())
+    if not proved:
+        return []
+    system = certificate.result.system
+    equations = [f for f in system.polynomials if f]
+    digits = zero_digits(system.nonzero, equations, left_out)[left_out.boxes.proved].min()
+    text = (
+        f"{proved} more zeros of the equations are proved, where something that must not vanish "
+        f"does to {digits:.0f} digits"
+    )
+    return [("excluded", text)]
+
+
 def decomposition_rows(certificate: DecompositionCertificate, seconds: float) -> Rows:
     """What is proved of a decomposition, as labelled lines."""
     groups = [c.points for c in certificate.components]
-    rows = _points_rows(groups, "witness points")
+    images = [g for c in certificate.components for g in c.images]
+    rows = _points_rows(groups, "witness points", images)
     together = [c for c in certificate.components if not c.distinct]
     if together:
         rows.append(("doubt", f"points of {len(together)} components were not told apart"))
@@ -67,7 +86,45 @@ def decomposition_rows(certificate: DecompositionCertificate, seconds: float) ->
     return rows
 
 
-def _points_rows(groups: Iterable[CertifiedPoints], what: str) -> Rows:
+def paths_rows(proved: ProvedPaths, found: int, seconds: float) -> Rows:
+    """What is proved of the paths to so many solutions, as labelled lines."""
+    total, ends, largest = len(proved.reached), len(proved.solutions), proved.reached.max(initial=0)
+    text = (
+        f"{total - proved.lost} of {total} proved from t = 1 on; {proved.arrived} end in simple "
+        f"zeros, among them {ends} of the {found} solutions"
+    )
+    if proved.followed:
+        text += f"; {proved.followed} go on to t = {proved.reached[proved.left].max():.0e}"
+    rows = [("paths", text)]
+    if proved.lost:
+        rows.append(("doubt", f"{proved.lost} paths were lost, the first at t = {largest:.2g}"))
+    if not proved.distinct:
+        rows.append(("doubt", "the start points were not proved to be distinct"))
+    rows.append(("", f"{proved.steps} tubes, {seconds:.2f} s"))
+    return rows
+
+
+def loops_rows(proved: Sequence[ProvedMonodromy], seconds: float) -> Rows:
+    """What is proved of the loops of components, as labelled lines."""
+    connected = sum(m.connected for m in proved)
+    loops = sum(len(m.permutations) for m in proved)
+    text = (
+        f"the witness points of {connected} of {len(proved)} components are proved to lie on one "
+        "irreducible component each"
+    )
+    rows = [("loops", text)]
+    for k, m in enumerate(proved):
+        if not m.connected:
+            sets = len(set(m.orbits.tolist()))
+            text = f"component {k + 1}: its {len(m.orbits)} points are in {sets} sets still"
+            rows.append(("doubt", text))
+    rows.append(("", f"{loops} loops, {sum(m.steps for m in proved)} tubes, {seconds:.2f} s"))
+    return rows
+
+
+def _points_rows(
+    groups: Iterable[CertifiedPoints], what: str, images: Sequence[CertifiedPoints] = ()
+) -> Rows:
     groups = list(groups)
     counts = Counter(p for g in groups for p in g.proofs)
     total = sum(counts.values())
@@ -77,6 +134,11 @@ def _points_rows(groups: Iterable[CertifiedPoints], what: str) -> Rows:
                  default=np.inf)  # fmt: skip
     many = f"{digits:.0f}" if np.isfinite(digits) else "all"
     rows += [("", f"{counts[p]} {WORDS[p].format(digits=many)}") for p in Proof if counts[p]]
+    if images:
+        there = sum(int(g.boxes.proved.sum()) for g in images)
+        points = sum(len(g.points) for g in images)
+        text = f"besides {there} of {points} on {len(images)} more components, by symmetries"
+        rows.append(("", text))
     refuted = sum(len(g.refuted) for g in groups)
     if refuted:
         rows.append(("refuted", f"{refuted} {what} are proved to be no zeros of all equations"))

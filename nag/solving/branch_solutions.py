@@ -18,12 +18,18 @@ from nag.algebra.branches import branches
 from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
-from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
+from nag.algebra.generic_multiplicity import (
+    generic_multiplicity,
+    independent_gradients,
+    is_own_ring,
+)
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
+from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import multiplicity_of_all, possible_zeros, vanishes_at_all
+from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
@@ -43,11 +49,13 @@ class _Found:
     Attributes:
         zero: the exact zero, where it is one of an algebraic branch.
         elimination: what led from the branch to the system that was tracked otherwise.
+        branch: the branch's own equations.
     """
 
     solution: Solution
     zero: AlgebraicZero | None = None
     elimination: Elimination | None = None
+    branch: tuple[Polynomial, ...] = ()
 
     @cached_property
     def vanishes(self) -> Vanishing:
@@ -156,8 +164,9 @@ def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
         point = elimination.lift(np.ones((1, reduced.n), dtype=complex))
         return _Part(system, (), None, point, np.zeros((0, system.n), dtype=complex))
     result = tracked(reduced)
+    equations = system.polynomials
     found = tuple(
-        _Found(replace(s, point=elimination.lift(s.point)), None, elimination)
+        _Found(replace(s, point=elimination.lift(s.point)), None, elimination, equations)
         for s in result.solutions
     )
     lifted = elimination.lift
@@ -202,7 +211,7 @@ def _joined(
         solutions=solutions,
         on_components=on_components,
         undecided=open_points,
-        excluded=excluded,
+        excluded=len(excluded),
         paths=sum((r.paths for r in results), PathStatistics()),
         start=next((r.start for r in results if r.start != "none"), "none"),
         reason=_reason(parts, results, apart),
@@ -210,6 +219,7 @@ def _joined(
         settings=settings,
         complete=complete,
         notes=tuple(dict.fromkeys(notes)),
+        excluded_solutions=excluded,
     )
 
 
@@ -228,22 +238,22 @@ def _reason(parts: Sequence[_Part], results: Sequence[SolveResult], apart: bool)
 
 def _in_scheme(
     system: PolynomialSystem, kept: Sequence[_Found], apart: bool
-) -> tuple[tuple[Solution, ...], list[_Found], int]:
+) -> tuple[tuple[Solution, ...], list[_Found], tuple[Solution, ...]]:
     """The solutions with their multiplicities in the scheme of all equations.
 
-    Also those where that was not found, and the number of those where a polynomial vanishes that
-    must not.
+    Also those where that was not found, and those where a polynomial vanishes that must not, with
+    the multiplicities that they have in their branches.
     """
     equations = [factored(f) for f in system.polynomials if f]
     factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
     points = _points(kept, system.n)
     far = Evaluator.of(factors, system.n).residuals(points) > NONZERO
     residuals = Evaluator.of(system.polynomials, system.n).residuals(points)
-    solutions, left_open, excluded = [], [], 0
+    solutions, left_open, excluded = [], [], []
     for each, nonzero, residual in zip(kept, far, residuals, strict=True):
         forbidden = [each.vanishes(f) for f in system.nonzero]
         if any(forbidden):
-            excluded += 1
+            excluded.append(each.solution)
             continue
         multiplicity = each.solution.multiplicity
         if apart:
@@ -254,7 +264,7 @@ def _in_scheme(
             continue
         size = float(residual.max(initial=0.0))
         solutions.append(replace(each.solution, multiplicity=multiplicity, residual=size))
-    return tuple(solutions), left_open, excluded
+    return tuple(solutions), left_open, tuple(excluded)
 
 
 def _points(found: Sequence[_Found], n: int) -> np.ndarray:
@@ -306,10 +316,15 @@ def _near(each: _Found, others: Sequence[_Found]) -> bool:
 def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
     """The multiplicity of a solution in the scheme of all equations; 0 if it was not found."""
     x, accuracy = each.solution.point, each.solution.accuracy
+    if each.branch and is_own_ring(equations, each.branch, each.vanishes):
+        return each.solution.multiplicity
 
     def independent(polynomials: Sequence[Polynomial]) -> bool:
         if each.zero is not None and all(f.exact for f in polynomials):
             return each.zero.independent(polynomials)
+        if each.solution.precision >= DIGITS:
+            # Each coordinate is known to rounding, however small it is beside the others.
+            return independent_gradients(*scaled_at(polynomials, x), 1e3 * accuracy)
         error = max(1e3 * accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
         return independent_gradients(polynomials, x, error)
 

@@ -7,16 +7,18 @@ References:
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.box_relations import overlaps, real_zeros
-from nag.numerics.certified_points import CertifiedPoints, Proof, certify_points
+from nag.numerics.certified_points import CertifiedPoints, Proof, certify_points, distinct_simple
 from nag.numerics.discs import DiscPolynomials, Discs, magnitude
-from nag.solving.solutions import SolveResult
+from nag.solving.solutions import Solution, SolveResult
 from nag.solving.start.multihomogeneous import best_groups
 from nag.solving.start.target import Target
 from nag.solving.start.total_degree import bezout
@@ -33,6 +35,7 @@ class SolutionsCertificate:
         same, unknown: pairs of indices with the same zero, and of which that is not known; all
             other pairs of proved zeros are proved distinct.
         nonzero: which solutions are proved to be no zeros of `PolynomialSystem.nonzero`, ``(k,)``.
+        excluded: what is proved of the solutions that were left out, as far as they are known.
         bound: no system of these monomials has more isolated zeros, or None for a system of more
             equations than unknowns; bound_name: which number that is.
     """
@@ -44,15 +47,19 @@ class SolutionsCertificate:
     same: tuple[tuple[int, int], ...]
     unknown: tuple[tuple[int, int], ...]
     nonzero: np.ndarray
+    excluded: CertifiedPoints
     bound: int | None
     bound_name: str
 
-    @property
+    @cached_property
     def simple(self) -> int:
-        """Number of distinct simple zeros of all equations that are proved."""
-        simple = set(self.points.having(Proof.SIMPLE).tolist())
-        doubled = {j for i, j in [*self.same, *self.unknown] if i in simple and j in simple}
-        return len(simple - doubled)
+        """Number of distinct simple solutions that are proved."""
+        return distinct_simple([self.points])
+
+    @cached_property
+    def zeros(self) -> int:
+        """Number of distinct simple zeros of all equations, with those that were left out."""
+        return distinct_simple([self.points, self.excluded])
 
     @property
     def distinct(self) -> bool:
@@ -66,17 +73,22 @@ class SolutionsCertificate:
 
     @property
     def complete(self) -> bool:
-        """Whether it is proved that there are no other isolated solutions."""
-        return self.bound is not None and self.simple == self.bound and self.all_proved
+        """Whether it is proved that the equations have no other isolated zeros."""
+        return self.bound is not None and self.zeros == self.bound and self.all_proved
 
 
 def certify_solutions(result: SolveResult) -> SolutionsCertificate:
     """Prove what can be proved of the solutions of a system."""
     system = result.system
     none = np.zeros((0, 1 + system.n), dtype=complex)
-    accuracy = np.array([s.accuracy for s in result.solutions], dtype=float)
-    multiple = np.array([s.multiplicity > 1 for s in result.solutions], dtype=bool)
-    points = certify_points(system.polynomials, none, result.points, accuracy, multiple)
+
+    def proved(solutions: Sequence[Solution]) -> CertifiedPoints:
+        places = np.array([s.point for s in solutions], dtype=complex).reshape(-1, system.n)
+        accuracy = np.array([s.accuracy for s in solutions], dtype=float)
+        multiple = np.array([s.multiplicity > 1 for s in solutions], dtype=bool)
+        return certify_points(system.polynomials, none, places, accuracy, multiple)
+
+    points = proved(result.solutions)
     same, unknown = overlaps(points.boxes)
     real, not_real = real_zeros(points.boxes)
     bound, name = bound_of_zeros(system)
@@ -88,6 +100,7 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         same=tuple(same),
         unknown=tuple(unknown),
         nonzero=_nonzero(system.nonzero, points),
+        excluded=proved(result.excluded_solutions),
         bound=bound,
         bound_name=name,
     )

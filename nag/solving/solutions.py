@@ -33,9 +33,13 @@ class Solution:
     precision: int
 
     def __post_init__(self) -> None:
-        point = np.array(self.point, dtype=np.complex128)
-        point.setflags(write=False)
-        object.__setattr__(self, "point", point)
+        point = np.asarray(self.point, dtype=np.complex128)
+        # What can be written to may be changed by others.
+        if point.flags.writeable:
+            point = point.copy()
+            point.setflags(write=False)
+        if point is not self.point:
+            object.__setattr__(self, "point", point)
 
     def __repr__(self) -> str:
         from nag.solving.shown import solution_line
@@ -74,7 +78,8 @@ class SolveResult:
         solutions: the isolated solutions, each once.
         on_components: end points on solution sets of positive dimension, shape ``(k, n)``.
         undecided: end points that are solutions but may or may not be isolated, ``(k, n)``.
-        excluded: isolated solutions left out because one of `PolynomialSystem.nonzero` vanishes.
+        excluded: number of isolated solutions left out because one of `PolynomialSystem.nonzero`
+            vanishes; excluded_solutions: these, where they were kept.
         paths: what became of the paths of the last attempt, by status.
         start: ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``,
             ``"parameter"`` or ``"none"`` where nothing had to be tracked.
@@ -97,6 +102,7 @@ class SolveResult:
     settings: str
     complete: bool
     notes: tuple[str, ...] = ()
+    excluded_solutions: tuple[Solution, ...] = ()
 
     @property
     def points(self) -> np.ndarray:

@@ -19,11 +19,18 @@ import numpy as np
 
 from nag.algebra.factoring import factored
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
 from nag.numerics.box_relations import overlaps
-from nag.numerics.certified_points import CertifiedPoints, Proof, certify_points
+from nag.numerics.certified_points import (
+    CertifiedPoints,
+    Proof,
+    certify_points,
+    distinct_simple,
+)
 from nag.numerics.discs import DiscPolynomials, Discs
-from nag.numerics.krawczyk import Boxes
-from nag.witness.witness import Decomposition, WitnessSet
+from nag.witness.expansion import image
+from nag.witness.moving import SliceError, witness_at
+from nag.witness.witness import Decomposition, Slice, WitnessSet
 
 # The factor of each equation that a component lies in.
 Signature = tuple[Polynomial, ...]
@@ -37,11 +44,14 @@ class ComponentCertificate:
         component: the component, one of its orbit.
         points: what is proved of each point.
         distinct: whether all proved zeros are proved distinct.
+        images: what is proved of the points of other components of its orbit, moved to its slice;
+            those that could not be moved are missing.
     """
 
     component: WitnessSet
     points: CertifiedPoints
     distinct: bool
+    images: tuple[CertifiedPoints, ...] = ()
 
     @property
     def all_proved(self) -> bool:
@@ -85,20 +95,42 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
     # Components of different factors are distinct; points on one slice are compared.
     apart: dict[tuple[int, Signature], dict[bytes, list[CertifiedPoints]]] = {}
     for component in decomposition.components:
-        rows = component.slice.rows
-        singular = np.full(component.degree, component.corank > component.dimension)
-        accuracy = np.full(component.degree, component.accuracy)
-        points = certify_points(equations, rows, component.points, accuracy, singular)
+        points = _proved(equations, component, component.slice)
+        images = tuple(_proved(equations, c, component.slice) for c in _others(system, component))
         same, unknown = overlaps(points.boxes)
-        certificates.append(ComponentCertificate(component, points, not same and not unknown))
-        key = component.dimension, _signature(equations, points)
-        apart.setdefault(key, {}).setdefault(rows.tobytes(), []).append(points)
+        distinct = not same and not unknown
+        certificates.append(ComponentCertificate(component, points, distinct, images))
+        for each in (points, *images):
+            key = component.dimension, _signature(equations, each)
+            on_slice = apart.setdefault(key, {}).setdefault(component.slice.rows.tobytes(), [])
+            on_slice.append(each)
     bounds = dict.fromkeys((c.dimension for c in decomposition.components), 0)
     for (dimension, signature), slices in apart.items():
         if signature is not None:
-            bounds[dimension] += max(map(_distinct_simple, slices.values()))
+            bounds[dimension] += max(map(distinct_simple, slices.values()))
     most = prod(f.degree for f in equations)
     return DecompositionCertificate(decomposition, tuple(certificates), bounds, most)
+
+
+def _proved(equations: Sequence[Polynomial], component: WitnessSet, cut: Slice) -> CertifiedPoints:
+    singular = np.full(component.degree, component.corank > component.dimension)
+    return certify_points(equations, cut.rows, component.points, component.errors, singular)
+
+
+def _others(system: PolynomialSystem, component: WitnessSet) -> list[WitnessSet]:
+    """The other components of an orbit, on the slice of the one that is reported.
+
+    Nothing is taken from their symmetries but where to begin: their points are proved there.
+    """
+    found = []
+    for symmetry in component.images:
+        there = image(component, symmetry)
+        try:
+            moved = witness_at(system, there, component.slice) if component.dimension else there
+        except SliceError:
+            continue
+        found.append(moved)
+    return found
 
 
 def _signature(equations: Sequence[Polynomial], points: CertifiedPoints) -> Signature | None:
@@ -128,23 +160,3 @@ def _away(f: Polynomial, boxes: Discs) -> bool:
     with np.errstate(all="ignore"):
         values = system(boxes)
         return bool((np.abs(values.mid) > 2 * values.rad).all())
-
-
-def _distinct_simple(groups: list[CertifiedPoints]) -> int:
-    """Number of simple zeros of points on one slice that are proved and proved distinct."""
-    parts = [(g, g.having(Proof.SIMPLE)) for g in groups]
-    fine, start = {}, 0
-    for g, chosen in parts:
-        fine |= {
-            start + k: g.boxes.fine[i] for k, i in enumerate(chosen.tolist()) if i in g.boxes.fine
-        }
-        start += len(chosen)
-    boxes = Boxes(
-        np.concatenate([g.boxes.centres[i] for g, i in parts]),
-        np.concatenate([g.boxes.outer[i] for g, i in parts]),
-        np.concatenate([g.boxes.inner[i] for g, i in parts]),
-        np.concatenate([g.boxes.proved[i] for g, i in parts]),
-        fine,
-    )
-    same, unknown = overlaps(boxes)
-    return start - len({j for _, j in [*same, *unknown]})

@@ -1,0 +1,157 @@
+"""The paths to the solutions of a system, proved: which start leads to which solution.
+
+The homotopy is the one that `nag.solving.solve` tracks, in a random affine chart; its target is the
+exact system, in scaled variables.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.solving.solutions import SolveResult
+from nag.solving.square_problem import SquareProblem
+from nag.solving.start.choice import KINDS, choose
+from nag.solving.start.target import Start, Target
+from nag.tracking.certified_paths import (
+    ENDGAME,
+    CertifiedPaths,
+    Located,
+    certified_paths,
+    distinct,
+    located,
+)
+from nag.tracking.moving_discs import MovingSystem
+
+# More paths would take long.
+MOST_PATHS = 4096
+# Where solutions are missing, the other paths are followed down to these t, one after the other.
+FURTHER = (1e-12, 1e-24, 0.0)
+
+
+class PathsError(ValueError):
+    """Why paths cannot be proved, in one line."""
+
+
+@dataclass(frozen=True, eq=False)
+class ProvedPaths:
+    """What is proved of the paths from the zeros of a start system.
+
+    Attributes:
+        start: name of the start system.
+        distinct: whether its zeros are proved, and proved to be distinct: no two paths meet then.
+        reached: t down to which a tube about each path holds no other zero, shape ``(P,)``.
+        ends: for each path that got to t = 0 the solution that it ends in, -1 for none of them and
+            for other paths.
+        steps: number of tubes.
+    """
+
+    start: str
+    distinct: bool
+    reached: np.ndarray
+    ends: np.ndarray
+    steps: int
+
+    @property
+    def arrived(self) -> int:
+        """Number of paths that are proved to end in simple zeros."""
+        return int((self.reached == 0).sum())
+
+    @property
+    def followed(self) -> int:
+        """Number of others that are proved down to the endgame."""
+        return int(self.left.sum())
+
+    @property
+    def left(self) -> np.ndarray:
+        """Which paths these are, shape ``(P,)``."""
+        return (self.reached > 0) & (self.reached <= ENDGAME)
+
+    @property
+    def lost(self) -> int:
+        """Number of paths that are not proved so far."""
+        return len(self.reached) - self.arrived - self.followed
+
+    @property
+    def solutions(self) -> np.ndarray:
+        """Indices of the solutions that are proved to be ends of paths."""
+        return np.unique(self.ends[self.ends >= 0])
+
+
+def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
+    """Prove the paths from a start system to the solutions of a result.
+
+    Raises:
+        PathsError: if there are none, or too many.
+    """
+    problem, start = _start(result.system, result.start, result.seed, threads)
+    homotopy = start.homotopy
+    rng = np.random.default_rng([result.seed, 19])
+    patches = np.zeros((len(homotopy.groups), homotopy.N), dtype=complex)
+    for g, indices in enumerate(homotopy.groups):
+        normal = rng.standard_normal((2, len(indices)))
+        patches[g, list(indices)] = normal[0] + 1j * normal[1]
+    try:
+        system = MovingSystem.of(homotopy, patches)
+    except OverflowError as error:
+        raise PathsError(str(error)) from None
+    starts = located(system, _charted(start.points, patches), 1.0)
+    known = located(system, _charted(_coordinates(problem.target, start, result), patches), 0.0)
+    simple = sum(s.multiplicity == 1 for s in result.solutions)
+    paths, steps = certified_paths(system, starts), 0
+    for endgame in FURTHER:
+        ends, steps = _identified(paths, known), steps + paths.steps
+        if len(np.unique(ends[ends >= 0])) >= simple or not (paths.reached > 0).any():
+            break
+        # Solutions far out, or near infinity, are nobody's until t is very small.
+        paths = certified_paths(system, paths.ends, paths.reached, endgame)
+    return ProvedPaths(start.name, distinct(starts), paths.reached, ends, steps)
+
+
+def _identified(paths: CertifiedPaths, known: Located) -> np.ndarray:
+    """For each path that arrived which of the known zeros it ends in, -1 for none."""
+    ends = np.full(len(paths.reached), -1)
+    for p in np.flatnonzero(paths.reached == 0).tolist():
+        same = np.flatnonzero(paths.ends.only(np.array([p])).same(known))
+        if len(same) == 1:
+            ends[p] = same[0]
+    return ends
+
+
+def _start(
+    system: PolynomialSystem, kind: str, seed: int, threads: int
+) -> tuple[SquareProblem, Start]:
+    """The start system of a run, or the one with the least work where it had another."""
+    rng = np.random.default_rng(seed)
+    equations = [f for f in system.polynomials if f]
+    if not system.n or any(f.degree == 0 for f in equations):
+        raise PathsError("the system has no paths")
+    if len(equations) < system.n:
+        raise PathsError("fewer equations than variables: there are no isolated solutions")
+    problem = SquareProblem.of(system, equations, rng)
+    usual = kind if kind in KINDS and kind != "monodromy" else "auto"
+    start, _ = choose(problem.target, usual, system.groups, rng, threads)
+    if len(start.points) > MOST_PATHS:
+        raise PathsError(f"{len(start.points)} paths; at most {MOST_PATHS} are proved")
+    return problem, start
+
+
+def _coordinates(target: Target, start: Start, result: SolveResult) -> np.ndarray:
+    """The solutions in the homotopy's coordinates."""
+    points = result.points
+    if target.scales:
+        origins = np.array([float(c) for c in target.centres])
+        points = (points - origins) / np.exp2(target.scales)
+    shift = len(start.groups)
+    return np.hstack([np.ones((len(points), shift)), points]).astype(complex)
+
+
+def _charted(points: np.ndarray, patches: np.ndarray) -> np.ndarray:
+    """The same projective points, scaled in each group so that its form is one."""
+    points = np.array(points, dtype=complex)
+    for form in patches:
+        places = np.flatnonzero(form)
+        points[:, places] /= (points[:, places] @ form[places])[:, None]
+    return points

@@ -1,0 +1,146 @@
+"""Monodromy that is proved: loops of slices along which no path can have jumped.
+
+Points that such loops carry into each other lie on one irreducible component: the smooth part of
+one is connected, and the paths are proved to stay on it.
+
+References:
+    Guillemot & Lairez, Validated numerics for algebraic path tracking, 2024, section 1; Sommese &
+    Wampler, The numerical solution of systems of polynomials, 2005, section 15.4.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.numerics.discs import Terms
+from nag.tracking.certified_paths import Located, certified_paths, located
+from nag.tracking.moving_discs import MovingPart, MovingSystem
+from nag.witness.fibres import Fibre
+from nag.witness.membership import component_fibres
+from nag.witness.slices import padded, random_rows, unit_complex
+from nag.witness.witness import Decomposition, WitnessSet
+
+# Loops that are tried until all points are connected.
+MOST_LOOPS = 12
+
+
+@dataclass(frozen=True, eq=False)
+class ProvedMonodromy:
+    """Loops of a component's witness points.
+
+    Attributes:
+        permutations: for each loop where each point's path leads, -1 where that is not proved.
+        orbits: for each point the smallest index of those that it is connected with.
+        steps: number of tubes.
+    """
+
+    permutations: tuple[np.ndarray, ...]
+    orbits: np.ndarray
+    steps: int
+
+    @property
+    def connected(self) -> bool:
+        """Whether all points are proved to lie on one component."""
+        return not self.orbits.any()
+
+
+def prove_monodromy(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    rng: np.random.Generator,
+    most: int = MOST_LOOPS,
+) -> ProvedMonodromy:
+    """At most so many random loops, until the points are proved to lie on one component.
+
+    Raises:
+        ValueError: if the points are not regular zeros of the system or of a deflation of it.
+        OverflowError: if a coefficient is too large or too small for a double.
+    """
+    orbits = np.arange(component.degree)
+    permutations, steps = [], 0
+    fibres = component_fibres(system, component) if component.degree > 1 else []
+    for _ in range(most if component.dimension else 0):
+        if not orbits.any():
+            break
+        middle = random_rows(rng, component.dimension, system.n)
+        turns = tuple(complex(g) for g in unit_complex(rng, 2))
+        places, spent = _loop(fibres, component.slice.rows, middle, turns)
+        steps += spent
+        permutations.append(places)
+        orbits = _joined(orbits, places)
+    return ProvedMonodromy(tuple(permutations), orbits, steps)
+
+
+def prove_all(decomposition: Decomposition, seed: int = 0) -> tuple[ProvedMonodromy, ...]:
+    """Loops of all components, in their order; those whose points find no equations have none."""
+    found = []
+    for k, component in enumerate(decomposition.components):
+        try:
+            rng = np.random.default_rng([seed, 19, k])
+            found.append(prove_monodromy(decomposition.system, component, rng))
+        except (ValueError, OverflowError):
+            found.append(ProvedMonodromy((), np.arange(component.degree), 0))
+    return tuple(found)
+
+
+def _joined(orbits: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Orbits under one more partial permutation."""
+    orbits = orbits.copy()
+    for i in np.flatnonzero(places >= 0).tolist():
+        a, b = sorted((int(orbits[i]), int(orbits[places[i]])))
+        orbits[orbits == b] = a
+    return orbits
+
+
+def _loop(
+    fibres: list[Fibre], rows: np.ndarray, middle: np.ndarray, turns: tuple[complex, complex]
+) -> tuple[np.ndarray, int]:
+    """Where a loop leads the points of fibres on the slice ``rows``, and the number of tubes."""
+    places, steps, first = [], 0, 0
+    for fibre in fibres:
+        out = moving_slice(fibre, rows, middle, turns[0])
+        back = moving_slice(fibre, middle, rows, turns[1])
+        starts = located(out, fibre.points.astype(complex), 1.0)
+        there = certified_paths(out, starts)
+        half = _arrived(there.ends, there.reached)
+        again = certified_paths(back, half)
+        ends = _arrived(again.ends, again.reached)
+        # Points of another fibre may be zeros of this one's equations as well.
+        known, begin = starts, first
+        if not fibre.cut.aux:
+            known, begin = located(out, np.vstack([f.x for f in fibres]).astype(complex), 1.0), 0
+        for i in range(len(fibre)):
+            same = np.flatnonzero(ends.only(np.array([i])).same(known))
+            places.append(begin + int(same[0]) if len(same) == 1 else -1)
+        steps += there.steps + again.steps
+        first += len(fibre)
+    return np.array(places, dtype=int), steps
+
+
+def _arrived(ends: Located, reached: np.ndarray) -> Located:
+    """The ends of the paths that got to t = 0."""
+    outer = np.where(reached[:, None] == 0, ends.outer, -1.0)
+    return Located(ends.centres, ends.inner, outer)
+
+
+def moving_slice(
+    fibre: Fibre, source: np.ndarray, target: np.ndarray, turn: complex
+) -> MovingSystem:
+    """The equations of a fibre with the slice ``t turn source + (1 - t) target``.
+
+    Raises:
+        OverflowError: if a coefficient is too large or too small for a double.
+    """
+    columns = 1 + fibre.cut.n + fibre.cut.aux
+    blank = np.zeros((len(source), columns), dtype=complex)
+    nothing: list[Terms] = [{}] * len(fibre.cut.polynomials)
+    return MovingSystem(
+        (
+            MovingPart.of(1.0, 0.0, [f.terms for f in fibre.cut.polynomials], blank),
+            MovingPart.of(0.0, turn, nothing, padded(source, columns)),
+            MovingPart.of(1.0, -1.0, nothing, padded(target, columns)),
+        )
+    )
