@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.number import decimal_digits
+from nag.tracking import evaluations
 from nag.tracking.ends import records
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limit, Limits
@@ -258,10 +259,10 @@ def _run(
     batches = max(1, min(threads, len(chosen) // 8))
     limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
 
-    def part(first: int) -> None:
+    def part(first: int) -> int:
         own = chosen[first::batches]
         count, N = len(own), homotopy.N
-        whole = [np.zeros(count, dtype=np.int64) for _ in range(3)]
+        whole = [np.zeros(count, dtype=np.int64) for _ in range(4)]
         points, errors = states.where[own].copy(), np.zeros((count, N))
         safe, safe_t = states.safe[own].copy(), states.safe_t[own].copy()
         t, curvature = states.t[own], states.curvature[own]
@@ -276,11 +277,7 @@ def _run(
             t.reshape(-1),
             states.latest[own],
             *whole,
-            points.reshape(-1),
-            safe.reshape(-1),
-            safe_t.reshape(-1),
-            own_limits.reshape(-1),
-            errors.reshape(-1),
+            *(a.reshape(-1) for a in (points, safe, safe_t, own_limits, errors)),
             curvature,
             MAX_STEPS,
             MAX_WINDING,
@@ -299,12 +296,14 @@ def _run(
         states.t[own], states.curvature[own] = t, curvature
         states.tried[own] = 1
         limits[first::batches] = own_limits
+        return int(whole[3].sum())
 
     if batches == 1:
-        part(0)
+        spent = part(0)
     else:
         with ThreadPoolExecutor(batches) as pool:
-            list(pool.map(part, range(batches)))
+            spent = sum(pool.map(part, range(batches)))
+    evaluations.count(spent)
     return limits
 
 
