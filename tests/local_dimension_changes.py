@@ -24,12 +24,15 @@ from nag.numerics.local_dimension import LocalDimension, local_dimension
 ERRORS = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 
 
-def judged(point: Known, seed: int) -> LocalDimension:
+def judged(point: Known, seed: int) -> tuple[LocalDimension, float]:
+    """The answer and its processor time."""
     rng, error = np.random.default_rng(seed), ERRORS[seed % len(ERRORS)]
     changed = point.changed(rng)
     at = np.array(changed.point, dtype=complex)
     beside = Zero([], at, 0).beside(error, rng)
-    return local_dimension(changed.system, beside, accuracy=error, seed=seed)
+    begin = time.process_time()
+    found = local_dimension(changed.system, beside, accuracy=error, seed=seed)
+    return found, time.process_time() - begin
 
 
 def right(point: Known, found: LocalDimension) -> bool:
@@ -51,9 +54,8 @@ def main(count: int, names: list[str]) -> int:
             continue
         seconds, undecided, false = [], [], []
         for seed in range(count):
-            begin = time.process_time()
-            found = judged(point, seed)
-            seconds.append(time.process_time() - begin)
+            found, spent = judged(point, seed)
+            seconds.append(spent)
             line = (seed, found.tangent_dimension, found.lower, found.upper, found.reason)
             if not right(point, found):
                 false.append(line)

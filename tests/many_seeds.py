@@ -28,7 +28,9 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
 from nag.files.cases import Truth, read_case
 from nag.files.problem import symmetries_of
+from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.model import model
+from nag.mechanism.parts_decomposition import decompose_parts
 from nag.report.agreement import Verdict, compare, in_words, kinds
 from nag.witness.witness import Status
 
@@ -39,13 +41,18 @@ NOTICE = 60
 
 @dataclass(frozen=True)
 class Subject:
-    """A case in one formulation, ready to be decomposed."""
+    """A case in one formulation, ready to be decomposed.
+
+    Attributes:
+        parts: the model of parts that are not assembled, if it is one.
+    """
 
     name: str
     system: PolynomialSystem
     truth: tuple[Truth, ...]
     formulation: str | None
     symmetries: tuple[SignedPermutation, ...]
+    parts: AssemblyModel | None = None
 
 
 @dataclass(frozen=True)
@@ -80,23 +87,26 @@ def subject(path: Path, formulation: str | None, symmetric: bool) -> Subject:
     else:
         formulation = None
     symmetries = tuple(symmetries_of(case, chosen)) if symmetric else ()
-    return Subject(name, system, tuple(case.truth), formulation, symmetries)
+    return Subject(name, system, tuple(case.truth), formulation, symmetries, case.assembly)
 
 
 def moved(of: Subject, seed: int) -> Subject:
     """The same zero set in coordinates in which nothing is known of its multidegrees."""
     system = changed(of.system, np.random.default_rng(seed))
     truth = tuple(replace(t, multidegree=None) for t in of.truth)
-    return replace(of, system=system, truth=truth)
+    return replace(of, system=system, truth=truth, parts=None)
 
 
 def decomposed(of: Subject, seed: int, threads: int, settings: str) -> Result:
     """Decompose once and compare."""
+    options = {"seed": seed, "threads": threads, "settings": settings}
+    options["symmetries"] = of.symmetries
     begin = time.process_time()
     try:
-        answer = decompose(
-            of.system, seed=seed, threads=threads, settings=settings, symmetries=of.symmetries
-        )
+        if of.parts is not None:
+            answer = decompose_parts(of.parts, **options)
+        else:
+            answer = decompose(of.system, **options)
     except Exception as error:  # A run of hours is not to end with one seed.
         spent = time.process_time() - begin
         return Result(of.name, seed, True, True, 0, spent, f"{type(error).__name__}: {error}")

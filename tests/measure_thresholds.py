@@ -1,16 +1,17 @@
-"""How far the numbers that the ends of paths are judged by lie from their thresholds.
+"""How far the numbers that decisions rest on lie from their thresholds.
 
-    python tests/measure_thresholds.py [--case FILE ...] [--seeds 0:3]
+    python tests/measure_thresholds.py [--decompose] [--case FILE ...] [--seeds 0:3]
 
-Solves the systems by paths, and prints for each threshold of the table in `nag.tracking` how many
-values it let pass and how many not, how many decades the nearest of each lie from it, and how many
-lie within a decade of it. A threshold is a good one where hardly any do: then another value of it
-would give the same answers.
+Solves the systems by paths, or decomposes them, and prints for each threshold with a star in the
+table of `nag.tracking`, or of `nag.decomposition`, how many values it let pass and how many not,
+how many decades the nearest of each lie from it, and how many lie within a decade of it. A
+threshold is a good one where hardly any do: then another value of it would give the same answers.
 """
 
 from __future__ import annotations
 
 import argparse
+import sys
 from collections import defaultdict
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -21,12 +22,18 @@ from unittest.mock import patch
 import numpy as np
 
 import nag
+from nag.algebra.evaluation import Evaluator
+from nag.decomposition import components, discovery, intersection, splitting  # noqa: F401
+from nag.decomposition.components import decompose
 from nag.files.cases import read_case
+from nag.files.problem import system_of
+from nag.numerics import coincidence
 from nag.solving import judged_ends
 from nag.solving import solve as solving
 from nag.tracking import track as tracking
 from nag.tracking.ends import follow, limits
 from nag.tracking.paths import PathStatus
+from nag.witness import confirm, cutting
 
 CASES = Path(__file__).parents[1] / "cases"
 BENCHMARKS = [
@@ -46,6 +53,20 @@ BENCHMARKS = [
     "reimer-5",
     "stewart-gough",
 ]
+SMALL = [
+    "bennett",
+    "bricard-variety",
+    "double-rhombus",
+    "four-bar",
+    "gonzalez",
+    "graph-curve",
+    "rhombus",
+    "rhombus-chain-2",
+    "slider-crank",
+    "triangle",
+]
+# More points are not compared in pairs.
+MOST_PAIRED = 300
 # Values that stand for none at all.
 NONE = 1e-300
 
@@ -135,25 +156,97 @@ def watched(measured: Measured) -> ExitStack:
     return stack
 
 
+def everywhere(stack: ExitStack, function: Callable[..., Any], note: Callable[..., None]) -> None:
+    """Hand what a function gives and is given to ``note``, wherever it is called from."""
+    wrapped, name = around(function, note), function.__name__
+    for module in [m for key, m in sys.modules.items() if key.startswith("nag.")]:
+        if vars(module).get(name) is function:
+            stack.enter_context(patch.object(module, name, wrapped))
+
+
+def watched_decomposition(measured: Measured) -> ExitStack:
+    """A context in which what a decomposition compares with thresholds is measured."""
+
+    def coincident(_: Any, points: np.ndarray, x: np.ndarray, error: Any) -> None:
+        distances = np.linalg.norm(points - x, axis=1)
+        measured.add("coincident (over LEAST)", 1.0, distances / coincidence.reach(x[None], error))
+
+    def clusters(_: Any, points: np.ndarray, accuracy: np.ndarray) -> None:
+        if len(points) < MOST_PAIRED:
+            radii = coincidence.reach(points, accuracy)
+            distances = np.linalg.norm(points[:, None] - points[None], axis=2)
+            ratios = distances / np.maximum(radii[:, None], radii[None])
+            pairs = np.triu_indices(len(points), 1)
+            measured.add("clusters (over LEAST)", 1.0, ratios[pairs])
+
+    def compared(_: Any, distances: np.ndarray, errors: Any) -> None:
+        same = np.maximum(coincidence.HIT, coincidence.SAFETY * errors)
+        other = np.maximum(coincidence.MISS, coincidence.BEYOND * errors)
+        measured.add("HIT (over errors)", 1.0, distances / same)
+        measured.add("MISS (over errors)", 1.0, distances / other)
+
+    def vanishing(_: Any, cut: Any, f: Any, __: Any, points: np.ndarray) -> None:
+        evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
+        measured.add("ON", cutting.ON, evaluator.residuals(x))
+        terms = np.maximum(evaluator.absolute(x), NONE)
+        measured.add("CERTAIN", confirm.CERTAIN, np.abs(evaluator.values(x)) / terms)
+
+    def corank(_: Any, singular: np.ndarray, columns: int, small: float) -> None:
+        values = np.zeros(columns)
+        values[: len(singular)] = singular[:columns]
+        values = np.maximum(values / max(1.0, values.max(initial=0.0)), 1e-17)
+        gaps = np.concatenate([[1.0], values[:-1]]) / values
+        measured.add("GAP", cutting.GAP, gaps[values < small])
+
+    def loops(found: Any, *_: Any) -> None:
+        measured.add("MOST_LOOPS", splitting.MOST_LOOPS, turns)
+        turns[:] = [0.0]
+
+    def turned(*_: Any) -> None:
+        turns[0] += 1
+
+    turns, stack = [0.0], ExitStack()
+    everywhere(stack, coincidence.coincident, coincident)
+    everywhere(stack, coincidence.clusters, clusters)
+    everywhere(stack, coincidence.compared, compared)
+    everywhere(stack, confirm.vanishing, vanishing)
+    everywhere(stack, cutting.numerical_corank, corank)
+    everywhere(stack, splitting.split, loops)
+    everywhere(stack, splitting._looped, turned)
+    return stack
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--case", action="append", type=Path)
     parser.add_argument("--seeds", default="0:3", help="first:last+1")
+    parser.add_argument("--decompose", action="store_true", help="decompose the systems")
     options = parser.parse_args()
-    files = options.case or [
-        *sorted((CASES / "hard").glob("*.toml")),
-        *(CASES / "benchmarks" / f"{name}.toml" for name in BENCHMARKS),
-    ]
+    watch = watched_decomposition if options.decompose else watched
     measured = Measured()
-    with watched(measured):
-        for file in files:
+    with watch(measured):
+        for file in options.case or files(options.decompose):
             case = read_case(file)
-            system = case.system or nag.model(case.mechanism).system
+            system = system_of(case, nag.model(case.mechanism) if case.mechanism else None)
             for seed in range(*map(int, options.seeds.split(":"))):
-                result = solving.solve(system, seed=seed)
+                if options.decompose:
+                    result = decompose(system, seed=seed)
+                    found = len(result.components)
+                else:
+                    result = solving.solve(system, seed=seed)
+                    found = len(result.solutions)
                 answer = "complete" if result.complete else "not complete"
-                print(f"{file.stem} seed {seed}: {len(result.solutions)}, {answer}", flush=True)
+                print(f"{file.stem} seed {seed}: {found}, {answer}", flush=True)
     print("\n".join(measured.lines()))
+
+
+def files(decompose: bool) -> list[Path]:
+    """The cases that are measured where none are named."""
+    if decompose:
+        small = [CASES / f"{name}.toml" for name in SMALL]
+        return [*sorted((CASES / "literature").glob("*.toml")), *small]
+    hard = sorted((CASES / "hard").glob("*.toml"))
+    return [*hard, *(CASES / "benchmarks" / f"{name}.toml" for name in BENCHMARKS)]
 
 
 if __name__ == "__main__":

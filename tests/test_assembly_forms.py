@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from linkages import CASES
 
+from nag.algebra.expression import parse_number
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import Case, read_case
@@ -25,6 +26,7 @@ from nag.mechanism.framework import (
 from nag.mechanism.framework_model import framework_model
 from nag.mechanism.model import model
 from nag.mechanism.quaternion import dual_multiply
+from nag.mechanism.real_assemblies import obstacle
 
 PRISM = ["AB", "BC", "CA", "DE", "EF", "FD", "AD", "BE", "CF"]
 
@@ -168,29 +170,6 @@ def test_henneberg_graphs_have_two_realisations_for_each_further_point(points, s
     assert len(answer.components) == 2 ** (points - 2)
 
 
-def test_isotropic_and_cartesian_coordinates_find_the_same_realisations():
-    places = {"A": (0, 0), "B": (3, 0), "C": (1, 2), "D": (4, 3)}
-    exact = {p: tuple(map(Fraction, place)) for p, place in places.items()}
-    placed = placed_framework(2, exact, [tuple(b) for b in ("AB", "BC", "CA", "BD", "CD")])
-    models = [
-        framework_model(placed),
-        framework_model(Framework(2, placed.points, placed.bars, placed.squared_lengths)),
-    ]
-    assert [m.coordinates for m in models] == ["xy", "zw"]
-    answers = [[c.points[0] for c in decompose(m.system).components] for m in models]
-    assert [len(a) for a in answers] == [4, 4]
-    plane = np.array(answers[0])
-    isotropic = np.hstack(
-        [
-            np.stack([p[:, 0] + 1j * p[:, 1], p[:, 0] - 1j * p[:, 1]], axis=1)
-            for p in (plane[:, :2], plane[:, 2:])
-        ]
-    )
-    gaps = np.abs(isotropic[:, None] - np.array(answers[1])[None]).max(axis=2)
-    assert gaps.min(axis=1).max() < 1e-12
-    assert all(m.is_real(x) for m, a in zip(models, answers, strict=True) for x in a)
-
-
 def test_ranks_tell_shaky_from_rigid_and_from_mobile():
     conic = read_case(CASES / "shaky" / "k33-on-conic.toml").assembly.framework
     assert (conic.freedoms, conic.generic_motions(), conic.infinitesimal_motions()) == (0, 0, 1)
@@ -254,6 +233,43 @@ def test_links_that_cannot_meet_are_told_from_those_that_can(tmp_path, capsys):
     path.write_text(text.replace('[3, 4, "11/2"]', "[1, 2, 4]"))
     assert main(["decompose", str(path), "--quiet"]) == 0
     assert "2 realisations up to motions, 0 of them real" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("lengths", "said"),
+    [
+        (
+            (7, 1, 2, 3),
+            "there is no real one, which is proved: link base is longer than link crank, ",
+        ),
+        ((6, 1, 2, "3001/1000"), "a real one was found"),
+    ],
+)
+def test_a_mobile_linkage_says_whether_it_has_real_assemblies(tmp_path, capsys, lengths, said):
+    path = tmp_path / "case.toml"
+    names, pins = ("base", "crank", "coupler", "rocker"), ("AD", "AB", "BC", "CD")
+    links = [
+        f'[[link]]\nname = "{name}"\npins = ["{p[0]}", "{p[1]}"]\nlength = "{length}"\n'
+        for name, p, length in zip(names, pins, lengths, strict=True)
+    ]
+    path.write_text('title = "Four-bar"\nkind = "linkage"\nground = "base"\n' + "".join(links))
+    assert main(["decompose", str(path), "--quiet"]) == 0
+    found = " ".join(capsys.readouterr().out.split())
+    assert "mobile, mobility 1 at most" in found
+    assert said in found
+
+
+def test_sides_are_compared_exactly():
+    # At equality the linkage is flat, and real; a hair more is too long.
+    for excess, said in (
+        ("0", ""),
+        ("1/10^40", "bar A-C is longer than bar A-B and bar B-C together"),
+    ):
+        lengths = [parse_number("sqrt(2)"), parse_number("sqrt(3)")]
+        lengths.append(lengths[0] + lengths[1] + parse_number(excess))
+        squares = tuple(x * x for x in lengths)
+        bars = (("A", "B"), ("B", "C"), ("A", "C"))
+        assert obstacle(framework_model(Framework(2, tuple("ABC"), bars, squares))) == said
 
 
 # Lines

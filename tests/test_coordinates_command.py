@@ -47,7 +47,10 @@ def test_all_modes_are_counted_and_exported(tmp_path, capsys):
     [
         (["four-bar.toml", "--modes", "all"], "--modes is for assembled mechanisms"),
         (["four-bar.toml", "--coordinates", "euler"], "--coordinates is for assembled mechanisms"),
-        (["spatial/sarrus.toml", "--modes", "all"], 'is of kind "dh", which has one model'),
+        (
+            ["spatial/sarrus.toml", "--modes", "all"],
+            'is of kind "dh", whose parts are not assembled',
+        ),
         (["bennett.toml", "--modes", "all", "--expand"], "--expand: is not for --modes all"),
         (
             ["bennett.toml", "--modes", "all", "--method", "sampling"],

@@ -6,6 +6,7 @@ import json
 import math
 from dataclasses import fields, replace
 from fractions import Fraction
+from importlib import resources
 
 import jsonschema
 import numpy as np
@@ -32,6 +33,8 @@ from nag.witness.moving import witness_at
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 VALIDATOR = jsonschema.Draft202012Validator(schema())
+OLD = resources.files("nag.files") / "schema" / "nag-decomposition-1.json"
+OLD_VALIDATOR = jsonschema.Draft202012Validator(json.loads(OLD.read_text("utf-8")))
 
 doubles = st.floats(allow_nan=False, allow_infinity=False)
 names = st.lists(
@@ -91,11 +94,11 @@ def components(draw: st.DrawFn, system: PolynomialSystem) -> WitnessSet:
         multiplicity=draw(st.integers(0, 5)),
         status=draw(st.sampled_from(Status)),
         residual=draw(doubles),
-        accuracy=draw(doubles),
+        radii=np.abs(draw(complex_arrays((degree, n))).real),
+        digits=draw(st.lists(st.integers(1, 500), min_size=degree, max_size=degree)),
         corank=draw(st.integers(0, 5)),
         multidegree=multidegree,
         orbit=draw(st.integers(1, 64)),
-        precision=draw(st.sampled_from(["double", "double-double", "mpmath 60"])),
         note=draw(texts),
     )
 
@@ -135,7 +138,8 @@ def circle(**changes: object) -> Decomposition:
         multiplicity=1,
         status=Status.IRREDUCIBLE,
         residual=1e-16,
-        accuracy=1e-15,
+        radii=[[1e-15, 0.0], [2e-16, 5e-324]],
+        digits=[32, 53],
         corank=1,
     )
     return Decomposition(
@@ -172,15 +176,21 @@ def test_points_read_back_to_the_same_bits(decomposition: Decomposition, tmp_pat
 
 def test_values_that_are_not_finite_become_null_and_read_back_as_not_a_number(tmp_path) -> None:
     strange = circle(
-        residual=math.inf, accuracy=math.nan, points=[[complex(math.nan, -math.inf), 1j]]
+        residual=math.inf,
+        points=[[complex(math.nan, -math.inf), 1j]],
+        radii=[[math.inf, 1e-17]],
+        digits=[16],
     )
     file = tmp_path / "export.json"
     write_decomposition(strange, file)
     content = json.loads(file.read_text(), parse_constant=pytest.fail)
     VALIDATOR.validate(content)
     assert content["components"][0]["points"] == [[[None, None], [0.0, 1.0]]]
+    assert content["components"][0]["radii"] == [[None, 1e-17]]
     (component,) = read_decomposition(file).components
-    assert math.isnan(component.residual) and math.isnan(component.accuracy)
+    assert math.isnan(component.residual)
+    # A radius that is not known is no bound at all.
+    assert component.radii.tolist() == [[math.inf, 1e-17]]
     assert math.isnan(component.points[0, 0].real) and math.isnan(component.points[0, 0].imag)
     assert component.points[0, 1] == 1j
 
@@ -199,7 +209,8 @@ def test_every_field_of_a_component_is_exported() -> None:
     names = {field.name for field in fields(WitnessSet)}
     # The system is written once for all components.
     names -= {"multidegree", "images", "fibres", "system"}
-    assert names | {"dimension", "degree", "cut_by"} == set(exported)
+    derived = {"dimension", "degree", "cut_by", "accuracy", "precision"}
+    assert names | derived == set(exported)
 
 
 def test_a_component_that_is_read_back_is_moved_by_the_equations_of_the_file(tmp_path) -> None:
@@ -229,9 +240,29 @@ def test_files_of_version_1_are_read(tmp_path) -> None:
     del old["equations"]
     for component in old["components"]:
         del component["cut_by"]
+        del component["radii"], component["digits"]
+    OLD_VALIDATOR.validate(old)
     file = tmp_path / "old.json"
     file.write_text(json.dumps(old))
-    assert read_decomposition(file) == circle()
+    assert read_decomposition(file) == with_radii_of_its_accuracy(circle())
+
+
+def with_radii_of_its_accuracy(answer: Decomposition) -> Decomposition:
+    (component,) = answer.components
+    known = np.repeat(1 + np.linalg.norm(component.points, axis=1)[:, None], 2, axis=1)
+    changed = replace(component, radii=component.accuracy * known, digits=[16, 16])
+    return replace(answer, components=(changed,))
+
+
+def test_files_without_error_radii_are_read(tmp_path) -> None:
+    old = document(circle())
+    for component in old["components"]:
+        del component["radii"], component["digits"]
+    old["components"][0]["precision"] = "double"
+    VALIDATOR.validate(old)
+    file = tmp_path / "old.json"
+    file.write_text(json.dumps(old))
+    assert read_decomposition(file) == with_radii_of_its_accuracy(circle())
 
 
 def test_multidegree_is_exported_only_where_the_system_has_groups() -> None:
@@ -300,6 +331,10 @@ BROKEN = {
     "degree": (_broken(_set(*COMPONENT, "degree", 3)), "must be the number of points"),
     "dimension": (_broken(_set(*COMPONENT, "dimension", 2)), "components[0].dimension"),
     "pair": (_broken(_set(*COMPONENT, "points", [[1, 2]])), "must be a pair [re, im]"),
+    "few radii": (_broken(_set(*COMPONENT, "radii", [[0.1, 0.1]])), "radii: must be as many"),
+    "radius": (_broken(_set(*COMPONENT, "radii", [[0.1, -0.1], [0, 0]])), "numbers from 0 up"),
+    "few digits": (_broken(_set(*COMPONENT, "digits", [16])), "digits: must be one number"),
+    "no digits": (_broken(_set(*COMPONENT, "digits", [0, 16])), "digits[0]: must be an integer"),
     "short point": (_broken(_set(*COMPONENT, "points", [[[1, 2]]])), "of length 2"),
     "large number": (_broken(_set(*COMPONENT, "residual", 10**400)), "range of doubles"),
     "orbit": (_broken(_set(*COMPONENT, "orbit", {"size": 0})), "orbit.size: must be an integer"),

@@ -15,7 +15,6 @@ from nag.decomposition import (
     intersect_components,
     intersect_equations,
     intersect_pair,
-    intersection,
     memberships,
     sample,
 )
@@ -98,9 +97,7 @@ def test_the_curves_of_two_rhombi_with_common_bars_meet_in_twelve_poses() -> Non
 
 
 @pytest.mark.slow
-def test_a_set_that_deflation_does_not_reach_leaves_the_answer_open(monkeypatch) -> None:
-    # Other slices and constants would not make it regular either.
-    monkeypatch.setattr(intersection, "ATTEMPTS", 1)
+def test_a_set_that_deflation_does_not_reach_leaves_the_answer_open() -> None:
     case = read_case(CASES / "literature" / "adjacent-minors-3x4.toml")
     minors = decompose(case.system)
     found = intersect_pair(minors, 1, 5)
@@ -122,7 +119,7 @@ def test_a_component_meets_itself_in_itself(equations) -> None:
 def test_components_of_different_systems_meet() -> None:
     conic, line = system("x y", "x^2 + y^2 - 1"), system("x y", "x - y")
     first, second = decompose(conic).components[0], decompose(line).components[0]
-    found = intersect_components(conic, first, second, other=line)
+    found = intersect_components(conic, first, second)
     assert kinds(found) == {(0, 1): 2}
     points = np.sort_complex(np.array([c.points[0, 0] for c in found.components]))
     assert np.abs(points - [-np.sqrt(0.5), np.sqrt(0.5)]).max() < 1e-15
@@ -203,3 +200,16 @@ def test_different_variables_are_refused() -> None:
     conic = system("x y", "x^2 + y^2 - 1")
     with pytest.raises(IntersectionError, match="variables differ: x, y and x, z"):
         intersect_equations(conic, decompose(conic).components[0], system("x z", "x"))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_component_that_is_not_reduced_meets_equations(seed: int) -> None:
+    # Its points are kept with unknowns that deflation added.
+    parabola = decompose(system("x y z", "x^2 - y", "z^2"), seed=seed)
+    (component,) = parabola.components
+    assert component.multiplicity == 2 and component.fibres[0].cut.aux
+    found = intersect_equations(
+        parabola.system, component, system("x y z", "x^2 + y^2 - 2"), seed=seed
+    )
+    assert found.complete and kinds(found) == {(0, 1): 4}
+    assert {abs(round(float(c.points[0, 1].real), 9)) for c in found.components} == {1.0, 2.0}

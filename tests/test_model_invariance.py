@@ -3,6 +3,7 @@
 from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 
 import numpy as np
 import pytest
@@ -89,6 +90,13 @@ def with_frames(mechanism: Mechanism) -> Mechanism:
     return Mechanism(mechanism.ground, mechanism.joints, tuple(Body(b, FRAME) for b in moving))
 
 
+@cache
+def unchanged(name: str) -> Counter:
+    """The components of an example as it stands, with plain frames."""
+    mechanism = EXAMPLES[name]
+    return components(Mechanism(mechanism.ground, mechanism.joints))
+
+
 CHANGES = {
     "rigid motion": rigidly_moved,
     "names, order and direction": relabelled,
@@ -103,7 +111,7 @@ CHANGES = {
 def test_components_do_not_depend_on_how_the_mechanism_is_written(name, change):
     mechanism = EXAMPLES[name]
     bare = Mechanism(mechanism.ground, mechanism.joints)
-    assert components(CHANGES[change](bare)) == components(bare)
+    assert components(CHANGES[change](bare)) == unchanged(name)
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -114,7 +122,7 @@ def test_dimensions_and_counts_do_not_depend_on_the_ground(name):
     def dimensions(counts: Counter) -> Counter:
         return Counter(d for (d, *_), k in counts.items() for _ in range(k))
 
-    expected = dimensions(components(mechanism))
+    expected = dimensions(unchanged(name))
     for ground in mechanism.body_names[1:]:
         moved = Mechanism(ground, mechanism.joints)
         assert dimensions(components(moved)) == expected

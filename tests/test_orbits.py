@@ -11,10 +11,10 @@ from systems import system
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.decomposition import decompose
-from nag.decomposition.monodromy import located
+from nag.decomposition.monodromy import places_among
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.splitting import join
-from nag.decomposition.superset import witness_superset
+from nag.decomposition.superset import Ambient, witness_superset
 from nag.files.cases import read_case
 from nag.files.export import read_decomposition, write_decomposition
 from nag.report.agreement import Verdict, compare, kinds
@@ -151,7 +151,7 @@ def test_a_missing_point_is_noticed() -> None:
     equations = system("x y", "(x^2 - 2)*(y^2 - 2)").polynomials
     rng, tracker = np.random.default_rng(0), Tracker()
     flag = random_rows(rng, 2, 2)
-    fibres = witness_superset(equations, 2, (), flag, rng, tracker).fibres[1]
+    fibres = witness_superset(equations, Ambient.space(flag), rng, tracker).fibres[1]
     action = Action.of(swap, Frame(np.eye(2), np.zeros(2), (0, 1), np.ones(2)))
     points = Points.of(fibres, flag[:1])
     found = irreducible_orbits(points, [action], 20, rng, tracker)
@@ -173,6 +173,6 @@ def test_joins_are_carried_on_by_permutations() -> None:
 
 def test_ends_are_located_only_where_that_is_clear() -> None:
     points = np.array([[0.0], [1.0]])
-    assert located(np.array([[1 + 1e-9], [5.0]]), points).tolist() == [1, -1]
-    assert located(np.array([[1e-5]]), points) is None
-    assert located(np.array([[1e-8]]), np.array([[0.0], [3e-8]])) is None
+    assert places_among(np.array([[1 + 1e-9], [5.0]]), points).tolist() == [1, -1]
+    assert places_among(np.array([[1e-5]]), points) is None
+    assert places_among(np.array([[1e-8]]), np.array([[0.0], [3e-8]])) is None

@@ -4,7 +4,8 @@ import mpmath
 import pytest
 from linkages import case, exact, four_bar, loop
 
-from nag.mechanism.graph import Body, Mechanism
+from nag.decomposition import decompose
+from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.model import model
 
 FRAMES = [
@@ -100,3 +101,18 @@ def test_two_loops_in_the_plane():
         lifted = m.unreduced_point(m.lift([mpmath.mpf(x.numerator) / x.denominator for x in point]))
         for f in m.unreduced.polynomials:
             assert abs(f(lifted, lambda c: mpmath.mpf(c.numerator) / c.denominator)) < 1e-35
+
+
+def test_a_triangle_of_bodies_costs_no_path_and_gives_both_its_assemblies():
+    def pin(name, first, second, *place):
+        return Joint(name, "revolute", (first, second), exact(*place, 0), exact(0, 0, 1))
+
+    ends = [pin("A", "g", "a", 0, 0), pin("B", "a", "b", 1, 3), pin("D", "c", "g", 6, 0)]
+    plate = Mechanism("g", (*ends, pin("C", "b", "c", 5, 4)))
+    triangle = [pin("P", "b", "d", 3, 3), pin("Q", "d", "e", 4, 6), pin("S", "e", "b", 2, 7)]
+    braced = Mechanism("g", (*ends, *triangle, pin("C", "d", "c", 5, 4)))
+    found = [decompose(model(m, "H").system) for m in (plate, braced)]
+    assert all(answer.complete for answer in found)
+    kinds = [[(c.dimension, c.degree, c.multiplicity) for c in a.components] for a in found]
+    assert kinds == [[(1, 4, 1)], [(1, 4, 1)] * 2]
+    assert found[1].paths.tracked == 0

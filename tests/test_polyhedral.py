@@ -15,6 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from systems import benchmark
 
+from nag.solving.start.choice import choose
 from nag.solving.start.fibre_monodromy import GenericSystem
 from nag.solving.start.mixed_cells import MixedCells, mixed_cells
 from nag.solving.start.polyhedral import polyhedral
@@ -176,3 +177,10 @@ def test_solutions_that_stay_lost_are_an_error(monkeypatch: pytest.MonkeyPatch) 
 def test_systems_without_generic_solutions_have_volume_zero() -> None:
     supports = [np.array([[0, 0], [1, 0]]), np.array([[0, 0], [2, 0]])]
     assert mixed_cells(supports, np.random.default_rng(0)).mixed_volume == 0
+
+
+def test_a_bound_for_all_zeros_needs_constant_terms() -> None:
+    rng = np.random.default_rng(1)
+    noon = benchmark("noon-5")
+    assert choose(noon, "auto", (), rng, 1)[0].most == 233
+    assert choose(benchmark("katsura-8"), "auto", (), rng, 1)[0].most is None

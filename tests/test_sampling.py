@@ -15,7 +15,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition import by_sampling, decompose, memberships, real_points_near, sample
 from nag.files.cases import read_case
 from nag.mechanism.model import model
-from nag.witness import sampling as sampling_module
+from nag.witness import moving
 from nag.witness.expansion import expanded
 from nag.witness.membership import Membership
 from nag.witness.sampling import SamplingError
@@ -68,7 +68,7 @@ def test_samples_depend_on_the_seed_and_on_nothing_else() -> None:
 def test_paths_that_fail_end_the_sampling_with_what_was_found(monkeypatch) -> None:
     circle = system("x y", "x^2 + y^2 - 1")
     component = decompose(circle).components[0]
-    moves, true_move = [], sampling_module.move
+    moves, true_move = [], moving.move
 
     def failing(*arguments: object) -> object:
         moves.append(arguments)
@@ -77,7 +77,7 @@ def test_paths_that_fail_end_the_sampling_with_what_was_found(monkeypatch) -> No
             ends.regular[:] = False
         return ends
 
-    monkeypatch.setattr(sampling_module, "move", failing)
+    monkeypatch.setattr(moving, "move", failing)
     with pytest.raises(SamplingError, match="point 3 of 5: 4 paths failed") as error:
         sample(circle, component, 5)
     assert error.value.found.points.shape == (2, 2)
@@ -119,6 +119,15 @@ def test_real_points_of_other_components_do_not_count() -> None:
     assert np.abs(found.points - [[3, 5]]).max() < 1e-8
     none = real_points_near(of, conic, [2, 5])
     assert len(none) == 0 and "no real zero" in none.reason
+
+
+def test_real_points_of_a_component_that_is_not_reduced_are_found() -> None:
+    # Its points are kept with unknowns that deflation added.
+    of = system("x y z", "x^2 - y", "z^2")
+    found = real_points_near(of, decompose(of).components[0], [0, 1, 1])
+    nearest = [[np.sqrt(0.5), 0.5, 0], [-np.sqrt(0.5), 0.5, 0]]
+    assert len(found) == 2 and found.stationary.all()
+    assert all(np.abs(found.points - x).max(axis=1).min() < 1e-7 for x in nearest)
 
 
 def test_a_mechanism_keeps_its_real_reference_configuration() -> None:

@@ -102,7 +102,8 @@ def test_a_notebook_shows_a_row_for_each_solution_joint_point_and_equation() -> 
     assert [row[0] for row in joints] == ["joint", *(j.name for j in bennett().joints)]
     points = Table(nag.decompose("x^2 + y^2 = 1").components[0]._repr_html_()).rows
     assert [row[0] for row in points] == ["point", "0", "1"]
-    assert points[0][1:] == ["x", "y"]
+    assert points[0][1:] == ["x", "y", "error"]
+    assert all(0 < float(row[-1]) < 1e-15 for row in points[1:])
     equations = Table(nag.system(["x = 1", "x*y = 2"])._repr_html_()).rows
     assert equations[1:] == [["0", "1", "x - 1"], ["1", "2", "x*y - 2"]]
 

@@ -57,6 +57,7 @@ def test_the_curves_of_the_rhombus_are_smooth_and_meet_in_pairs() -> None:
 def test_varieties_of_single_loops_are_smooth(name: str) -> None:
     _, locus = locus_of(name)
     assert (locus.complete, locus.sets, locus.smooth) == (True, (), (0,))
+    assert locus.proved == (0,)
 
 
 @pytest.mark.parametrize("name", ["whitney-umbrella", "cuspidal-edge"])

@@ -92,6 +92,19 @@ def test_a_multiple_solution_at_the_origin_has_its_multiplicity() -> None:
         assert result.complete
 
 
+def test_as_many_zeros_as_the_mixed_volume_are_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise AssertionError("a path is followed to infinity")
+
+    names = "w x y z"
+    # Noonburg's system has 3^4 - 2 * 4 zeros.
+    noon = [f"10*{v}*({names.replace(' ', '^2+')}^2 - {v}^2) - 11*{v} + 10" for v in names.split()]
+    monkeypatch.setattr("nag.tracking.ends.follow.follow", refuse)
+    result = solve(system(names, *noon), start="auto", seed=2)
+    assert result.complete
+    assert (len(result.solutions), result.paths.at_infinity) == (73, 8)
+
+
 def test_curves_are_told_apart_from_isolated_points() -> None:
     f = system("x y", "(x^2 + y^2 - 1)*(x - 2)", "(x^2 + y^2 - 1)*(y - 3)")
     result = solve(f, seed=1)

@@ -11,7 +11,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
-from nag.decomposition.superset import witness_superset
+from nag.decomposition.superset import Ambient, witness_superset
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Tracker
@@ -28,10 +28,10 @@ def test_what_only_the_first_equations_see_as_multiple_is_not_deflated(seed: int
     rng = np.random.default_rng(seed)
     flag = random_rows(rng, 3, 3)
     equations = polynomials("x y z", "y - x^3", "y + x^3", "x*(z^3 + 2)")
-    found = witness_superset(equations, 3, (), flag, rng, Tracker())
+    found = witness_superset(equations, Ambient.space(flag), rng, Tracker())
     assert not found.notes and not found.counts.failed
     assert Counter({d: sum(map(len, f)) for d, f in found.fibres.items()}) == Counter({1: 1})
-    assert all(not f.cut.levels for f in found.fibres[1])
+    assert all(not f.cut.deflated for f in found.fibres[1])
 
 
 @pytest.mark.parametrize("size", [1, 30, 1000])

@@ -50,7 +50,8 @@ def component(dimension: int, degree: int, **changes: object) -> WitnessSet:
         multiplicity=1,
         status=Status.IRREDUCIBLE,
         residual=2e-16,
-        accuracy=3e-15,
+        radii=np.full((degree, n), 3e-15 / 3**0.5),
+        digits=np.full(degree, 32),
         corank=dimension,
     )
     return replace(plain, **changes)
@@ -89,16 +90,16 @@ def test_an_orbit_counts_with_all_its_members() -> None:
 def test_a_row_shows_the_worst_of_its_components() -> None:
     table = component_table(
         decomposition(
-            component(1, 2, residual=1e-16, accuracy=4e-9),
-            component(1, 2, residual=5e-13, accuracy=1e-15),
+            component(1, 2, residual=1e-16, radii=[[4e-9, 0, 0], [0, 0, 0]], digits=[16, 32]),
+            component(1, 2, residual=5e-13),
             component(1, 4, residual=math.nan),
         )
     )
-    headings = "dimension  degree  multiplicity  count  status       residual  accuracy  precision"
+    headings = "dimension  degree  multiplicity  count  status       residual  accuracy  digits"
     assert table[0] == headings
     assert [line.split() for line in table[1:]] == [
-        ["1", "2", "1", "2", "irreducible", "5.0e-13", "4.0e-09", "double"],
-        ["1", "4", "1", "1", "irreducible", "?", "3.0e-15", "double"],
+        ["1", "2", "1", "2", "irreducible", "5.0e-13", "4.0e-09", "16"],
+        ["1", "4", "1", "1", "irreducible", "?", "3.0e-15", "32"],
     ]
 
 

@@ -30,7 +30,7 @@ def taylor_coefficients(homotopy: Homotopy, start: np.ndarray) -> np.ndarray:
         *(ORDER, 2, 0.0, 1e-3, 1e-7, 1e-12, 1e-6, 0.4, 0.2, 0.1),
     )
     track_lanes(system(homotopy), scratch, batch)
-    base = scratch.base.reshape(ORDER + 1, 2, N, 8)[..., 0]
+    base = scratch.record.base.reshape(ORDER + 1, 2, N, 8)[..., 0]
     return base[:, 0] + 1j * base[:, 1]
 
 

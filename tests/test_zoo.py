@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from nag.decomposition import decompose
 from nag.files.cases import read_case
-from nag.files.problem import symmetries_of, system_of
+from nag.files.problem import decomposed
 from nag.mechanism.model import model
 from nag.report.agreement import Verdict, compare
 
@@ -19,10 +18,8 @@ ZOO = sorted(p for folder in FOLDERS for p in (CASES / folder).glob("*.toml"))
 # Those that take more than half a second; tests/many_seeds.py decomposes them.
 SLOW = {
     "cube-graph",
-    "dixon-1-k34",
     "dixon-2-k44",
     "general-7r",
-    "henneberg-8",
     "roberts-cognates",
     "spherical-pair-6r",
     "universal-shaft",
@@ -36,7 +33,7 @@ SLOW = {
 def test_a_linkage_decomposes_as_is_known(path):
     case = read_case(path)
     made = model(case.mechanism) if case.mechanism else None
-    answer = decompose(system_of(case, made), symmetries=symmetries_of(case, made))
+    answer = decomposed(case, made)
     agreement = compare(answer, case.truth, made.formulation if made else None)
     assert answer.complete
     assert agreement is not None

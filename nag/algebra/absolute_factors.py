@@ -21,21 +21,34 @@ MOST_DEGREE = 12
 def is_absolutely_irreducible(f: Polynomial, rng: np.random.Generator) -> bool:
     """Whether an exact polynomial certainly is irreducible over the complex numbers.
 
-    It is if its restriction to a plane is, of the same degree, and not divided by a polynomial of
-    one variable. Gao's theorem: the number of factors of a square-free plane polynomial f is the
-    dimension of the pairs (g, h), of degrees less than f's in x and y, for which
-    ``g/f dx + h/f dy`` is closed.
-
     Args:
         f: irreducible over the rationals.
         rng: chooses the plane.
     """
+    return most_absolute_factors(f, rng) == 1
+
+
+def most_absolute_factors(f: Polynomial, rng: np.random.Generator) -> int | None:
+    """A number of factors over the complex numbers that an exact polynomial has at most.
+
+    It is the number of factors, but for bad luck. They are no more than those of the restriction
+    to a plane, of the same degree, and not divided by a polynomial of one variable. Gao's theorem:
+    the number of factors of a square-free plane polynomial f is the dimension of the pairs (g, h),
+    of degrees less than f's in x and y, for which ``g/f dx + h/f dy`` is closed.
+
+    Args:
+        f: irreducible over the rationals.
+        rng: chooses the plane.
+
+    Returns:
+        None for a polynomial in one variable, or of too high a degree.
+    """
     if not f.exact or f.n < 2 or not 1 <= f.degree <= MOST_DEGREE:
-        return False
+        return None
     plane = _on_a_plane(f, rng)
     if any(c.denominator % PRIME == 0 for c in plane.terms.values()):
-        return False
-    return plane.degree == f.degree and _closed_forms(plane) == 1
+        return None
+    return _closed_forms(plane) if plane.degree == f.degree else None
 
 
 def _on_a_plane(f: Polynomial, rng: np.random.Generator) -> Polynomial:

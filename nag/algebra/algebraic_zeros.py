@@ -81,6 +81,11 @@ class AlgebraicZero:
             ]
 
     @property
+    def digits(self) -> int:
+        """Decimal digits of the balls that `point` was rounded from, at least."""
+        return int(LEAST_BITS * 0.30103)
+
+    @property
     def real(self) -> bool:
         return bool(self.root.imag.is_zero())
 

@@ -10,6 +10,9 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 
+# Coordinates whose powers may leave the range of doubles.
+HUGE = 1e30
+
 
 @dataclass(frozen=True, eq=False)
 class Evaluator:
@@ -60,7 +63,27 @@ class Evaluator:
 
     def residuals(self, points: np.ndarray) -> np.ndarray:
         """Absolute values over sizes, shape ``(P, rows)``: 1e-16 is rounding at any scale."""
+        points = np.asarray(points, dtype=complex)
+        far = np.abs(points).max(axis=1, initial=0.0) > HUGE
+        if far.any():
+            result = np.zeros((len(points), len(self.coefficients)))
+            result[~far] = self.residuals(points[~far])
+            result[far] = [self._far_residuals(x) for x in points[far]]
+            return result
         return np.abs(self.values(points)) / self.sizes(points)
+
+    def _far_residuals(self, point: np.ndarray) -> np.ndarray:
+        """Residuals where powers of the coordinates may leave the range of doubles."""
+        size = float(np.abs(point).max())
+        weights = self.coefficients * self._lowered(size, self.exponents.sum(axis=1), self.degrees)
+        values = weights @ self._monomials(point[None] / size)[0]
+        floored = np.maximum(np.abs(point), 1.0) / size
+        sizes = np.abs(weights) @ self._monomials(floored[None])[0]
+        return np.abs(values) / np.where(sizes == 0, 1.0, sizes)
+
+    def _lowered(self, size: float, degrees: np.ndarray, tops: np.ndarray) -> np.ndarray:
+        """Powers ``size ** (degrees - tops)``, shape ``(tops, degrees)``; they may be 0."""
+        return np.exp2(np.minimum(np.log2(size) * (degrees[None] - tops[:, None]), 0.0))
 
     @cached_property
     def _derivatives(self) -> tuple[_Monomials, np.ndarray, np.ndarray, np.ndarray]:
@@ -124,6 +147,14 @@ class Evaluator:
     def balanced_jacobian(self, point: np.ndarray) -> np.ndarray:
         """The Jacobian with each row divided by the size that its degree lets it have."""
         size = max(1.0, float(np.abs(point).max(initial=1.0)))
+        if size > HUGE:
+            # The derivatives at the point over its size, each term by what it lacks in degree.
+            scaled = Evaluator(
+                self.n,
+                self.exponents,
+                self.coefficients * self._lowered(size, self.exponents.sum(axis=1), self.degrees),
+            )
+            return scaled.jacobian(np.asarray(point) / size)
         return self.jacobian(point) / size ** (self.degrees - 1)[:, None]
 
 

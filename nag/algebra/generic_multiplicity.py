@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 
@@ -70,6 +70,21 @@ def generic_multiplicity(
             return 0
         total += single * math.prod(k for _, k in factors)
     return total
+
+
+def is_own_ring(
+    equations: Sequence[Factors],
+    branch: Collection[Polynomial],
+    vanishes: Callable[[Polynomial], bool | None],
+) -> bool:
+    """Whether a branch has the same local ring as all equations at a generic point of a component.
+
+    So it is where one simple factor of each equation may vanish there, and these are the branch's:
+    the others are units.
+    """
+    there = [[(p, k) for p, k in factors if vanishes(p) is not False] for factors in equations]
+    alone = all(len(own) == 1 and own[0][1] == 1 for own in there)
+    return alone and {own[0][0] for own in there} == set(branch)
 
 
 def independent_gradients(polynomials: Sequence[Polynomial], x: np.ndarray, error: float) -> bool:

@@ -88,12 +88,15 @@ class Ideal:
         return ideal(self.field, (*self.basis, *generators))
 
 
-def ideal(field: FunctionField, generators: Iterable[Any]) -> Ideal:
+def ideal(
+    field: FunctionField, generators: Iterable[Any], bounds: tuple[int, int, int] | None = None
+) -> Ideal:
     """The ideal that polynomials generate.
 
     Args:
         field: the ring's names and order.
         generators: FLINT's polynomials of its ring, or functions, whose numerators are taken.
+        bounds: of the basis: polynomials, terms of one of them, bits of a coefficient; `BOUNDS`.
 
     Raises:
         UnfinishedBasis: beyond the bounds.
@@ -104,7 +107,9 @@ def ideal(field: FunctionField, generators: Iterable[Any]) -> Ideal:
     given = [f for f in given if f != 0]
     if not given:
         return Ideal(field, (), ())
-    found, finished = flint.fmpz_mpoly_vec(given, field.context).buchberger_naive(limits=BOUNDS)
+    found, finished = flint.fmpz_mpoly_vec(given, field.context).buchberger_naive(
+        limits=bounds or BOUNDS
+    )
     if not finished:
         raise UnfinishedBasis(f"a Groebner basis of {len(given)} polynomials grows too large")
     return Ideal(field, tuple(found.autoreduction()), tuple(given))
@@ -150,7 +155,10 @@ def cleared(f: Polynomial, field: FunctionField) -> Any:
 
 
 def ideal_of(
-    polynomials: Sequence[Polynomial], names: Sequence[str], order: Order = "degrevlex"
+    polynomials: Sequence[Polynomial],
+    names: Sequence[str],
+    order: Order = "degrevlex",
+    bounds: tuple[int, int, int] | None = None,
 ) -> Ideal:
     """The ideal of a system's exact equations.
 
@@ -158,4 +166,4 @@ def ideal_of(
         UnfinishedBasis: beyond the bounds.
     """
     field = FunctionField(names, order)
-    return ideal(field, [cleared(f, field) for f in polynomials])
+    return ideal(field, [cleared(f, field) for f in polynomials], bounds)

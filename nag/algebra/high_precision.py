@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.ball_values import ball_values
 from nag.algebra.number import Number, to_mpf
 from nag.algebra.polynomial import Polynomial
 
@@ -45,8 +46,9 @@ def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     from flint import arb
 
     sizes = [max(abs(x).mid(), arb(1)) for x in z]
-    bound = abs(f(sizes, lambda c: abs(_number(c)))).mid()
-    return abs(_middle(f(z, _number))).mid() / bound if bound else arb(0)
+    values = ball_values((f,), _number)
+    bound = abs(values.sizes_at(sizes)[0]).mid()
+    return abs(_middle(values.at(z)[0])).mid() / bound if bound else arb(0)
 
 
 def vanish_at(equations: Sequence[Polynomial], point: Sequence[tuple[str, str]]) -> bool:
@@ -59,8 +61,15 @@ def vanish_at(equations: Sequence[Polynomial], point: Sequence[tuple[str, str]])
 
     with flint.ctx.workdps(DIGITS + 10):
         z = [_middle(flint.acb(flint.arb(re), flint.arb(im))) for re, im in point]
-        vanishing = flint.arb(VANISHES)
-        return all(_relative(f, z[: f.n]) < vanishing for f in equations)
+        return vanish_in_balls(equations, z)
+
+
+def vanish_in_balls(equations: Sequence[Polynomial], point: Sequence[Any]) -> bool:
+    """Whether equations vanish at a point known to `DIGITS` digits, in FLINT's ``acb``."""
+    import flint
+
+    vanishing = flint.arb(VANISHES)
+    return all(_relative(f, point[: f.n]) < vanishing for f in equations)
 
 
 def zero_near(
@@ -92,18 +101,17 @@ def zero_near(
     import flint
     from flint import acb, arb
 
+    evaluate = ball_values(tuple(square), _number)
     with flint.ctx.workdps(digits):
         point = [acb(complex(x)) for x in z]
         rows = [[acb(complex(c)) for c in row] for row in slices]
         # Values are rounded beside the largest of their terms.
-        sizes = [float(abs(x)) for x in z]
-        terms = [f(sizes, lambda c: abs(float(c))) / k for f, k in zip(square, scales, strict=True)]
+        sizes = evaluate.sizes_at([abs(x) for x in point])
+        terms = [float(size) / k for size, k in zip(sizes, scales, strict=True)]
         small = arb(10) ** (12 - digits) * arb(max([1.0, *terms]))
         last = None
         for _ in range(NEWTON_STEPS):
-            values = [
-                _middle(acb(f(point, _number)) / s) for f, s in zip(square, scales, strict=True)
-            ]
+            values = [_middle(v / s) for v, s in zip(evaluate.at(point), scales, strict=True)]
             for row in rows:
                 terms = (c * x for c, x in zip(row[1:], point, strict=True))
                 values.append(_middle(sum(terms, row[0])))
@@ -149,5 +157,4 @@ def vanish(
             found = zero_near(square, slices, jacobian, z, 2 * DIGITS)
         if found is None:
             return None
-        vanishing = flint.arb(VANISHES)
-        return all(_relative(f, found[0][: f.n]) < vanishing for f in equations)
+        return vanish_in_balls(equations, found[0])

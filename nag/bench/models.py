@@ -11,6 +11,8 @@ from typing import Any
 
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
+from nag.mechanism.dh import DHLoop
+from nag.mechanism.dh_euler import table_alternatives, table_model
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model
 from nag.mechanism.path_estimates import estimated_paths
@@ -72,12 +74,20 @@ def measure_models(
     return rows
 
 
+def measure_table(name: str, loop: DHLoop, patience: float) -> list[Formulated]:
+    """A table by Denavit and Hartenberg in every formulation, each given ``patience`` seconds."""
+    return [
+        _measured(name, each.formulation, each.formulation == "H", each.system, loop, patience)
+        for each in table_alternatives(loop)
+    ]
+
+
 def _measured(
     name: str,
     formulation: str,
     taken: bool,
     system: PolynomialSystem,
-    mechanism: Mechanism,
+    mechanism: Mechanism | DHLoop,
     patience: float,
 ) -> Formulated:
     degrees = sorted(f.degree for f in system.polynomials)[: system.n]
@@ -99,7 +109,7 @@ def _measured(
     return replace(row, paths=paths, seconds=seconds, components=components, complete=complete)
 
 
-def _in_time(mechanism: Mechanism, formulation: str, patience: float) -> Any:
+def _in_time(mechanism: Mechanism | DHLoop, formulation: str, patience: float) -> Any:
     """What `_decomposed` gives, in a process of its own, which is ended when time is over."""
     context = multiprocessing.get_context("spawn")
     receiving, sending = context.Pipe(False)
@@ -115,22 +125,24 @@ def _in_time(mechanism: Mechanism, formulation: str, patience: float) -> Any:
         process.join()
 
 
-def _send(sending: Any, mechanism: Mechanism, formulation: str) -> None:
+def _send(sending: Any, mechanism: Mechanism | DHLoop, formulation: str) -> None:
     sending.send(_decomposed(mechanism, formulation))
 
 
 def _decomposed(
-    mechanism: Mechanism, formulation: str
+    mechanism: Mechanism | DHLoop, formulation: str
 ) -> tuple[float, int, tuple[tuple[int, int, int], ...], bool]:
     best = float("inf")
     for warm in (False, True):
         begin = time.process_time()
-        made = model(mechanism, "E" if formulation == "unreduced" else formulation)
-        signs = made.symmetries
-        if formulation == "unreduced":
-            answer = decompose(made.unreduced)
+        if isinstance(mechanism, DHLoop):
+            table = table_model(mechanism, formulation)
+            answer = decompose(table.system, symmetries=table.symmetries)
+        elif formulation == "unreduced":
+            answer = decompose(model(mechanism, "E").unreduced)
         else:
-            answer = decompose(made.system, symmetries=signs)
+            made = model(mechanism, formulation)
+            answer = decompose(made.system, symmetries=made.symmetries)
         best = min(best, time.process_time() - begin) if warm else best
         if not warm and time.process_time() - begin > 10:
             best = time.process_time() - begin

@@ -142,9 +142,9 @@ def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
     """The case, and its model if it is a mechanism."""
     case = read_case_file(arguments.case, getattr(arguments, "set", ()))
     if case.mechanism is None:
-        if arguments.formulation is not None:
-            raise only_assembled(arguments.case, case, "--formulation")
-        return case, None
+        if arguments.formulation is None:
+            return case, None
+        return _table_in(arguments.formulation, arguments.case, case), None
 
     from nag.mechanism.model import ModelError, model
 
@@ -154,11 +154,23 @@ def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
         raise UsageError(f"{arguments.case}: {error}") from None
 
 
+def _table_in(formulation: str, file: str, case: Case) -> Case:
+    from nag.files.dh_case import in_formulation, is_table
+    from nag.mechanism.dh import DHError
+
+    if not is_table(case):
+        raise only_assembled(file, case, "--formulation")
+    try:
+        return in_formulation(case, formulation)
+    except DHError as error:
+        raise UsageError(f"{file}: {error}") from None
+
+
 def only_assembled(file: str, case: Case, option: str) -> UsageError:
     """The error that an option is for mechanisms in a reference configuration."""
     what = "is a polynomial system"
     if case.assembly is not None:
-        what = f'is of kind "{case.kind}", which has one model'
+        what = f'is of kind "{case.kind}", whose parts are not assembled'
     return UsageError(f"{file}: {what}; {option} is for assembled mechanisms")
 
 

@@ -40,9 +40,10 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: if a case cannot be read, or the table cannot be written.
     """
-    from nag.bench.models import measure_models
+    from nag.bench.models import measure_models, measure_table
     from nag.bench.table import models_table
     from nag.files.cases import CaseError, read_case
+    from nag.files.dh_case import is_table
     from nag.files.written_file import TargetError, write_target
     from nag.mechanism.model import ModelError
 
@@ -52,14 +53,17 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             case = read_case(path)
         except CaseError as error:
             raise UsageError(str(error)) from None
-        if case.mechanism is None:
+        if case.mechanism is None and not is_table(case):
             if options.case:
-                raise UsageError(f"{path}: is no assembled mechanism; name mechanisms")
+                raise UsageError(f"{path}: is no assembled mechanism and no table; name such")
             continue
         if not options.quiet:
             print(f"{path.stem} ...", file=sys.stderr, flush=True)
         try:
-            rows += measure_models(path.stem, case.mechanism, options.patience)
+            if case.mechanism is None:
+                rows += measure_table(path.stem, case.assembly.loop, options.patience)
+            else:
+                rows += measure_models(path.stem, case.mechanism, options.patience)
         except ModelError as error:
             raise UsageError(f"{path}: {error}") from None
     if options.json is not None:

@@ -110,7 +110,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
             from nag.cli.all_modes import run_all_modes
 
             return run_all_modes(arguments, case, started, progress)
-        model, decomposition = _decomposed(arguments, case, model, progress)
+        case, model, decomposition = _decomposed(arguments, case, model, progress)
         if arguments.expand:
             decomposition = expanded(decomposition)
         points = through_points(decomposition, points_of(case, model), arguments.threads)
@@ -146,10 +146,14 @@ def _unwritten(decomposition: Decomposition, json: str | None, origin: Origin) -
 
 def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:
     """The model that is decomposed, in the coordinates that were asked for."""
-    if model is None:
-        for option, value in (("coordinates", None), ("modes", "reference")):
-            if getattr(arguments, option) != value:
-                raise only_assembled(arguments.case, case, f"--{option}")
+    from nag.files.dh_case import is_table
+
+    known = case.assembly if model is None and is_table(case) else model
+    for option, value in (("coordinates", None), ("modes", "reference")):
+        given = getattr(arguments, option) != value
+        if given and model is None and (known is None or option == "modes"):
+            raise only_assembled(arguments.case, case, f"--{option}")
+    if known is None:
         return None
     others = {
         "--expand": arguments.expand,
@@ -162,11 +166,11 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
         raise UsageError(f"{option}: is not for --modes all")
     if arguments.coordinates == "euler" and others["--method sampling"]:
         raise UsageError("--coordinates euler: --method sampling finds no other; use --formulation")
-    if arguments.coordinates != "joint" or model.formulation != "E":
+    if arguments.coordinates != "joint" or known.formulation != "E":
         return model
     if arguments.formulation is not None:
         raise UsageError(
-            f"--coordinates joint: formulation {model.formulation} has none; use --formulation H"
+            f"--coordinates joint: formulation {known.formulation} has none; use --formulation H"
         )
     arguments.formulation = "H"
     return read_problem(arguments)[1]
@@ -174,24 +178,31 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
 
 def _decomposed(
     arguments: argparse.Namespace, case: Case, model: Model | None, progress: Progress
-) -> tuple[Model | None, Decomposition]:
-    """The components, and the model in whose coordinates they are."""
-    from nag.decomposition import by_sampling, decompose
-    from nag.files.problem import symmetries_of, system_of
+) -> tuple[Case, Model | None, Decomposition]:
+    """The components, and the case or the model in whose coordinates they are."""
+    from nag.decomposition import by_sampling
+    from nag.files.problem import decomposed, symmetries_of, system_of
 
     options = {
         "seed": arguments.seed,
         "threads": arguments.threads,
         "settings": arguments.settings,
         "progress": progress,
-        "symmetries": symmetries_of(case, model),
     }
     if arguments.method == "sampling":
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
-        return model, by_sampling(system_of(case, model), **options, **starts)
-    decomposition = decompose(system_of(case, model), **options)
-    if model is None or arguments.coordinates != "euler" or model.formulation == "E":
-        return model, decomposition
+        starts["symmetries"] = symmetries_of(case, model)
+        return case, model, by_sampling(system_of(case, model), **options, **starts)
+    decomposition = decomposed(case, model, **options)
+    known = model if case.assembly is None else case.assembly
+    if arguments.coordinates != "euler" or known is None or known.formulation == "E":
+        return case, model, decomposition
+    if model is None:
+        from nag.files.dh_case import in_formulation
+        from nag.mechanism.dh_euler import euler_closings
+
+        _, answer = euler_closings(case.assembly, decomposition, threads=arguments.threads)
+        return in_formulation(case, "E"), None, answer
     from nag.mechanism.coordinates import euler_decomposition
 
-    return euler_decomposition(model, decomposition, threads=arguments.threads)
+    return case, *euler_decomposition(model, decomposition, threads=arguments.threads)

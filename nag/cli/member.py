@@ -76,7 +76,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             answers = memberships(
                 found.decomposition,
                 at,
-                accuracy=1e-12 if exact else max(1e-12, 10 * residual),
+                accuracy=1e-15 if exact else max(1e-12, 10 * residual),
                 seed=options.seed,
                 threads=options.threads,
                 settings=options.settings,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
@@ -67,8 +69,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     case, made = _mechanism(options)
     variables = _variables(case, made)
     at = None if options.at is None else point_at(options.at, variables)
-    if options.check and (options.at is not None or made is None):
-        raise UsageError("--check: is for reference configurations that have two formulations")
+    if options.check and not _has_another(case, made, at):
+        raise UsageError(
+            "--check: is for reference configurations that have two formulations, and for "
+            "closings of a table in half-angles, given by --at"
+        )
     from nag.cli.progress import compilation_notice
     from nag.mechanism.mobility_report import MobilityStatus
     from nag.report.table import labelled, printable
@@ -80,7 +85,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         complete &= not any(curve.note for curve in report.curves)
         compared: dict[str, Any] | None = None
         if options.check:
-            text, agree, compared = _compared(options, case, report)
+            text, agree, compared = _compared(options, case, report, at)
             rows.append(("check", text))
             complete &= agree
     if options.json is not None:
@@ -103,8 +108,13 @@ def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
         if case.assembly is None:
             raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
         if options.formulation is not None:
-            raise UsageError(f"{options.case}: its parts are not assembled: no --formulation")
+            case, _ = read_problem(options)
         if options.at is None and case.assembly.reference is None:
+            from nag.mechanism.real_assemblies import obstacle
+
+            reason = obstacle(case.assembly)
+            if reason:
+                raise UsageError(f"{options.case}: its parts have no real assembly: {reason}")
             raise UsageError(f"{options.case}: its parts are not assembled: give --at as well")
         return case, None
     from nag.mechanism.loops import loop_structure
@@ -114,6 +124,13 @@ def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
             raise UsageError(f"--at: {options.case} has no loop, so that it has no equations")
         return case, None
     return read_problem(options)
+
+
+def _has_another(case: Case, made: Model | None, at: tuple[Number, ...] | None) -> bool:
+    """Whether the configuration is known in another formulation as well."""
+    from nag.mechanism.dh import DHModel
+
+    return at is None if made is not None else isinstance(case.assembly, DHModel)
 
 
 def _variables(case: Case, made: Model | None) -> tuple[str, ...]:
@@ -150,20 +167,31 @@ def _report(
         raise UsageError(f"--at: {reason}; it is no configuration of the mechanism") from None
 
 
-def _compared(
-    options: argparse.Namespace, case: Case, report: MobilityReport
-) -> tuple[str, bool, dict[str, Any] | None]:
-    """What another formulation says, whether it agrees, and that as a JSON object."""
+def _others(
+    options: argparse.Namespace, case: Case, report: MobilityReport, at: tuple[Number, ...] | None
+) -> Iterator[tuple[str, MobilityReport]]:
+    """What other formulations say, each with its name."""
     from nag.mechanism.formulation_names import FORMULATIONS
     from nag.mechanism.model import ModelError
 
+    if case.mechanism is None:
+        from nag.files.dh_case import in_formulation
+
+        other = in_formulation(case, "E")
+        there = other.assembly.of_half_angles(case.assembly, at)
+        yield "E", _report(options, other, "auto", tuple(there))
+        return
     for formulation in FORMULATIONS:
-        if report.formulation == f"formulation {formulation}":
-            continue
-        try:
-            other = _report(options, case, formulation, None)
-        except ModelError:
-            continue
+        if report.formulation != f"formulation {formulation}":
+            with suppress(ModelError):
+                yield formulation, _report(options, case, formulation, None)
+
+
+def _compared(
+    options: argparse.Namespace, case: Case, report: MobilityReport, at: tuple[Number, ...] | None
+) -> tuple[str, bool, dict[str, Any] | None]:
+    """What another formulation says, whether it agrees, and that as a JSON object."""
+    for formulation, other in _others(options, case, report, at):
         agree = other.same_motion(report)
         text = (
             f"formulation {formulation}, {other.equations} equations in {other.variables} "

@@ -85,8 +85,7 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
         return Given(expanded(export.decomposition), title, file, {})
 
     from nag.cli.progress import progress_line
-    from nag.decomposition import decompose
-    from nag.files.problem import points_of, symmetries_of, system_of
+    from nag.files.problem import decomposed, points_of, system_of
 
     case, model = read_problem(options)
     points = dict(points_of(case, model))
@@ -95,13 +94,13 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
     if check is not None:
         check(system_of(case, model).variables, points)
     with progress_line(sys.stderr, options.quiet) as progress:
-        decomposition = decompose(
-            system_of(case, model),
+        decomposition = decomposed(
+            case,
+            model,
             seed=options.seed,
             threads=options.threads,
             settings=options.settings,
             progress=progress,
-            symmetries=symmetries_of(case, model),
         )
     return Given(expanded(decomposition), case.title, Path(case.path).name, points)
 

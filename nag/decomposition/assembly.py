@@ -12,13 +12,48 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.decomposition.final_checks import checked_witness_set
-from nag.decomposition.orbits import Action, Orbit, Orbits, irreducible_orbits
+from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.splitting import Class, Progress
 from nag.decomposition.trace import digits_of_evidence
-from nag.witness.fibres import Tracker
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.membership import Membership, is_member
 from nag.witness.points import Points
 from nag.witness.witness import PathCounts, Status, WitnessSet
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What is known of sets before they are split.
+
+    Attributes:
+        actions: symmetries; one component of each orbit is worked out.
+        scheme: whether the sets are components of the scheme of the equations, so that they have
+            a multiplicity in it.
+        embedded: whether sets that deflation made reduced may lie on larger ones; those that do
+            are left out.
+    """
+
+    actions: Sequence[Action] = ()
+    scheme: bool = True
+    embedded: bool = False
+
+
+NOTHING = Known()
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A component as it was put together.
+
+    Attributes:
+        component: the component.
+        fibres: its points in the coordinates in which the equations are solved.
+        indices: of these among the points of the same dimension.
+    """
+
+    component: WitnessSet
+    fibres: list[Fibre]
+    indices: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,13 +61,17 @@ class Assembly:
     """Components, what it took to find them, and what is open.
 
     Attributes:
-        components: by falling dimension, then rising degree.
+        pieces: by falling dimension, then rising degree.
         notes: doubts that are no single component's.
     """
 
-    components: tuple[WitnessSet, ...]
+    pieces: tuple[Piece, ...]
     counts: PathCounts
     notes: tuple[str, ...]
+
+    @property
+    def components(self) -> tuple[WitnessSet, ...]:
+        return tuple(piece.component for piece in self.pieces)
 
     @property
     def complete(self) -> bool:
@@ -46,44 +85,54 @@ def assembled(
     reduction: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
-    *,
-    actions: Sequence[Action] = (),
-    one: bool = False,
-    scheme: bool = True,
-    progress: Progress | None = None,
+    known: Known = NOTHING,
 ) -> Assembly:
-    """The irreducible components of sets that are given by their points.
-
-    Args:
-        points: by dimension.
-        actions: symmetries; one component of each orbit is worked out.
-        one: whether all points are known to be those of one component.
-        scheme: whether the sets are components of the scheme of the equations, so that they have
-            a multiplicity in it.
-    """
+    """The irreducible components of sets that are given by their points, by dimension."""
     evidence = digits_of_evidence(reduction.system.polynomials)
-    components: list[WitnessSet] = []
+    pieces: list[Piece] = []
     counts, notes = PathCounts(), []
     for d in sorted(points, reverse=True):
         if not len(points[d]):
             continue
-        if progress is not None:
-            progress("splitting", len(components), 0)
-        if one:
-            # What is proved exactly needs no loops and no trace.
-            whole = Orbit(Class(np.arange(len(points[d]))))
-            found = Orbits(points[d], (whole,), PathCounts())
-        else:
-            found = irreducible_orbits(points[d], actions, evidence, rng, tracker)
+        tracker.tell("splitting", len(pieces), 0)
+        found = irreducible_orbits(points[d], known.actions, evidence, rng, tracker)
         counts += found.counts
         notes += [f"dimension {d}: {note}" for note in found.notes]
-        sets = []
+        here = []
         for orbit in found.orbits:
+            own = orbit.representative
+            fibres, _ = found.points.fibres(own.indices)
+            if known.embedded:
+                inside, spent = _on_larger_set(fibres[0], pieces, points, rng, tracker)
+                counts += spent
+                if inside:
+                    continue
             component, spent = checked_witness_set(
-                orbit.representative, found.points, reduction, rng, tracker, scheme
+                own, found.points, reduction, rng, tracker, known.scheme
             )
             counts += spent
             size = 1 + len(orbit.carriers)
-            sets.append(replace(component, orbit=size, images=orbit.carriers))
-        components += sorted(sets, key=lambda c: c.degree)
-    return Assembly(tuple(components), counts, tuple(notes))
+            component = replace(component, orbit=size, images=orbit.carriers)
+            here.append(Piece(component, fibres, own.indices))
+        pieces += sorted(here, key=lambda piece: piece.component.degree)
+    return Assembly(tuple(pieces), counts, tuple(notes))
+
+
+def _on_larger_set(
+    fibre: Fibre,
+    pieces: Sequence[Piece],
+    points: Mapping[int, Points],
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> tuple[bool, PathCounts]:
+    """Whether a set that deflation was needed for lies on one of higher dimension."""
+    counts = PathCounts()
+    if not fibre.cut.deflated:
+        return False, counts
+    for d in sorted({piece.component.dimension for piece in pieces}):
+        higher = [f for piece in pieces for f in piece.fibres if f.dimension == d]
+        answer, spent = is_member(fibre.x[0], 1e-12, higher, points[d].rows, rng, tracker)
+        counts += spent
+        if answer is Membership.MEMBER:
+            return True, counts
+    return False, counts

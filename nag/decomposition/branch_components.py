@@ -13,7 +13,11 @@ from nag.algebra.branches import branches
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
-from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
+from nag.algebra.generic_multiplicity import (
+    generic_multiplicity,
+    independent_gradients,
+    is_own_ring,
+)
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
@@ -22,8 +26,9 @@ from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.witness.confirm import vanishing
-from nag.witness.cutting import ON, numerical_corank
-from nag.witness.fibres import Tracker
+from nag.witness.cutting import ON, Cut, numerical_corank
+from nag.witness.error_radii import framed, sharpened
+from nag.witness.fibres import Fibre, Tracker
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, component_fibres, is_member
 from nag.witness.moving import witness_at
@@ -185,7 +190,8 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
             multiplicity=zero.multiplicity,
             status=Status.IRREDUCIBLE,
             residual=float(evaluator.residuals(x[None]).max(initial=0.0)),
-            accuracy=float(np.finfo(float).eps),
+            radii=np.finfo(float).eps * np.abs(x)[None],
+            digits=[zero.digits],
             corank=_corank(evaluator, x),
             multidegree=np.array(1) if system.groups else None,
         )
@@ -198,7 +204,9 @@ def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
     elimination = eliminate_linear(system, graphs=False)
     frame, d = Frame.of(elimination), elimination.system.n
     rows = random_rows(rng, d, d)
-    x = frame.points(np.linalg.solve(rows[:, 1:], -rows[:, 0])[None])
+    point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
+    sharp = sharpened(Fibre(Cut(d, 0, ()), d, point), rows)
+    x = frame.points(sharp.fibre.x)
     evaluator = Evaluator.of(system.polynomials, system.n)
     witness = WitnessSet(
         slice=frame.slice(rows),
@@ -206,7 +214,8 @@ def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
         multiplicity=1,
         status=Status.IRREDUCIBLE,
         residual=float(evaluator.residuals(x).max(initial=0.0)),
-        accuracy=float(np.finfo(float).eps),
+        radii=framed(frame, sharp.fibre.x, sharp.radii),
+        digits=sharp.digits,
         corank=d,
     )
     return _Part(system, (_Component(witness, system),), None)
@@ -320,6 +329,11 @@ def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
     witness = component.witness
     n = witness.points.shape[1]
     x = witness.points[np.linalg.norm(witness.points, axis=1).argmin()]
+
+    simple = component.zero is None and witness.multiplicity == 1
+    regular = simple and witness.corank == witness.dimension
+    if regular and is_own_ring(equations, component.system.polynomials, component.vanishes):
+        return 1
 
     def independent(polynomials: Sequence[Polynomial]) -> bool:
         if component.zero is not None and all(f.exact for f in polynomials):

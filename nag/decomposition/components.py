@@ -7,25 +7,21 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.algebra.absolute_factors import is_absolutely_irreducible
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import assembled
+from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.independent_parts import decompose_parts
-from nag.decomposition.isolated import contains, is_finite, solved_at_once
+from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once
+from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import Progress, intersection_order, witness_superset
-from nag.witness.fibres import Tracker
+from nag.decomposition.superset import Ambient, intersection_order, witness_superset
+from nag.witness.fibres import Progress, Tracker
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
-from nag.witness.witness import Decomposition, Status
-
-# An answer that is left open is tried again with other random numbers, if that is not too long.
-ATTEMPTS = 3
-MOST_PATHS = 20_000
+from nag.witness.witness import Decomposition
 
 
 def decompose(
@@ -42,11 +38,11 @@ def decompose(
     Equations that share no variables are decomposed apart, and their components multiplied. Where
     equations factor over the rationals, the parts that the system falls into are decomposed
     apart; zeros of polynomials in one variable, and of two equations in two, are isolated exactly
-    where they are few. Otherwise linear equations are solved exactly first, and then equations are
-    intersected one by one. Where doubts are left and only points were found, the equations are
-    solved all at once; else slices and constants are drawn anew, and the least doubtful answer is
-    given. The same seed gives the same answer, byte for byte, whatever the number
-    of threads.
+    where they are few. Otherwise linear equations are solved exactly first. One equation that is
+    left is factored over the complex numbers, exactly and without paths; several are intersected
+    one by one. Where doubts are left and only points were found, the equations are solved all at
+    once. Nothing is tried again: what is left open is said to be. The same seed gives the same
+    answer, byte for byte, whatever the number of threads.
 
     Args:
         system: the equations; components on which a polynomial of ``system.nonzero`` vanishes
@@ -64,10 +60,11 @@ def decompose(
     """
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
+    tracker = Tracker(settings, threads, progress)
 
     def whole(part: PolynomialSystem, kept: Sequence[SignedPermutation]) -> Decomposition:
         # A branch is not the scheme that was given; its multiplicities are of no interest.
-        return _decompose_whole(part, seed, threads, settings, progress, kept, part is system)
+        return _decompose_whole(part, seed, tracker, kept, part is system)
 
     def undivided(part: PolynomialSystem, kept: Sequence[SignedPermutation]) -> Decomposition:
         apart = decompose_apart(part, whole, kept, seed, threads, settings)
@@ -80,71 +77,53 @@ def decompose(
 def _decompose_whole(
     system: PolynomialSystem,
     seed: int,
-    threads: int,
-    settings: str,
-    progress: Progress | None,
+    tracker: Tracker,
     symmetries: Sequence[SignedPermutation],
     scheme: bool,
 ) -> Decomposition:
-    """The components of a system as it is, by attempts with different random numbers."""
-    tracker = Tracker(settings, threads)
+    """The components of a system as it is."""
     reduction = Reduction.of(system, scaled=True)
-    rng = np.random.default_rng([seed, ATTEMPTS])
+    rng = np.random.default_rng([seed, 3])
+    moving = any(not g.is_identity for g in symmetries)
+    exact = decompose_one_equation(reduction, rng, tracker, scheme, one=moving)
+    if exact is not None:
+        return replace(exact, seed=seed)
     if is_finite(reduction.reduced, rng, tracker):
         points = solved_at_once(system, rng, tracker, symmetries)
         if points is not None:
-            return replace(points, seed=seed, settings=settings)
-    answers: list[Decomposition] = []
-    tracked = 0
-    for attempt in range(ATTEMPTS):
-        rng = np.random.default_rng([seed, attempt] if attempt else seed)
-        answer = _decompose_once(reduction, rng, tracker, progress, symmetries, scheme)
-        tracked += answer.paths.tracked
-        answers.append(answer)
-        if answer.complete or tracked > MOST_PATHS:
-            break
-        if not attempt and answer.dimension <= 0:
-            points = solved_at_once(system, rng, tracker, symmetries)
-            if points is not None and contains(points, answer):
-                tracked += points.paths.tracked
-                answers.append(points)
-                break
-    best = min(answers, key=lambda a: (not a.complete, _undecided(a), len(a.notes)))
-    paths = replace(best.paths, tracked=tracked)
-    return replace(best, paths=paths, seed=seed, settings=settings)
+            return replace(points, seed=seed, settings=tracker.settings)
+
+    answer = _one_by_one(reduction, np.random.default_rng(seed), tracker, symmetries, scheme)
+    if not answer.complete and answer.dimension <= 0:
+        points = solved_at_once(system, rng, tracker, symmetries)
+        if points is not None and contains(points, answer):
+            tracked = answer.paths.tracked + points.paths.tracked
+            answer = replace(points, paths=replace(points.paths, tracked=tracked))
+    return counted(replace(answer, seed=seed, settings=tracker.settings), scheme)
 
 
-def _undecided(answer: Decomposition) -> int:
-    return sum(c.status is Status.UNDECIDED for c in answer.components)
-
-
-def _decompose_once(
+def _one_by_one(
     reduction: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
-    progress: Progress | None,
     symmetries: Sequence[SignedPermutation],
     scheme: bool,
 ) -> Decomposition:
-    """One attempt."""
+    """The components by intersecting with one equation after the other."""
     reduced = reduction.reduced
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
     flag = random_rows(rng, reduced.n, reduced.n, NEARER)
-    superset = witness_superset(equations, reduced.n, reduced.nonzero, flag, rng, tracker, progress)
+    superset = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, tracker)
     notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-    found = assembled(
-        {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()},
-        reduction,
-        rng,
-        tracker,
+    known = Known(
         actions=[Action.of(g, reduction.frame) for g in symmetries if not g.is_identity],
-        one=len(equations) == 1 and is_absolutely_irreducible(equations[0], rng),
         scheme=scheme,
-        progress=progress,
     )
+    points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
+    found = assembled(points, reduction, rng, tracker, known)
     return Decomposition(
         system=reduction.system,
         components=found.components,

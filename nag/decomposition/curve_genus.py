@@ -22,14 +22,16 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_points import BranchPointError, Sheets, branch_points
 from nag.decomposition.factor import IntersectionError
+from nag.decomposition.monodromy import located
 from nag.decomposition.rank_drop import rank_drop
+from nag.numerics.coincidence import clusters
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import WitnessSet
 
-# Values of the projection nearer to each other than this, relative to their size, are one.
-SAME = 1e-7
+# Errors of the values at cusps, relative to the largest.
+ACCURACY = 1e-9
 # Corners of a circle, and its radius beside the distance of the next branch point.
 CORNERS, NEAR = 8, 0.4
 # Distance of the base point, relative to that of the branch points.
@@ -83,9 +85,8 @@ def genus(
     if component.dimension != 1:
         raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
     reason = ""
-    for attempt in range(ATTEMPTS):
+    for attempt, tracker in enumerate(Tracker(settings, threads).attempts(ATTEMPTS)):
         rng = np.random.default_rng([seed, 9, attempt])
-        tracker = Tracker("careful" if attempt else settings, threads)
         try:
             sheets = _sheets(system, component, rng, tracker)
             values = branch_points(sheets, rng, tracker)
@@ -116,12 +117,10 @@ def _sheets(
 
 
 def _distinct(values: Sequence[complex]) -> list[complex]:
-    scale = 1 + max(map(abs, values), default=0.0)
-    kept: list[complex] = []
-    for v in values:
-        if all(abs(v - w) > SAME * scale for w in kept):
-            kept.append(v)
-    return kept
+    size = 1 + max(map(abs, values), default=0.0)
+    points = np.array(values, dtype=complex)[:, None] / size
+    groups = clusters(points, np.full(len(points), ACCURACY))
+    return [values[int(group[0])] for group in groups]
 
 
 def _riemann_hurwitz(permutations: list[np.ndarray], all_: np.ndarray, sheets: int) -> Genus:
@@ -183,7 +182,7 @@ class _Cover:
 
     def _carried(self, corners: Sequence[complex]) -> np.ndarray:
         """Where each sheet over the base point is carried along a closed polygon from there."""
-        images: list[np.ndarray] = []
+        ends_of: list[np.ndarray] = []
         rows, base = self.sheets.rows, self.sheets.base
         for fibre in self.sheets.fibres:
             points, last = fibre.points, base
@@ -193,18 +192,13 @@ class _Cover:
                 if not ends.regular.all():
                     raise GenusError("paths round a branch point failed")
                 points, last = ends.points, t
-            images.append(points[:, : fibre.cut.n])
+            ends_of.append(points[:, : fibre.cut.n])
         start = np.vstack([fibre.x for fibre in self.sheets.fibres])
-        end = np.vstack(images)
-        distance = np.linalg.norm(end[:, None] - start[None], axis=2)
-        nearest = distance.argmin(axis=1)
-        scale = 1 + np.linalg.norm(start, axis=1).max()
-        if (
-            sorted(nearest.tolist()) != list(range(len(start)))
-            or distance.min(axis=1).max() > SAME * scale
-        ):
+        end = np.vstack(ends_of)
+        images = located(end, start)
+        if images is None or sorted(images.tolist()) != list(range(len(start))):
             raise GenusError("sheets were mixed up on the way")
-        return nearest
+        return images
 
     def permutations(self) -> list[np.ndarray]:
         """The permutation of the sheets round each value, in the order of `values`."""

@@ -10,6 +10,7 @@ where half as many variables remain to be deflated.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -19,11 +20,11 @@ from nag.algebra.polynomial import Polynomial
 from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import Progress, forbidden
-from nag.numerics.coincidence import clusters
+from nag.decomposition.superset import forbidden
+from nag.numerics.coincidence import clusters, coincident, compared
 from nag.witness.cutting import NEAR, Cut, regular_on, sharpen
-from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
-from nag.witness.membership import HIT, MISS, Membership, is_member
+from nag.witness.fibres import Fibre, Moved, Tracker, admit
+from nag.witness.membership import Membership, is_member
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
@@ -122,7 +123,6 @@ def meeting(
     common: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
-    progress: Progress | None = None,
 ) -> Meeting:
     """The points of the intersection of two components on generic slices of all dimensions.
 
@@ -134,42 +134,17 @@ def meeting(
     equations = product.differences(rng)
     fibres, rows = product.fibres(rng)
     fibres, result.counts = on_flag(fibres, rows, flag, rng, tracker)
+    diagonal = _Diagonal(product, common, flag, result, rng, tracker)
     d = len(rows)
     if d == 0:
-        accuracy = max(first.accuracy, second.accuracy)
-        z = np.vstack([fibre.x for fibre in fibres])
-        near = product.gaps(z) < max(HIT, 1e2 * accuracy)
-        errors = np.full(int(near.sum()), accuracy)
-        _take(z[near], errors, 0, flag, product, common, result, rng, tracker)
+        diagonal.take_those_on_it(fibres)
         return result
     for k, f in enumerate(equations):
         if not fibres or d == 0:
             break
-        if progress is not None:
-            progress("intersecting", k, len(equations))
-        gamma, d = complex(unit_complex(rng)), d - 1
-        off, on, errors = [], [np.zeros((0, product.n), dtype=complex)], [np.zeros(0)]
-        for fibre in fibres:
-            ends = intersect(fibre, f, flag, gamma, tracker)
-            result.counts += ends.counts
-            gaps = np.full(len(ends.points), np.inf)
-            gaps[ends.finite] = product.gaps(ends.points[ends.finite])
-            here = ends.finite & (gaps < np.maximum(HIT, 1e2 * ends.accuracy))
-            away = ends.finite & ~here
-            unclear = int((gaps[away] < np.maximum(MISS, 1e4 * ends.accuracy[away])).sum())
-            on.append(ends.points[here, : product.n])
-            errors.append(ends.accuracy[here])
-            if d > 0 and away.any():
-                cut = fibre.cut.extended(f)
-                points, lost = _regular(cut, flag[:d], ends, away)
-                off.append(Fibre(cut, d, points))
-                unclear += lost
-            if unclear:
-                result.notes.append(
-                    f"{unclear} paths ended neither on the diagonal nor well off it"
-                )
-        _take(np.vstack(on), np.concatenate(errors), d, flag, product, common, result, rng, tracker)
-        fibres = off
+        tracker.tell("intersecting", k, len(equations))
+        d -= 1
+        fibres = diagonal.met(fibres, f, d)
     if result.counts.failed:
         result.notes.append(f"{result.counts.failed} paths failed; points may be missing")
     return result
@@ -185,7 +160,7 @@ def _regular(cut: Cut, rows: np.ndarray, ends: Moved, chosen: np.ndarray) -> tup
         z = ends.points[i]
         sharpened, scale = sharpen(cut.evaluator, rows, z), 1 + np.linalg.norm(z)
         near = np.linalg.norm(sharpened.z - z) < max(1e3 * ends.accuracy[i], NEAR) * scale
-        alone = (np.linalg.norm(np.vstack(points) - sharpened.z, axis=1) > SAME * scale).all()
+        alone = not coincident(np.vstack(points), sharpened.z, sharpened.step).any()
         if sharpened.converged and near and alone and regular_on(cut.evaluator, rows, sharpened):
             points.append(sharpened.z[None])
         else:
@@ -193,48 +168,95 @@ def _regular(cut: Cut, rows: np.ndarray, ends: Moved, chosen: np.ndarray) -> tup
     return np.vstack(points), lost
 
 
-def _take(
-    z: np.ndarray,
-    accuracy: np.ndarray,
-    d: int,
-    flag: np.ndarray,
-    product: _Product,
-    common: Reduction,
-    result: Meeting,
-    rng: np.random.Generator,
-    tracker: Tracker,
-) -> None:
-    """Add ends of dimension ``d`` on the diagonal to a meeting, unless larger sets hold them."""
-    x = product.first.reduction.frame.points(z[:, : product.first.n])[:, common.kept]
-    allowed = ~forbidden(common.nonzero, x, accuracy)
-    x, accuracy = x[allowed], accuracy[allowed]
-    if not len(x):
-        return
-    equations = common.equations
-    rows = result.rows[d] = product.common_rows(flag[:d], common)
-    fibres = result.fibres[d] = []
-    lost = 0
-    for cluster in clusters(x, accuracy, SAME):
-        best, error = x[cluster[0]], float(accuracy[cluster[0]])
-        if admit(best, error, fibres, equations, rows, rng, deflate=False):
-            for i in cluster[1:]:
-                admit(x[i], float(accuracy[i]), fibres, equations, rows, rng, deflate=False)
-            continue
-        answer = Membership.FOREIGN
+@dataclass(frozen=True, eq=False)
+class _Diagonal:
+    """The diagonal of a product, the flag of slices about it, and what was found on it so far."""
+
+    product: _Product
+    common: Reduction
+    flag: np.ndarray
+    result: Meeting
+    rng: np.random.Generator
+    tracker: Tracker
+
+    def met(self, fibres: Sequence[Fibre], f: Polynomial, d: int) -> list[Fibre]:
+        """Points of sets that met ``f``, in dimension ``d``: those off the diagonal.
+
+        Those on it are added to the result.
+        """
+        product, flag, result = self.product, self.flag, self.result
+        gamma = complex(unit_complex(self.rng))
+        off, on, errors = [], [np.zeros((0, product.n), dtype=complex)], [np.zeros(0)]
+        for fibre in fibres:
+            ends = intersect(fibre, f, flag, gamma, self.tracker)
+            result.counts += ends.counts
+            gaps = np.full(len(ends.points), np.inf)
+            gaps[ends.finite] = product.gaps(ends.points[ends.finite])
+            on_it, doubtful = compared(gaps, ends.accuracy)
+            here, away = ends.finite & on_it, ends.finite & ~on_it
+            unclear = int(np.sum(away & doubtful))
+            on.append(ends.points[here, : product.n])
+            errors.append(ends.accuracy[here])
+            if d > 0 and away.any():
+                cut = fibre.cut.extended(f)
+                points, lost = _regular(cut, flag[:d], ends, away)
+                off.append(Fibre(cut, d, points))
+                unclear += lost
+            if unclear:
+                result.notes.append(
+                    f"{unclear} paths ended neither on the diagonal nor well off it"
+                )
+        self.take(np.vstack(on), np.concatenate(errors), d)
+        return off
+
+    def take_those_on_it(self, fibres: Sequence[Fibre]) -> None:
+        """Add the pairs of isolated points that are equal."""
+        accuracy = max(self.product.first.accuracy, self.product.second.accuracy)
+        z = np.vstack([fibre.x for fibre in fibres])
+        near, _ = compared(self.product.gaps(z), accuracy)
+        self.take(z[near], np.full(int(near.sum()), accuracy), 0)
+
+    def take(self, z: np.ndarray, accuracy: np.ndarray, d: int) -> None:
+        """Add ends of dimension ``d`` on the diagonal, unless larger sets hold them."""
+        common, result = self.common, self.result
+        first = self.product.first
+        x = first.reduction.frame.points(z[:, : first.n])[:, common.kept]
+        allowed = ~forbidden(common.nonzero, x, accuracy)
+        x, accuracy = x[allowed], accuracy[allowed]
+        if not len(x):
+            return
+        rows = result.rows[d] = self.product.common_rows(self.flag[:d], common)
+        fibres = result.fibres[d] = []
+        place = common.equations, rows, self.rng
+        lost = 0
+        for cluster in clusters(x, accuracy):
+            best, error = x[cluster[0]], float(accuracy[cluster[0]])
+            if admit(best, error, fibres, *place, deflate=False):
+                for i in cluster[1:]:
+                    admit(x[i], float(accuracy[i]), fibres, *place, deflate=False)
+                continue
+            answer = self.on_larger_set(best, error, d)
+            if answer is Membership.UNDECIDED:
+                result.notes.append(f"a point of dimension {d} could not be told from a larger set")
+            elif answer is Membership.FOREIGN and not admit(
+                best, error, fibres, *place, deflate=True
+            ):
+                lost += 1
+                if d == 0:
+                    result.bare.append((best, error))
+        if lost and d > 0:
+            result.notes.append(
+                f"{lost} singular points of dimension {d} could not be made regular"
+            )
+
+    def on_larger_set(self, x: np.ndarray, accuracy: float, d: int) -> Membership:
+        """Whether a point lies on a set of the intersection of dimension above ``d``."""
+        result = self.result
         for higher in sorted((e for e in result.fibres if e > d), reverse=True):
             answer, spent = is_member(
-                best, error, result.fibres[higher], result.rows[higher], rng, tracker
+                x, accuracy, result.fibres[higher], result.rows[higher], self.rng, self.tracker
             )
             result.counts += spent
             if answer is not Membership.FOREIGN:
-                break
-        if answer is Membership.UNDECIDED:
-            result.notes.append(f"a point of dimension {d} could not be told from a larger set")
-        elif answer is Membership.FOREIGN and not admit(
-            best, error, fibres, equations, rows, rng, deflate=True
-        ):
-            lost += 1
-            if d == 0:
-                result.bare.append((best, error))
-    if lost and d > 0:
-        result.notes.append(f"{lost} singular points of dimension {d} could not be made regular")
+                return answer
+        return Membership.FOREIGN

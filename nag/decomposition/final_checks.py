@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations_with_replacement, permutations
+from itertools import combinations_with_replacement, permutations, repeat
 
 import numpy as np
 
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.witness.confirm import confirmed
-from nag.witness.cutting import ON, Equations, numerical_corank, sharpen
+from nag.witness.cutting import ON, Equations, numerical_corank
+from nag.witness.error_radii import Sharp, framed, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
 from nag.witness.points import Points
 from nag.witness.slices import complex_normal, unit_complex
-from nag.witness.witness import PathCounts, Status, WitnessSet
+from nag.witness.witness import PathCounts, Slice, Status, WitnessSet
 
 # Multidegrees are counted only where so many choices of groups are enough.
 MOST_MULTIDEGREES = 100
@@ -58,15 +59,19 @@ def _multidegree(
 
 
 def _coranks(
-    equations: Equations, rows: np.ndarray, x: np.ndarray, regular: bool, rng: np.random.Generator
+    equations: Equations, rows: np.ndarray, fibre: Fibre, rng: np.random.Generator
 ) -> list[int]:
-    """Coranks of the Jacobian at points on the slice ``rows``, shape ``(P, n)``.
+    """Coranks of the Jacobian at the points of a fibre on the slice ``rows``.
 
-    Where the slice cuts the component in ``regular`` points, and doubles say otherwise, as they do
-    where coordinates differ much in size, digits decide.
+    Where the equations cut the component in regular points, and doubles say otherwise, as they do
+    where coordinates differ much in size, digits decide; of points that are close to others, they
+    have.
     """
-    d, result = len(rows), []
-    for point in x:
+    d, result, regular = len(rows), [], not fibre.cut.deflated
+    for i, point in enumerate(fibre.x):
+        if regular and i in fibre.fine:
+            result.append(d)
+            continue
         s = np.linalg.svd(equations.evaluator.balanced_jacobian(point), compute_uv=False)
         corank = numerical_corank(s, len(point), 1e-9)
         if regular and corank != d and multiplicity(equations.polynomials, rows, point, rng) == 1:
@@ -75,17 +80,29 @@ def _coranks(
     return result
 
 
-def _sharpened(fibres: Sequence[Fibre], rows: np.ndarray) -> tuple[list[Fibre], float]:
-    """Points to rounding, in an order that does not depend on how they were found."""
-    result, largest = [], float(np.finfo(float).eps)
-    for fibre in fibres:
-        ends = [sharpen(fibre.cut.evaluator, rows, z) for z in fibre.points]
-        largest = max([largest, *(s.step if np.isfinite(s.step) else np.inf for s in ends)])
-        points = np.array([s.z for s in ends])
-        if points.shape[1]:
-            points = points[np.lexsort((points.imag[:, 0], points.real[:, 0]))]
-        result.append(Fibre(fibre.cut, fibre.dimension, points))
-    return result, largest
+def _in_original(
+    chosen: Sequence[Sharp], rows: np.ndarray, reduction: Reduction
+) -> tuple[list[Sharp], Slice]:
+    """Points in the original coordinates, and their slice.
+
+    A slice of scaled coordinates is rounded on its way to the original ones, and the points on it
+    are found anew; where points are close to each other, it is taken over exactly.
+    """
+    frame, close = reduction.frame, any(each.fibre.fine for each in chosen)
+    cut = frame.slice(rows, orthonormal=not close)
+    lifted = [_lifted(each.fibre, reduction) for each in chosen]
+    if (frame.scales != 1).any():
+        return [sharpened(fibre, cut.rows) for fibre in lifted], cut
+    radii = [framed(frame, each.fibre.x, each.radii) for each in chosen]
+    whole = zip(lifted, radii, chosen, strict=True)
+    return [Sharp(fibre, r, each.digits) for fibre, r, each in whole], cut
+
+
+def _lifted(fibre: Fibre, reduction: Reduction) -> Fibre:
+    """A fibre in the original coordinates."""
+    points = np.hstack([reduction.frame.points(fibre.x), fibre.points[:, fibre.cut.n :]])
+    fine = {i: reduction.lifted_fine(each) for i, each in fibre.fine.items()}
+    return Fibre(reduction.lifted(fibre.cut), fibre.dimension, points, fine)
 
 
 def checked_witness_set(
@@ -103,17 +120,21 @@ def checked_witness_set(
     """
     rows, d, counts = points.rows, points.dimension, PathCounts()
     reduced, frame, groups = reduction.equations, reduction.frame, reduction.system.groups
-    chosen, _ = points.fibres(found.indices)
-    first = chosen[0].points[0]
-    chosen, accuracy = _sharpened(chosen, rows)
+    chosen, order = points.fibres(found.indices)
+    first = chosen[0].points[0], chosen[0].fine.get(0)
+    sizes = np.cumsum([len(fibre) for fibre in chosen])[:-1]
+    exact = [points.exact.only(own) for own in np.split(order, sizes)]
+    sharp = [in_order(sharpened(*each)) for each in zip(chosen, repeat(rows), exact)]
+    chosen = [each.fibre for each in sharp]
     y = np.vstack([fibre.x for fibre in chosen])
-    x, accuracy = frame.points(y), frame.error(y, accuracy)
+    lifted, cut = _in_original(sharp, rows, reduction)
+    x = np.vstack([each.fibre.x for each in lifted])
     residual = float(reduction.original.residuals(x).max(initial=0.0))
-    coranks = _coranks(reduced, rows, y, not chosen[0].cut.levels, rng)
+    coranks = [k for fibre in chosen for k in _coranks(reduced, rows, fibre, rng)]
     reasons = [found.reason] if found.reason else []
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
-    if not confirmed(chosen[0].cut, reduced.polynomials, rows, first):
+    if not confirmed(chosen[0].cut, reduced.polynomials, rows, *first):
         reasons.append("a point does not satisfy all equations in 100 digits: zeros too close")
     if len(set(coranks)) > 1:
         reasons.append("the corank of the Jacobian differs between its points")
@@ -121,7 +142,7 @@ def checked_witness_set(
     if scheme and not multiple:
         nearest = y[np.linalg.norm(y, axis=1).argmin()]
         multiple = multiplicity(reduced.polynomials, rows, nearest, rng)
-    if scheme and coranks[0] != d and not chosen[0].cut.levels:
+    if scheme and coranks[0] != d and not chosen[0].cut.deflated:
         reasons.append("its points are regular and singular at once: zeros too close")
     if scheme and multiple == 0:
         reasons.append("its multiplicity was not found")
@@ -130,23 +151,17 @@ def checked_witness_set(
         multidegree, counts = _multidegree(chosen, rows, groups, frame, rng, tracker)
     return (
         WitnessSet(
-            slice=frame.slice(rows),
+            slice=cut,
             points=x,
             multiplicity=multiple,
             status=Status.UNDECIDED if reasons else Status.IRREDUCIBLE,
             residual=residual,
-            accuracy=accuracy,
+            radii=np.vstack([each.radii for each in lifted]),
+            digits=np.concatenate([each.digits for each in lifted]),
             corank=coranks[0],
             multidegree=multidegree,
             note="; ".join(reasons),
-            fibres=tuple(
-                Fibre(
-                    reduction.lifted(fibre.cut),
-                    d,
-                    np.hstack([frame.points(fibre.x), fibre.points[:, fibre.cut.n :]]),
-                )
-                for fibre in chosen
-            ),
+            fibres=tuple(each.fibre for each in lifted),
         ),
         counts,
     )

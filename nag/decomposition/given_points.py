@@ -13,17 +13,13 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.discovery import regular_on_flag
-from nag.decomposition.final_checks import checked_witness_set
+from nag.decomposition.assembly import assembled
+from nag.decomposition.common_slices import CommonSlices, Start
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.sign_orbits import keeps, sign_orbit
-from nag.decomposition.splitting import split
 from nag.decomposition.symmetric_images import in_orbits
-from nag.decomposition.trace import digits_of_evidence
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import polish
-from nag.witness.points import Points
-from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 # Relative error of a point that Newton's method could not sharpen.
@@ -57,27 +53,21 @@ def components_through_points(
     rng = np.random.default_rng([seed, 11])
     tracker = Tracker(settings, threads)
     reduction = Reduction.of(system)
-    pools, counts, notes = _on_common_slices(starts, reduction, rng, tracker)
+    slices, counts, notes = _on_common_slices(starts, reduction, rng, tracker)
+    found = assembled(slices.points, reduction, rng, tracker)
+    counts += found.counts
     components: list[WitnessSet] = []
-    evidence = digits_of_evidence(system.polynomials)
-    for d in sorted(pools, reverse=True):
-        answer = split(pools[d], (), evidence, rng, tracker)
-        counts += answer.counts
-        for each in answer.classes:
-            component, spent = checked_witness_set(each, answer.points, reduction, rng, tracker)
+    for piece in found.pieces:
+        component, d = piece.component, piece.component.dimension
+        if component.status is Status.IRREDUCIBLE and symmetries:
+            whole, spent = _with_orbit(
+                component, piece.fibres, slices.flag[:d], reduction, symmetries, rng, tracker
+            )
             counts += spent
-            if component.status is Status.IRREDUCIBLE and symmetries:
-                fibres, _ = answer.points.fibres(each.indices)
-                found, spent = _with_orbit(
-                    component, fibres, pools[d].rows, reduction, symmetries, rng, tracker
-                )
-                counts += spent
-                if found is None:
-                    notes.append(f"the orbit of a component of dimension {d} is not known")
-                component = component if found is None else found
-            components.append(component)
-    components.sort(key=lambda c: (-c.dimension, c.degree))
-    whole = all(c.status is Status.IRREDUCIBLE for c in components)
+            if whole is None:
+                notes.append(f"the orbit of a component of dimension {d} is not known")
+            component = component if whole is None else whole
+        components.append(component)
     return Decomposition(
         system=system,
         components=tuple(components),
@@ -85,8 +75,8 @@ def components_through_points(
         seed=seed,
         settings=settings,
         order=(),
-        complete=whole and not notes,
-        notes=tuple(notes),
+        complete=found.complete and not notes,
+        notes=(*notes, *found.notes),
     )
 
 
@@ -95,27 +85,22 @@ def _on_common_slices(
     reduction: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
-) -> tuple[dict[int, Points], PathCounts, list[str]]:
+) -> tuple[CommonSlices, PathCounts, list[str]]:
     """A point of each component on the common slice of its dimension, and what was not found."""
-    flag = random_rows(rng, reduction.n, reduction.n)
-    pools: dict[int, Points] = {}
+    slices = CommonSlices.random(reduction.equations, rng)
     counts, notes = PathCounts(), []
     for d, start in starts:
         x = np.asarray(start, dtype=complex)[reduction.kept]
         zero = polish(reduction.equations.evaluator, x)
         near, accuracy = (zero.x, 1e-12) if zero.converged else (x, ROUGH)
         simple = zero.converged and zero.corank == d
-        found, spent = regular_on_flag(
-            near, [d], accuracy, not simple, pools, reduction.equations, flag, rng, tracker
+        slices, place, spent = slices.with_start(
+            Start(near, accuracy, [d], not simple), rng, tracker
         )
         counts += spent
-        if found is None:
+        if place is None:
             notes.append(f"a point of dimension {d} led to no component")
-            continue
-        _, cut, z = found
-        known = pools.get(d, Points(flag[:d]))
-        pools[d] = known if known.place(z[: cut.n]) is not None else known.with_point(cut, z)
-    return pools, counts, notes
+    return slices, counts, notes
 
 
 def _with_orbit(

@@ -14,12 +14,23 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.tracking.compiled import compile_rows
+from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.track import track
+from nag.witness.close_points import with_roots
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, leading_power
-from nag.witness.fibres import Fibre, Moved, Tracker, carried, homogeneous, moved
+from nag.witness.fibres import (
+    Fibre,
+    Moved,
+    Tracker,
+    carried,
+    homogeneous,
+    joined,
+    moved,
+    moved_close,
+)
+from nag.witness.points import with_fine
 from nag.witness.slices import padded, random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
@@ -68,14 +79,12 @@ def intersect(
     fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker
 ) -> Moved:
     """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0."""
+    if fibre.fine:
+        return _intersect_close(fibre, f, flag, gamma, tracker)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     n, total = cut.n, cut.n + cut.aux
     f = f * (1 / leading_power(f))
-    u = Polynomial.variable(total + 1, total)
-    place = range(total)
-    rows = [g.with_variables(total + 1, place) for g in cut.polynomials]
-    rows.append(f.with_variables(total + 1, range(n)) - u**degree)
-    compiled = compile_rows(rows, n=total + 1)
+    compiled = _with_power(cut, f)
     columns = total + 2
     slices = padded(flag[:d], columns)
     a0, a1 = slices.copy(), np.zeros_like(slices)
@@ -96,13 +105,52 @@ def intersect(
     return moved(paths, keep=total)
 
 
+def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:
+    """The equations of a cut and ``f = u^m``, with u as the last variable."""
+    total = cut.n + cut.aux
+    u = Polynomial.variable(total + 1, total)
+    rows = [g.with_variables(total + 1, range(total)) for g in cut.polynomials]
+    rows.append(f.with_variables(total + 1, range(cut.n)) - u**f.degree)
+    return compile_rows(rows, n=total + 1)
+
+
+def _intersect_close(
+    fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker
+) -> Moved:
+    """`intersect` where some points are close to others: their paths are tracked in more digits.
+
+    The slices that stay turn with ``gamma`` as well, which leaves them as they are.
+    """
+    from nag.tracking.close_paths import moving_rows
+
+    cut, d, degree = fibre.cut, fibre.dimension, f.degree
+    total = cut.n + cut.aux
+    indices = np.array(sorted(fibre.fine))
+    plain = np.setdiff1d(np.arange(len(fibre)), indices)
+    rest = replace(fibre, points=fibre.points[plain], fine={})
+    f = f * (1 / leading_power(f))
+    source = padded(flag[:d], total + 2)
+    target = source.copy()
+    target[d - 1] = 0
+    target[d - 1, -1] = 1
+    starts = [start for i in indices for start in with_roots(fibre.fine[i], f)]
+    homotopy = moving_rows(_with_power(cut, f), source, target, gamma)
+    close = moved_close(homotopy, starts, cut.extended(f), flag[: d - 1], tracker, endgame=True)
+    places = {
+        k: (own[:, None] * degree + np.arange(degree)).ravel()
+        for k, own in enumerate((plain, indices))
+    }
+    return joined(places, (intersect(rest, f, flag, gamma, tracker), close))
+
+
 def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracker) -> Crossing:
     counts = PathCounts()
     kept: dict[int, list[Fibre]] = {}
     ends: dict[int, list[tuple[Cut, Moved]]] = {}
     for d in sorted(sections.fibres, reverse=True):
-        for fibre in sections.fibres[d]:
-            found = vanishing(fibre.cut, f, sections.flag[:d], fibre.points)
+        own = [fibre for fibre in sections.fibres[d] if len(fibre)]
+        for fibre in with_fine(own, sections.flag[:d]) if own else ():
+            found = vanishing(fibre.cut, f, sections.flag[:d], fibre.points, fibre.fine)
             # A point where that is left open is found out by the final checks.
             on = np.array([there is not False for there in found], dtype=bool)
             if on.any():

@@ -6,24 +6,37 @@ meet on the diagonal of their product. Neither needs the components to be differ
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import assembled
+from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.diagonal import meeting
 from nag.decomposition.factor import Factor, IntersectionError, on_flag
+from nag.decomposition.hypersurface import Sections
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import Progress, intersection_order, witness_superset
+from nag.decomposition.superset import (
+    Ambient,
+    Superset,
+    intersection_order,
+    witness_superset,
+)
 from nag.witness.cutting import NEARLY_SINGULAR, ON, Equations, numerical_corank
-from nag.witness.fibres import Fibre, Tracker, admit
+from nag.witness.fibres import Fibre, Progress, Tracker, admit
 from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
-from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
+from nag.witness.witness import (
+    DOUBLE,
+    Decomposition,
+    PathCounts,
+    Status,
+    WitnessSet,
+    even_radii,
+)
 
 __all__ = [
     "Intersection",
@@ -32,9 +45,6 @@ __all__ = [
     "intersect_equations",
     "intersect_pair",
 ]
-
-# An answer that is left open is tried again with other random numbers.
-ATTEMPTS = 3
 
 
 @dataclass(frozen=True)
@@ -72,7 +82,6 @@ def intersect_components(
     first: WitnessSet,
     second: WitnessSet,
     *,
-    other: PolynomialSystem | None = None,
     seed: int = 0,
     threads: int = 1,
     settings: str = "default",
@@ -82,30 +91,29 @@ def intersect_components(
 
     Args:
         system: the equations that ``first`` was found from.
-        other: those that ``second`` was found from, in the same variables; ``system`` by default.
+        second: one of the same system, or of one in the same variables that it knows.
 
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
     """
-    other = system if other is None else other
+    other = second.system or system
     _check_variables(system, other)
     system, other = component_system(system, first), component_system(other, second)
     factors = Factor.of(system, first), Factor.of(other, second)
-    tracker = Tracker(settings, threads)
+    tracker = Tracker(settings, threads, progress)
     common = Reduction.of(_union(system, other))
 
-    def attempt(rng: np.random.Generator) -> Intersection:
-        found = meeting(*factors, common, rng, tracker, progress)
-        points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
-        result = _intersection(common, points, found.counts, found.notes, rng, tracker, progress)
-        bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
-        return replace(
-            result,
-            components=(*result.components, *bare),
-            complete=result.complete and not any(c.note for c in bare),
-        )
-
-    return _least_doubtful(attempt, seed, 5)
+    rng = np.random.default_rng([seed, 5])
+    found = meeting(*factors, common, rng, tracker)
+    points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
+    result = _intersection(common, points, found.counts, found.notes, rng, tracker)
+    bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
+    return replace(
+        result,
+        components=(*result.components, *bare),
+        complete=result.complete and not any(c.note for c in bare),
+        seed=seed,
+    )
 
 
 def intersect_equations(
@@ -130,66 +138,57 @@ def intersect_equations(
     _check_variables(system, equations)
     system = component_system(system, component)
     factor = Factor.of(system, component)
+    tracker = Tracker(settings, threads, progress)
+    common = Reduction.of(_union(system, equations))
+
+    rng = np.random.default_rng([seed, 6])
+    superset = _met(factor, equations, rng, tracker)
+    notes = list(superset.notes)
+    if superset.counts.failed:
+        notes.append(f"{superset.counts.failed} paths failed; points may be missing")
+    points = {}
+    for d, found in superset.fibres.items():
+        if not found:
+            continue
+        points[d], lost = _in_common(found, superset.flag[:d], factor, common, rng)
+        if lost:
+            notes.append(f"{lost} singular points of dimension {d} could not be made regular")
+    answer = _intersection(common, points, superset.counts, notes, rng, tracker)
+    return replace(answer, seed=seed)
+
+
+def _met(
+    factor: Factor, equations: PolynomialSystem, rng: np.random.Generator, tracker: Tracker
+) -> Superset:
+    """Witness points of all dimensions where a component meets equations, in its coordinates."""
     further = [f.compose(factor.reduction.images) for f in equations.polynomials]
     further = [f for f in dict.fromkeys(further) if f]
     further = [further[i] for i in intersection_order(further)]
-    tracker = Tracker(settings, threads)
-    common = Reduction.of(_union(system, equations))
+    flag = random_rows(rng, factor.n, factor.n)
+    start, spent = on_flag(factor.fibres(rng), factor.rows, flag, rng, tracker)
     reduced = factor.reduction.reduced
-
-    def attempt(rng: np.random.Generator) -> Intersection:
-        flag = random_rows(rng, factor.n, factor.n)
-        start, counts = on_flag(factor.fibres(rng), factor.rows, flag, rng, tracker)
-        superset = witness_superset(
-            further,
-            factor.n,
-            reduced.nonzero,
-            flag,
-            rng,
-            tracker,
-            progress,
-            start=start,
-            known=reduced.polynomials,
-        )
-        counts += superset.counts
-        notes = list(superset.notes)
-        if superset.counts.failed:
-            notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-        points = {}
-        for d, found in superset.fibres.items():
-            if not found:
-                continue
-            cut = factor.reduction.frame.slice(superset.flag[:d])
-            rows = orthonormal_rows(common.frame.pulled_back(cut.A, cut.b))
-            x = factor.reduction.frame.points(np.vstack([fibre.x for fibre in found]))
-            x = x[:, common.kept]
-            fibres, lost = _with_cuts(x, common.equations, rows, rng)
-            points[d] = Points.of(fibres, rows)
-            if lost:
-                notes.append(f"{lost} singular points of dimension {d} could not be made regular")
-        return _intersection(common, points, counts, notes, rng, tracker, progress)
-
-    return _least_doubtful(attempt, seed, 6)
+    sections = Sections({factor.component.dimension: start}, flag)
+    ambient = Ambient(sections, reduced.polynomials, reduced.nonzero)
+    found = witness_superset(further, ambient, rng, tracker)
+    return replace(found, counts=spent + found.counts)
 
 
-def _least_doubtful(
-    attempt: Callable[[np.random.Generator], Intersection], seed: int, stream: int
-) -> Intersection:
-    """The first complete answer, slices and constants being drawn anew where doubts are left."""
-    answers: list[Intersection] = []
-    for k in range(ATTEMPTS):
-        rng = np.random.default_rng([seed, stream, k] if k else [seed, stream])
-        try:
-            answers.append(attempt(rng))
-        except IntersectionError:
-            if k + 1 == ATTEMPTS and not answers:
-                raise
-            continue
-        if answers[-1].complete:
-            break
-    best = min(answers, key=lambda a: (not a.complete, len(a.notes)))
-    tracked = sum(a.paths.tracked for a in answers)
-    return replace(best, paths=replace(best.paths, tracked=tracked), seed=seed)
+def _in_common(
+    found: Sequence[Fibre],
+    rows: np.ndarray,
+    factor: Factor,
+    common: Reduction,
+    rng: np.random.Generator,
+) -> tuple[Points, int]:
+    """Points on a slice, with cuts, in the coordinates of the intersection.
+
+    Also the number of points for which none was found.
+    """
+    cut = factor.reduction.frame.slice(rows)
+    rows = orthonormal_rows(common.frame.pulled_back(cut.A, cut.b))
+    x = factor.reduction.frame.points(np.vstack([fibre.x for fibre in found]))
+    fibres, lost = _with_cuts(x[:, common.kept], common.equations, rows, rng)
+    return Points.of(fibres, rows), lost
 
 
 def _check_variables(first: PolynomialSystem, second: PolynomialSystem) -> None:
@@ -215,10 +214,9 @@ def _intersection(
     notes: Sequence[str],
     rng: np.random.Generator,
     tracker: Tracker,
-    progress: Progress | None,
 ) -> Intersection:
     """The points of all dimensions, split into irreducible components."""
-    found = assembled(points, reduction, rng, tracker, scheme=False, progress=progress)
+    found = assembled(points, reduction, rng, tracker, Known(scheme=False))
     return Intersection(
         system=reduction.system,
         components=found.components,
@@ -242,7 +240,8 @@ def _bare_point(x: np.ndarray, accuracy: float, common: Reduction) -> WitnessSet
         multiplicity=0,
         status=Status.UNDECIDED if note else Status.IRREDUCIBLE,
         residual=residual,
-        accuracy=accuracy,
+        radii=even_radii(point, common.frame.error(x[None], accuracy)),
+        digits=[DOUBLE],
         corank=numerical_corank(s, len(x), NEARLY_SINGULAR),
         note=note,
     )

@@ -1,4 +1,4 @@
-"""Finite solution sets, found all at once by the paths of a start system.
+"""Finite solution sets, found all at once by the paths of a start system, and their sizes.
 
 Equation by equation, one badly conditioned point on the way may spoil what comes after it. Where
 the whole solution set is finite, solving the system as a whole is another way to it.
@@ -7,6 +7,7 @@ the whole solution set is finite, solving the system as a whole is another way t
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from math import prod
 
@@ -16,13 +17,14 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.zero_count import most_zeros
 from nag.decomposition.symmetric_images import in_orbits
 from nag.solving.solutions import Solution
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError
 from nag.witness.cutting import dyadic, numerical_corank
 from nag.witness.fibres import Tracker
-from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet, even_radii
 
 # Solutions that are the same, found by two ways: relative distance.
 SAME = 1e-8
@@ -58,10 +60,12 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
         )
     except StartError:
         return False
-    if not found.complete or found.positive_dimensional:
-        return False
     last = Evaluator.of([system.polynomials[hardest]], n)
-    return bool((last.residuals(found.points) > NONZERO).all())
+    met = bool((last.residuals(found.points) <= NONZERO).any())
+    if found.complete and not found.positive_dimensional and not met:
+        return True
+    # What paths leave open may be proved.
+    return not met and most_zeros(system.polynomials) is not None
 
 
 def solved_at_once(
@@ -97,6 +101,26 @@ def solved_at_once(
     )
 
 
+def counted(answer: Decomposition, scheme: bool) -> Decomposition:
+    """An answer of points alone, beside the number of zeros that exact algebra knows.
+
+    Args:
+        scheme: whether multiplicities are those of the system.
+    """
+    system = answer.system
+    if answer.dimension > 0 or system.nonzero or len(system.polynomials) < system.n:
+        return answer
+    zeros = sum((c.multiplicity if scheme else 1) * c.degree * c.orbit for c in answer.components)
+    count = most_zeros(system.polynomials, zeros, not answer.complete)
+    if count is None or (count.bound > zeros and not (count.exact and scheme)):
+        return answer
+    if count.bound == zeros:
+        decided = all(c.status is Status.IRREDUCIBLE for c in answer.components)
+        return replace(answer, complete=True, notes=()) if decided else answer
+    note = f"{zeros} zeros were found, and there are {count.bound}"
+    return replace(answer, complete=False, notes=(*answer.notes, note))
+
+
 def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSystem) -> WitnessSet:
     n, corank = system.n, 0
     if solution.multiplicity > 1:
@@ -108,7 +132,8 @@ def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSyste
         multiplicity=solution.multiplicity,
         status=Status.IRREDUCIBLE,
         residual=solution.residual,
-        accuracy=solution.accuracy,
+        radii=even_radii(solution.point[None], solution.accuracy),
+        digits=[solution.precision],
         corank=corank,
         multidegree=np.array(1) if system.groups else None,
     )

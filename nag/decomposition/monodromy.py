@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
+from nag.numerics.coincidence import compared
+from nag.witness.close_points import Fine, distance
 from nag.witness.fibres import Tracker
 from nag.witness.points import Points, moved_points
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
-# An end is one of the known points when it is that near and the next one is a thousand times
-# farther; it is none of them when it is farther than the second bound from all.
-NEAR = 1e-6
-FAR = 1e-4
+# Relative errors that ends of loops may have, whatever the tracker thinks of them.
+ROUGH = 1e-8
 # Above so many distances a tree is searched.
 MOST_DISTANCES = 100_000
+NOTHING: Mapping[int, Fine] = MappingProxyType({})
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,26 +28,44 @@ class Looped:
 
     Attributes:
         origins: indices of the points whose paths came back regularly.
-        ends: their ends, with added unknowns.
+        ends: their ends.
         places: indices of the points that the ends are, -1 for new ones; None if that is not clear.
     """
 
     origins: np.ndarray
-    ends: tuple[np.ndarray, ...]
+    ends: Points
     places: np.ndarray | None
 
 
-def located(ends: np.ndarray, points: np.ndarray) -> np.ndarray | None:
+def located(ends: Points, points: Points) -> np.ndarray | None:
+    """Indices of the ``points`` that ``ends`` are, -1 for none; None if that is not clear."""
+    return places_among(ends.x, points.x, ends.fine, points.fine)
+
+
+def places_among(
+    ends: np.ndarray,
+    points: np.ndarray,
+    fine_ends: Mapping[int, Fine] = NOTHING,
+    fine: Mapping[int, Fine] = NOTHING,
+) -> np.ndarray | None:
     """Indices of the ``points`` that ``ends`` are, -1 for none; None if that is not clear.
 
-    An end belongs to the nearest point if it is a thousand times nearer than the next one.
+    An end belongs to the nearest point if it is a thousand times nearer than the next one. Ends
+    and points that are known to more digits are compared in them.
     """
     if len(ends) == 0 or points.shape[1] == 0:
         return np.zeros(len(ends), dtype=int)
     nearest, closest, next_one = _two_nearest(ends, points)
+    for i in fine_ends:
+        apart = np.array(
+            [distance(ends[i], fine_ends[i], x, fine.get(j)) for j, x in enumerate(points)]
+        )
+        nearest[i] = apart.argmin()
+        closest[i], next_one[i] = np.sort(np.append(apart, np.inf))[:2]
     scale = 1 + np.linalg.norm(points[nearest], axis=1)
-    hit = (closest < NEAR * scale) & (closest < 1e-3 * next_one)
-    if not (hit | (closest > FAR * scale)).all():
+    near, doubtful = compared(closest / scale, ROUGH)
+    hit = near & (closest < 1e-3 * next_one)
+    if (doubtful | (near & ~hit)).any():
         return None
     return np.where(hit, nearest, -1)
 
@@ -72,16 +92,10 @@ def loop(
     """Carry some points round a random loop of slices."""
     middle = random_rows(rng, points.dimension, points.n)
     out, back = (complex(g) for g in unit_complex(rng, 2))
-    there, counts = moved_points(points, start, middle, out, tracker)
-    origins = sorted(there)
-    which = tuple(points.which[i] for i in origins)
-    half = Points(middle, points.cuts, which, tuple(there[i] for i in origins))
-    again, spent = moved_points(half, range(len(half)), points.rows, back, tracker)
-    order = sorted(again)
-    ends = tuple(again[k] for k in order)
-    x = np.array([z[: points.n] for z in ends]).reshape(len(ends), points.n)
-    places = located(x, points.x)
+    half, origins, counts = moved_points(points, start, middle, out, tracker)
+    again, order, spent = moved_points(half, range(len(half)), points.rows, back, tracker)
+    places = located(again, points)
     # Two paths in one place: one of them has jumped.
     if places is not None and len(np.unique(places[places >= 0])) < (places >= 0).sum():
         places = None
-    return Looped(np.array([origins[k] for k in order], int), ends, places), counts + spent
+    return Looped(origins[order], again, places), counts + spent

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
-from nag.decomposition.monodromy import located
+from nag.decomposition.monodromy import places_among
 from nag.decomposition.splitting import Class, split
 from nag.witness.fibres import Tracker
 from nag.witness.frame import Frame
@@ -146,15 +146,14 @@ def _permutation(
     counts, everything = PathCounts(), range(len(points))
     target = action.pulled_back(points.rows)
     for attempt in range(ATTEMPTS):
-        there = dict(enumerate(points.z))
+        there = points
         if points.dimension:
             gamma = complex(unit_complex(rng))
-            there, spent = moved_points(points, everything, target, gamma, tracker)
+            there, _, spent = moved_points(points, everything, target, gamma, tracker)
             counts += spent
         if len(there) < len(points):
             continue
-        ends = np.array([there[i][: points.n] for i in everything])
-        images = located(action(ends), points.x)
+        images = places_among(action(there.x), points.x)
         if images is not None and (images < 0).any() and attempt + 1 < ATTEMPTS:
             continue
         if images is not None and len(np.unique(images[images >= 0])) == (images >= 0).sum():

@@ -3,7 +3,9 @@
 With r the component's codimension, the rank of J drops at x exactly when w^T J(x) = 0 for some
 w that is not zero, where J has r rows (Theorem 7.1 of PT13 asks for the vanishing of all r x r
 minors instead). Of more equations, r random combinations are taken: their rank drops wherever that
-of all of them does, and further points are told by the rank of all.
+of all of them does, and further points are told by the rank of all. Linear equations are solved
+before, exactly: each would cost a coordinate of w. Where the minors and the equations are quickly
+proved to have no common zeros, there is nothing to look for.
 
 The pairs (x, w), w in an affine chart, are cut out of the product of the component with the space
 of w, equation by equation.
@@ -22,9 +24,12 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.smoothness import is_regular_everywhere
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.intersection import intersect_equations
+from nag.decomposition.reduction import Reduction
 from nag.witness.membership import component_system
+from nag.witness.moving import orthonormal_rows
 from nag.witness.projection import ProjectionError, project
 from nag.witness.witness import PathCounts, Slice, WitnessSet
 
@@ -40,11 +45,13 @@ class RankDrop:
         sets: dimension, degree and points on a generic slice, complex, shape ``(P, n)``.
         paths: what the tracker did.
         notes: what was left open.
+        proved: whether exact algebra proves that it drops nowhere.
     """
 
     sets: tuple[tuple[int, int, np.ndarray], ...]
     paths: PathCounts
     notes: tuple[str, ...]
+    proved: bool = False
 
 
 def rank_drop(
@@ -64,10 +71,13 @@ def rank_drop(
     Raises:
         nag.decomposition.factor.IntersectionError: if the witness points are no regular zeros.
     """
-    own = component_system(system, component)
-    n = own.n
+    reduction = Reduction.of(component_system(system, component))
+    own, frame, n = reduction.reduced, reduction.frame, reduction.n
     if component.dimension in (0, n):
         return RankDrop((), PathCounts(), ())
+    if is_regular_everywhere(own.polynomials, n - component.dimension):
+        return RankDrop((), PathCounts(), (), proved=True)
+    component = _restricted(component, reduction)
     product, start, conditions = _null_space_system(own, component, np.random.default_rng(seed))
     found = intersect_equations(
         product, start, conditions, seed=seed, threads=threads, settings=settings
@@ -76,7 +86,7 @@ def rank_drop(
     notes = list(found.notes)
     for one in found.components:
         if one.dimension == 0:
-            sets.append((0, one.degree, one.points[:, :n]))
+            sets.append((0, one.degree, frame.points(one.points[:, :n])))
             continue
         try:
             image = project(
@@ -85,8 +95,16 @@ def rank_drop(
         except (ProjectionError, ValueError) as reason:
             notes.append(f"a set of points of dimension {one.dimension} at most: {reason}")
             continue
-        sets.append((image.dimension, image.degree, image.points[:, :n]))
+        sets.append((image.dimension, image.degree, frame.points(image.points[:, :n])))
     return RankDrop(tuple(sets), found.paths, tuple(notes))
+
+
+def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:
+    """A component in the coordinates that linear equations leave: the ranks drop where they did."""
+    cut = component.slice
+    rows = orthonormal_rows(reduction.frame.pulled_back(cut.A, cut.b))
+    points = component.points[:, reduction.kept]
+    return replace(component, slice=Slice(rows[:, 1:], -rows[:, 0]), points=points)
 
 
 def _null_space_system(
@@ -155,6 +173,8 @@ def _times_space(component: WitnessSet, k: int, rng: np.random.Generator) -> Wit
         component,
         slice=Slice(matrix, np.concatenate([component.slice.b, at])),
         points=np.hstack([component.points, np.tile(at, (component.degree, 1))]),
+        # The new coordinates are the slice's doubles.
+        radii=np.hstack([component.radii, np.zeros((component.degree, k))]),
         multidegree=None,
         orbit=1,
         images=(),

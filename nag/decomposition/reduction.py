@@ -14,6 +14,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.scaling import scaled_terms, variable_scales
+from nag.witness.close_points import DIGITS, Fine, in_words
 from nag.witness.cutting import Cut, Equations
 from nag.witness.frame import Frame
 
@@ -78,6 +79,18 @@ class Reduction:
                     rows.append(x - image.with_variables(total, self.kept))
             self._lifted[cut] = Cut(n, cut.aux, tuple(rows))
         return self._lifted[cut]
+
+    def lifted_fine(self, point: Fine) -> Fine:
+        """A point in these coordinates as one in the original variables, in all its digits."""
+        import flint
+
+        from nag.numerics.digits import number
+
+        with flint.ctx.workdps(2 * DIGITS):
+            y, scales = point.balls(), self.frame.scales.tolist()
+            own = [z * flint.arb(scale) for z, scale in zip(y, scales, strict=False)]
+            x = [f(own, number) for f in self.images]
+            return in_words([*x, *y[self.n :]], point.curvature)
 
     @cached_property
     def equations(self) -> Equations:

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from nag.numerics.coincidence import coincident
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, Tracker, move
-from nag.witness.points import SAME
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts
 
@@ -24,7 +24,7 @@ Signs = tuple[int, ...]
 def keeps(cut: Cut, signs: Sequence[int]) -> bool:
     """Whether a sign change carries each polynomial of a cut to itself or to its negative."""
     flipped = [i for i, s in enumerate(signs) if s < 0]
-    return not cut.levels and all(
+    return not cut.deflated and all(
         len({sum(e[i] for i in flipped) % 2 for e in f.terms}) <= 1 for f in cut.polynomials
     )
 
@@ -51,12 +51,11 @@ def sign_orbit(
     points, counts = fibre.points, PathCounts()
     for k, signs in enumerate(generators):
         factor = np.array(signs, dtype=float)
-        images, spent = _moved(fibre, points * factor, rows, factor, rng, tracker)
+        images, error, spent = _moved(fibre, points * factor, rows, factor, rng, tracker)
         counts += spent
         if images is None:
             return None, counts
-        distances = np.linalg.norm(points - images[0], axis=1)
-        if (distances < SAME * (1 + np.linalg.norm(images[0]))).any():
+        if coincident(points, images[0], error).any():
             continue
         points = np.vstack([points, images])
         carriers += [(*carrier, k) for carrier in carriers]
@@ -70,11 +69,11 @@ def _moved(
     factor: np.ndarray,
     rng: np.random.Generator,
     tracker: Tracker,
-) -> tuple[np.ndarray | None, PathCounts]:
-    """Images of points, from the slice that they lie on to the common one."""
+) -> tuple[np.ndarray | None, float, PathCounts]:
+    """Images of points, from the slice that they lie on to the common one, and their error."""
     counts = PathCounts()
     if fibre.dimension == 0:
-        return images, counts
+        return images, 0.0, counts
     there = rows * np.concatenate([[1.0], factor])
     for _ in range(ATTEMPTS):
         ends = move(
@@ -86,5 +85,5 @@ def _moved(
         )
         counts += ends.counts.repeatable
         if ends.regular.all():
-            return ends.points, counts
-    return None, counts
+            return ends.points, float(ends.accuracy.max(initial=0.0)), counts
+    return None, 0.0, counts

@@ -20,6 +20,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.intersection import intersect_components
 from nag.decomposition.rank_drop import rank_drop
+from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
 from nag.witness.expansion import expanded
@@ -30,8 +31,7 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
-# Isolated points nearer to each other than this, relative to their size, are one.
-SAME = 1e-6
+# Relative errors of isolated points that were found as ends of paths.
 ACCURACY = 1e-8
 
 
@@ -77,6 +77,7 @@ class SingularLocus:
         paths: what the tracker did.
         complete: whether nothing was left open.
         notes: what was.
+        proved: indices of components that exact algebra proves to be smooth.
     """
 
     sets: tuple[SingularSet, ...]
@@ -84,6 +85,7 @@ class SingularLocus:
     paths: PathCounts
     complete: bool
     notes: tuple[str, ...]
+    proved: tuple[int, ...] = ()
 
     @property
     def smooth(self) -> tuple[int, ...]:
@@ -110,6 +112,7 @@ class _Search:
     options: dict[str, Any]
     candidates: list[_Candidate] = field(default_factory=list)
     examined: list[int] = field(default_factory=list)
+    proved: list[int] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     counts: PathCounts = field(default=PathCounts())
 
@@ -128,6 +131,8 @@ class _Search:
         self.notes += [f"{name}: {note}" for note in found.notes]
         if not found.notes:
             self.examined.append(i)
+        if found.proved:
+            self.proved.append(i)
         self.candidates += [_Candidate(*one, (i,)) for one in found.sets]
 
     def of_pair(self, i: int, j: int) -> None:
@@ -191,24 +196,25 @@ def singular_locus(
     rng = np.random.default_rng([seed, 7])
     sets = _judged_sets(search, rng, Tracker(settings, threads))
     notes = tuple(dict.fromkeys(search.notes))
-    return SingularLocus(sets, tuple(search.examined), search.counts, not notes, notes)
+    examined, proved = tuple(search.examined), tuple(search.proved)
+    return SingularLocus(sets, examined, search.counts, not notes, notes, proved)
 
 
 def _judged_sets(
     search: _Search, rng: np.random.Generator, tracker: Tracker
 ) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
-    known: list[np.ndarray] = []
+    known = np.zeros((0, search.whole.system.n), dtype=complex)
     others: dict[tuple[object, ...], dict[tuple[int, ...], list[SingularSet]]] = {}
     for candidate in search.candidates:
         x = candidate.points[0]
-        if candidate.dimension == 0 and any(_close(x, y) for y in known):
+        if candidate.dimension == 0 and coincident(known, x, ACCURACY).any():
             continue
         judged = _judged(search, candidate, rng, tracker)
         if judged is None:
             continue
         if candidate.dimension == 0:
-            known.append(x)
+            known = np.vstack([known, x])
             points.append(judged)
             continue
         key = (judged.dimension, judged.degree, tuple(judged.multiplicities.items()))
@@ -217,10 +223,6 @@ def _judged_sets(
     sets = [one for by_source in others.values() for one in max(by_source.values(), key=len)]
     sets.sort(key=lambda one: (-one.dimension, one.degree))
     return (*sets, *points)
-
-
-def _close(x: np.ndarray, y: np.ndarray) -> bool:
-    return bool(np.linalg.norm(x - y) < SAME * (1 + np.linalg.norm(x)))
 
 
 def _judged(
@@ -232,7 +234,7 @@ def _judged(
     if candidate.dimension == 0 and local.tangent_dimension is not None:
         if local.tangent_dimension == local.dimension:
             return None
-        if _close(x, local.point):
+        if coincident(x[None], local.point, ACCURACY).any():
             x = local.point
     multiplicities = {}
     for i, component in enumerate(whole.components):

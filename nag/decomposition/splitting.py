@@ -16,6 +16,7 @@ import numpy as np
 
 from nag.decomposition.monodromy import loop
 from nag.decomposition.trace import MOST_CLASSES, Trace
+from nag.witness.close_points import Fine
 from nag.witness.fibres import Tracker
 from nag.witness.points import Points
 from nag.witness.witness import PathCounts
@@ -83,9 +84,10 @@ class _State:
 
     def open_points(self) -> np.ndarray:
         """Points of classes that are not confirmed, nor images of such."""
-        sure = [k for k in np.unique(self.labels).tolist() if self.verdict(k)]
-        done = np.isin(self.orbits, self.orbits[np.isin(self.labels, sure)])
-        return np.flatnonzero(~done)
+        labels = self.labels.tolist()
+        sure = {k for k in set(labels) if self.verdict(k)}
+        done = {o for o, k in zip(self.orbits.tolist(), labels, strict=True) if k in sure}
+        return np.array([i for i, o in enumerate(self.orbits.tolist()) if o not in done], dtype=int)
 
     def forget_symmetries(self) -> None:
         self.permutations, self.orbits = (), np.arange(len(self.labels))
@@ -216,14 +218,14 @@ def _looped(
     pairs = list(zip(found.origins[hit], found.places[hit], strict=True))
     join(state.labels, pairs, state.permutations)
     for k in np.flatnonzero(~hit):
-        _add(state, int(found.origins[k]), found.ends[k])
+        _add(state, int(found.origins[k]), found.ends.z[k], found.ends.fine.get(int(k)))
     return not np.array_equal(before, state.labels)
 
 
-def _add(state: _State, origin: int, z: np.ndarray) -> None:
+def _add(state: _State, origin: int, z: np.ndarray, fine: Fine | None) -> None:
     """A point that a loop from ``origin`` led to."""
     cut = state.points.cuts[state.points.which[origin]]
-    state.points = state.points.with_point(cut, z)
+    state.points = state.points.with_point(cut, z, fine)
     state.labels = np.append(state.labels, state.labels[origin])
     state.orbits = np.append(state.orbits, len(state.orbits))
 

@@ -6,7 +6,7 @@ carries the equations that cut it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -15,16 +15,12 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.hypersurface import (
-    Crossing,
-    Sections,
-    crossing,
-)
-from nag.numerics.coincidence import clusters
+from nag.decomposition.hypersurface import Crossing, Sections, crossing
+from nag.numerics.coincidence import clusters, coincident
 from nag.numerics.zero_values import possible_zeros
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
-from nag.witness.fibres import SAME, Fibre, Moved, Tracker, admit
+from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
@@ -35,8 +31,6 @@ REGULAR = 1e-13
 ELSEWHERE = 1
 # Doubles are no more accurate than this, relative to the point.
 ROUNDED = 1e-15
-
-Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,9 +76,29 @@ def _excluded(
     for i, *answers in zip(regular, *each, strict=True):
         result[i] = True in answers or None in answers
         unclear += True not in answers and None in answers
-    for i in np.flatnonzero(result & ~ends.regular):
-        unclear += _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
-    return result, unclear
+    singular = np.flatnonzero(result & ~ends.regular)
+    # The least accurate first: what it may stand for, others of its place may as well.
+    doubtful: dict[int, bool] = {}
+    for i in singular[np.argsort(-ends.accuracy[singular], kind="stable")].tolist():
+        twin = None if len(rows) else _conjugate(ends, i, doubtful)
+        known = doubtful.get(twin) if twin is not None else None
+        if known is None:
+            known = _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
+        doubtful[i] = known
+    return result, unclear + sum(doubtful.values())
+
+
+def _conjugate(ends: Moved, i: int, others: Iterable[int]) -> int | None:
+    """The end among ``others`` whose conjugate an end is, as far as both are known.
+
+    Equations are real, and what is true of a zero of theirs alone is of its conjugate as well.
+    """
+    z = ends.points[i].conj()
+    for j in others:
+        error = max(ends.accuracy[j], ROUNDED) * (1 + np.linalg.norm(z))
+        if np.linalg.norm(ends.points[j] - z) <= error:
+            return j
+    return None
 
 
 def _beside(
@@ -113,10 +127,6 @@ class _Candidates:
     unclear: int
 
 
-def _near(points: np.ndarray, x: np.ndarray) -> bool:
-    return bool((np.linalg.norm(points - x, axis=1) < SAME * (1 + np.linalg.norm(x))).any())
-
-
 def _collect(
     pieces: Sequence[tuple[Cut, Moved]],
     rows: np.ndarray,
@@ -132,15 +142,19 @@ def _collect(
         excluded, doubtful = _excluded(nonzero, cut, rows, ends)
         allowed, unclear = ends.finite & ~excluded, unclear + doubtful
         # The tracker has seen that ends of one piece are distinct.
-        chosen = [i for i in np.flatnonzero(allowed & ends.regular) if not _near(seen, x[i])]
+        chosen = [
+            i
+            for i in np.flatnonzero(allowed & ends.regular)
+            if not coincident(seen, x[i], ends.accuracy[i]).any()
+        ]
         if chosen:
             seen = np.vstack([seen, x[chosen]])
-            fibres.append(Fibre(cut, d, ends.points[chosen]))
+            fibres.append(ends.fibre(cut, d, chosen))
         rest = allowed & ~ends.regular
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])
     points, accuracy = np.vstack(singular), np.concatenate(errors)
-    groups = clusters(points, accuracy, SAME)
+    groups = clusters(points, accuracy)
     several = [[(points[i], float(accuracy[i])) for i in g] for g in groups]
     return _Candidates(fibres, several, unclear)
 
@@ -169,22 +183,56 @@ class _Meeting:
 
 @dataclass(frozen=True, eq=False)
 class _Stage:
-    """How sets are to meet polynomials, where ``before`` vanish on them and ``avoid`` must not.
+    """How sets are to meet a polynomial, where ``before`` vanish on them and ``avoid`` must not.
 
     ``after`` are the equations that they will meet later.
     """
 
     before: tuple[Polynomial, ...]
     after: tuple[Polynomial, ...]
-    n: int
+    found: Superset
     avoid: tuple[Polynomial, ...]
     rng: np.random.Generator
     tracker: Tracker
 
+    @property
+    def n(self) -> int:
+        return len(self.found.flag)
+
+    def best(self, f: Polynomial, mixing: bool) -> tuple[_Meeting, bool, PathCounts]:
+        """The least doubtful meeting with ``f``, or with a combination of it with later ones.
+
+        The first equations alone may define components that are not reduced where all together do
+        not. A general combination of an equation with later ones of its degree meets a reduced set
+        in a reduced one, but for what lies on all of them (Bertini): it takes the equation's place
+        then, and from then on, as ``mixing`` says.
+        """
+        later = [g for g in self.after if g.degree == f.degree]
+        first = _mixed(f, later, self.rng) if mixing else f
+        best, counts = self.meeting(first, deflate=mixing or not later)
+        if best.settled is None:
+            mixed, spent = self.meeting(_mixed(f, later, self.rng), deflate=False)
+            counts += spent
+            if mixed.settled is None and mixed.crossed.singular >= best.crossed.singular:
+                mixed = best
+            mixing = mixed is not best
+            best = mixed
+            if best.settled is None:
+                settled, spent = self.settled(best.polynomial, best.crossed, deflate=True)
+                counts += spent
+                best = replace(best, settled=settled)
+        for _ in range(ELSEWHERE):
+            if best.doubts == (0, 0):
+                break
+            other, spent = self.meeting(best.polynomial, deflate=True, elsewhere=True)
+            counts += spent
+            best = min(best, other, key=lambda meeting: meeting.doubts)
+        return best, mixing, counts
+
     def meeting(
-        self, found: Superset, f: Polynomial, deflate: bool, elsewhere: bool = False
+        self, f: Polynomial, deflate: bool, elsewhere: bool = False
     ) -> tuple[_Meeting, PathCounts]:
-        sections = Sections(found.fibres, found.flag)
+        sections = Sections(self.found.fibres, self.found.flag)
         crossed = crossing(sections, f, self.rng, self.tracker, elsewhere)
         settled, spent = self.settled(f, crossed, deflate)
         return _Meeting(f, crossed, settled), PathCounts(crossed.counts.tracked) + spent
@@ -212,7 +260,7 @@ class _Stage:
         mask = np.ones(len(fibre), dtype=bool)
         for i, x in enumerate(fibre.x):
             answer = Membership.FOREIGN
-            if _near(same, x):
+            if coincident(same, x, REGULAR).any():
                 answer = Membership.MEMBER
             for higher in sorted((e for e in kept if e > d), reverse=True):
                 if answer is not Membership.FOREIGN:
@@ -241,7 +289,7 @@ class _Stage:
             if candidates.unclear:
                 notes.append(f"{candidates.unclear} points may be such as are excluded")
             for fibre in candidates.fibres:
-                if fibre.cut.levels:
+                if fibre.cut.deflated:
                     fibre, doubts, used = self.own(fibre, kept, flag)
                     counts += used
                     notes += doubts
@@ -280,69 +328,51 @@ class _Stage:
         return Superset(kept, flag, PathCounts(), tuple(notes)), counts
 
 
-def witness_superset(
-    equations: Sequence[Polynomial],
-    n: int,
-    nonzero: Sequence[Polynomial],
-    flag: np.ndarray,
-    rng: np.random.Generator,
-    tracker: Tracker,
-    progress: Progress | None = None,
-    start: Sequence[Fibre] = (),
-    known: Sequence[Polynomial] = (),
-) -> Superset:
-    """Witness points of all dimensions for ``equations`` in n variables, intersected in order.
+@dataclass(frozen=True, eq=False)
+class Ambient:
+    """What is intersected: sets of all dimensions, and the polynomials that vanish on them.
 
-    ``flag`` holds n slices; a point of dimension d lies on its first d rows, or on those of the
+    Attributes:
+        sections: the sets, by their points.
+        known: polynomials that vanish on them.
+        nonzero: those that must not vanish.
+    """
+
+    sections: Sections
+    known: tuple[Polynomial, ...] = ()
+    nonzero: tuple[Polynomial, ...] = ()
+
+    @classmethod
+    def space(cls, flag: np.ndarray, nonzero: Sequence[Polynomial] = ()) -> Ambient:
+        """The whole space, by its point on a flag of as many slices as variables."""
+        n = len(flag)
+        point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
+        whole = Fibre(Cut(n, 0, ()), n, point[None])
+        return cls(Sections({n: [whole]}, flag), (), tuple(nonzero))
+
+
+def witness_superset(
+    equations: Sequence[Polynomial], ambient: Ambient, rng: np.random.Generator, tracker: Tracker
+) -> Superset:
+    """Witness points of all dimensions where sets meet ``equations``, intersected in order.
+
+    A point of dimension d lies on the first d rows of the flag of the sets, or on those of the
     flag of the superset if it had to be changed. No point of a component is missed unless a path
     failed, and the points that lie on components of higher dimension are taken out again after
     each equation.
-
-    What is intersected is the whole space, or the pure-dimensional set whose points on ``flag``
-    are ``start`` and on which the polynomials ``known`` vanish.
-
-    The first equations alone may define components that are not reduced where all together do
-    not. A general combination of an equation with later ones of its degree meets a reduced set in
-    a reduced one, but for what lies on all of them (Bertini): it takes the equation's place then.
     """
-    fibres: dict[int, list[Fibre]] = {}
-    for fibre in start:
-        fibres.setdefault(fibre.dimension, []).append(fibre)
-    if not fibres:
-        point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
-        fibres[n] = [Fibre(Cut(n, 0, ()), n, point[None])]
     equations = list(equations)
     counts, notes = PathCounts(), []
-    found = Superset(fibres, flag, counts, ())
+    found = Superset(dict(ambient.sections.fibres), ambient.sections.flag, counts, ())
     mixing = False
     for k, f in enumerate(equations):
-        if progress is not None:
-            progress("intersecting", k, len(equations))
-        later = [g for g in equations[k + 1 :] if g.degree == f.degree]
-        before, after = (*known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, n, tuple(nonzero), rng, tracker)
-        first = _mixed(f, later, rng) if mixing else f
-        best, spent = stage.meeting(found, first, deflate=mixing or not later)
-        counts += spent
-        if best.settled is None:
-            mixed, spent = stage.meeting(found, _mixed(f, later, rng), deflate=False)
-            counts += spent
-            if mixed.settled is None and mixed.crossed.singular >= best.crossed.singular:
-                mixed = best
-            mixing = mixed is not best
-            best = mixed
-            if best.settled is None:
-                settled, spent = stage.settled(best.polynomial, best.crossed, deflate=True)
-                counts += spent
-                best = replace(best, settled=settled)
-        for _ in range(ELSEWHERE):
-            if best.doubts == (0, 0):
-                break
-            other, spent = stage.meeting(found, best.polynomial, deflate=True, elsewhere=True)
-            counts += spent
-            best = min(best, other, key=lambda meeting: meeting.doubts)
+        tracker.tell("intersecting", k, len(equations))
+        before, after = (*ambient.known, *equations[:k]), tuple(equations[k + 1 :])
+        stage = _Stage(before, after, found, ambient.nonzero, rng, tracker)
+        best, mixing, spent = stage.best(f, mixing)
         found = best.settled
         equations[k] = best.polynomial
         notes += found.notes
-        counts += PathCounts(0, best.crossed.counts.failed, best.crossed.counts.at_infinity)
+        failed, infinite = best.crossed.counts.failed, best.crossed.counts.at_infinity
+        counts += PathCounts(spent.tracked, failed, infinite)
     return Superset(found.fibres, found.flag, counts, tuple(notes))

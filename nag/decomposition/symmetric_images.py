@@ -9,12 +9,10 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.coincidence import coincident
 from nag.witness.expansion import image
 from nag.witness.moving import witness_at
 from nag.witness.witness import Slice, WitnessSet
-
-# Points nearer than this, relative to their size, are one.
-SAME = 1e-8
 
 
 def in_orbits(
@@ -39,31 +37,31 @@ def in_orbits(
         nag.witness.moving.SliceError: if points cannot be moved to the common slice.
     """
 
-    def moved(component: WitnessSet, target: Slice) -> np.ndarray:
+    def moved(component: WitnessSet, target: Slice) -> WitnessSet:
         if component.dimension == 0:
-            return component.points
+            return component
         options = {"seed": seed, "threads": threads, "settings": settings}
-        return witness_at(system, component, target, **options).points
+        return witness_at(system, component, target, **options)
 
     absorbed: set[int] = set()
     found: list[WitnessSet] = []
     for i, first in enumerate(components):
         if i in absorbed:
             continue
-        members = [(SignedPermutation.identity(system.n), first.points)]
+        members = [(SignedPermutation.identity(system.n), first)]
         for carrier, _ in members:
             for symmetry in symmetries:
                 way = symmetry.after(carrier)
                 there = image(first, way)
-                (end,) = moved(_first_point(there), first.slice)
-                if any(_among(end, points) for _, points in members):
+                end = moved(_first_point(there), first.slice)
+                if any(_among(end, member) for _, member in members):
                     continue
                 # Components that stand earlier have their whole orbits.
                 for j in range(i + 1, len(components)):
                     like = components[j].dimension == first.dimension
-                    if like and _among(end, components[j].points):
+                    if like and _among(end, components[j]):
                         absorbed.add(j)
-                        members.append((way, components[j].points))
+                        members.append((way, components[j]))
                         break
                 else:
                     members.append((way, moved(there, first.slice)))
@@ -75,9 +73,11 @@ def in_orbits(
 def _first_point(component: WitnessSet) -> WitnessSet:
     """A witness set with one of its points only, to be moved."""
     fibres = tuple(fibre.only(np.arange(len(fibre)) == 0) for fibre in component.fibres[:1])
-    return replace(component, points=component.points[:1], fibres=fibres)
+    own = {name: getattr(component, name)[:1] for name in ("points", "radii", "digits")}
+    return replace(component, **own, fibres=fibres)
 
 
-def _among(x: np.ndarray, points: np.ndarray) -> bool:
-    distances = np.linalg.norm(points - x, axis=1)
-    return bool((distances < SAME * (1 + np.linalg.norm(x))).any())
+def _among(end: WitnessSet, component: WitnessSet) -> bool:
+    """Whether the one point of a witness set is among those of another."""
+    error = max(end.accuracy, component.accuracy)
+    return bool(coincident(component.points, end.points[0], error).any())

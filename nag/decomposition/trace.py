@@ -15,8 +15,9 @@ import numpy as np
 
 from nag.algebra.number import decimal_digits
 from nag.algebra.polynomial import Polynomial
-from nag.witness.exact_points import ExactPoints, exact_points, fixed
-from nag.witness.fibres import Tracker
+from nag.witness.close_points import Fine
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, fixed
+from nag.witness.fibres import Fibre, Tracker
 from nag.witness.points import Points, moved_points
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts
@@ -25,7 +26,7 @@ from nag.witness.witness import PathCounts
 # digit of the system's coefficients beyond those of round numbers.
 EVIDENCE, ROUND_NUMBERS = 18, 6
 # Points get twice the digits so often, from those of double-double on.
-DIGITS = (28, 60, 120, 240)
+DIGITS = (FEWEST, 60, 120, 240)
 # Bits behind the point of an offset of a slice, beyond those of the points.
 SMALLEST = 60
 # Subsets of more classes than this are not searched; those are looked at more closely whose sums
@@ -58,6 +59,14 @@ class Differences:
 
 
 @dataclass(frozen=True, eq=False)
+class End:
+    """Where a point came to: with added unknowns, and in more digits where others are close."""
+
+    z: np.ndarray
+    fine: Fine | None
+
+
+@dataclass(frozen=True, eq=False)
 class Trace:
     """A parallel motion of a slice, one step to each side, and how points follow it.
 
@@ -65,14 +74,14 @@ class Trace:
         sides: the two slices.
         gammas: random constants of the homotopies to them.
         evidence: digits to which sums must vanish to be linear.
-        ends: for each point that was tracked, by index, its two ends with added unknowns.
+        ends: for each point that was tracked, by index, its two ends.
         known: second differences of points, by index.
     """
 
     sides: tuple[np.ndarray, np.ndarray]
     gammas: tuple[complex, complex]
     evidence: int
-    ends: Mapping[int, tuple[np.ndarray, np.ndarray]]
+    ends: Mapping[int, tuple[End, End]]
     known: Mapping[int, Differences]
 
     @classmethod
@@ -98,11 +107,12 @@ class Trace:
             return self, counts
         both = []
         for target, gamma in zip(self.sides, self.gammas, strict=True):
-            ends, spent = moved_points(points, new, target, gamma, tracker)
+            there, origins, spent = moved_points(points, new, target, gamma, tracker)
             counts += spent
-            if len(ends) < len(new):
+            if len(origins) < len(new):
                 return None, counts
-            both.append(ends)
+            ends = zip(origins.tolist(), there.z, strict=True)
+            both.append({i: End(z, there.fine.get(k)) for k, (i, z) in enumerate(ends)})
         ends = {**self.ends, **{i: (both[0][i], both[1][i]) for i in new}}
         return replace(self, ends=ends)._found(points, new, DIGITS[0]), counts
 
@@ -113,22 +123,31 @@ class Trace:
         first = 0
         for fibre in fibres:
             own, first = order[first : first + len(fibre)], first + len(fibre)
-            middle = exact_points(fibre, points.rows, digits)
+            if digits == FEWEST:
+                middle = points.exact.only(own)
+            else:
+                middle = exact_points(fibre, points.rows, digits)
             sides = [
-                exact_points(
-                    replace(fibre, points=np.array([self.ends[i][k] for i in own])), target, digits
-                )
+                exact_points(self._side(fibre, own, k), target, digits)
                 for k, target in enumerate(self.sides)
             ]
             total = self._differences(points.rows, middle, sides)
             radii = sides[0].radii + sides[1].radii + 2 * middle.radii
             n = points.n
             for k, i in enumerate(own):
-                moved = [np.abs(self.ends[i][j][:n] - fibre.x[k]).max(initial=0.0) for j in (0, 1)]
+                moved = [
+                    np.abs(self.ends[i][j].z[:n] - fibre.x[k]).max(initial=0.0) for j in (0, 1)
+                ]
                 known[int(i)] = Differences(
                     total[k], middle.bits, float(radii[k]), float(max(moved)), digits
                 )
         return replace(self, known=known)
+
+    def _side(self, fibre: Fibre, own: Sequence[int], k: int) -> Fibre:
+        """The points of a fibre, of these indices, on one of the two slices."""
+        ends = [self.ends[int(i)][k] for i in own]
+        fine = {j: end.fine for j, end in enumerate(ends) if end.fine is not None}
+        return replace(fibre, points=np.array([end.z for end in ends]), fine=fine)
 
     def _differences(
         self, rows: np.ndarray, middle: ExactPoints, sides: Sequence[ExactPoints]

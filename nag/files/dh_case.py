@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from nag.algebra.number import cosine, pi_multiple, sine
 from nag.algebra.tokens import is_name
 from nag.files.case_table import ReadNumber, Table
 from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, assembled, dh_model
 from nag.mechanism.graph import Mechanism
+
+if TYPE_CHECKING:
+    from nag.files.cases import Case
 
 _JOINT_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_half_tangent")
 
@@ -26,6 +31,29 @@ def read_dh(top: Table, number: ReadNumber) -> DHModel | Mechanism:
         if error.joint is None:
             top.fail("joint", str(error))
         tables[error.joint].fail(error.key, str(error))
+
+
+def in_formulation(case: Case, formulation: str) -> Case:
+    """A case of a table with open angles, in half-angles (H) or in Euler parameters (E).
+
+    Raises:
+        DHError: if a table has no such formulation.
+    """
+    from nag.mechanism.dh_euler import table_model
+
+    if not is_table(case):
+        raise ValueError("the case is no table with open angles")
+    made = table_model(case.assembly.loop, formulation)  # type: ignore[union-attr]
+    if made.formulation == case.assembly.formulation:  # type: ignore[union-attr]
+        return case
+    # What is known of half-angles says nothing of Euler parameters.
+    truth = tuple(replace(t, formulation=None) for t in case.truth if t.formulation == formulation)
+    return replace(case, assembly=made, system=made.system, symmetries=made.symmetries, truth=truth)
+
+
+def is_table(case: Case) -> bool:
+    """Whether a case is a table with open angles."""
+    return case.kind == "dh" and case.assembly is not None
 
 
 def _read_row(i: int, table: Table, number: ReadNumber) -> Row:

@@ -3,8 +3,8 @@
 The format is ``nag-decomposition``, version 2; its JSON Schema is in ``schema/`` beside this
 module. A file holds all that is needed to go on from it (system, slices, points, the equations that
 cut each component regularly, seed, settings) and nothing that differs between runs with the same
-seed (no times, no folders, no thread counts). Files of version 1, which lack these equations, are
-read as well.
+seed (no times, no folders, no thread counts). Files of version 1, which lack these equations, and
+of version 2 without error radii, are read as well.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
+from nag.files.close_points import close_document, close_points
 from nag.files.json_text import lay_out, pairs, real_or_null, system_document
 from nag.files.json_values import (
     ExportError,
@@ -42,7 +43,15 @@ from nag.files.json_values import (
 from nag.files.written_file import write_target
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
-from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+from nag.witness.witness import (
+    DOUBLE,
+    Decomposition,
+    PathCounts,
+    Slice,
+    Status,
+    WitnessSet,
+    even_radii,
+)
 
 FORMAT = "nag-decomposition"
 VERSION = 2
@@ -97,10 +106,12 @@ def component_document(component: WitnessSet, variables: Sequence[str]) -> dict[
         "orbit": orbit,
         "residual": real_or_null(component.residual),
         "accuracy": real_or_null(component.accuracy),
-        "precision": component.precision,
+        "precision": f"{component.precision} digits",
         "corank": component.corank,
         "slice": {"A": pairs(component.slice.A), "b": pairs(component.slice.b)},
         "points": pairs(component.points),
+        "radii": [[real_or_null(r) for r in row] for row in component.radii.tolist()],
+        "digits": component.digits.tolist(),
     }
 
 
@@ -132,6 +143,7 @@ def document(decomposition: Decomposition, origin: Origin | None = None) -> dict
                     "points": len(f),
                     "unknowns": pairs(f.points[:, system.n :]),
                 }
+                | ({"close": close_document(f.fine)} if f.fine else {})
                 for f in c.fibres
             ]
         }
@@ -223,7 +235,9 @@ def _fibres(
             raise wrong(f"{here}.unknowns", "one row for each of the points")
         if len(cut.polynomials) != cut.n + cut.aux - dimension:
             raise wrong(f"{here}.equations", "that of as many equations as cut the component")
-        found.append(Fibre(cut, dimension, np.hstack([points[first:last], unknowns])))
+        own = np.hstack([points[first:last], unknowns])
+        close = close_points(table.get("close", []), own, f"{here}.close")
+        found.append(Fibre(cut, dimension, own, close))
         first = last
     if found and first != len(points):
         raise wrong(place, "one cut for each of the points")
@@ -250,6 +264,7 @@ def _component(value: Any, system: PolynomialSystem, cuts: Sequence[Cut], place:
     multidegree = None
     if "multidegree" in table:
         multidegree = get("multidegree", _multidegree, len(system.groups), len(b))
+    radii, digits = _errors(table, points, place)
     orbit = get("orbit", as_table)
     size = as_count(entry(orbit, "size", f"{place}.orbit"), f"{place}.orbit.size", 1)
     return WitnessSet(
@@ -258,15 +273,39 @@ def _component(value: Any, system: PolynomialSystem, cuts: Sequence[Cut], place:
         multiplicity=get("multiplicity", as_count),
         status=Status(status),
         residual=get("residual", as_double),
-        accuracy=get("accuracy", as_double),
+        radii=radii,
+        digits=digits,
         corank=get("corank", as_count),
         multidegree=multidegree,
         orbit=size,
-        precision=get("precision", as_text),
         note=get("note", as_text),
         images=_images(orbit.get("images", []), size, system, f"{place}.orbit.images"),
         fibres=_fibres(table.get("cut_by", []), cuts, points, len(b), f"{place}.cut_by"),
     )
+
+
+def _errors(table: dict[str, Any], points: np.ndarray, place: str) -> tuple[np.ndarray, list[int]]:
+    """Error radii and digits of points; those of files without them from the set's accuracy."""
+    if "radii" not in table:
+        accuracy = as_double(entry(table, "accuracy", place), f"{place}.accuracy")
+        radii = np.nan_to_num(even_radii(points, accuracy), nan=np.inf, posinf=np.inf)
+        return radii, [DOUBLE] * len(points)
+    here, rows = f"{place}.radii", []
+    for i, row in enumerate(as_list(table["radii"], here)):
+        values = enumerate(as_list(row, f"{here}[{i}]"))
+        rows.append([as_double(value, f"{here}[{i}][{j}]") for j, value in values])
+    if [len(row) for row in rows] != [points.shape[1]] * len(points):
+        raise wrong(here, "as many numbers as the points have, in as many rows")
+    here = f"{place}.digits"
+    items = enumerate(as_list(entry(table, "digits", place), here))
+    digits = [as_count(value, f"{here}[{i}]", 1) for i, value in items]
+    if len(digits) != len(points):
+        raise wrong(here, "one number for each of the points")
+    radii = np.array(rows, dtype=float).reshape(points.shape)
+    radii[np.isnan(radii)] = np.inf
+    if (radii < 0).any():
+        raise wrong(f"{place}.radii", "numbers from 0 up")
+    return radii, digits
 
 
 def _images(

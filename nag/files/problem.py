@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
@@ -12,6 +12,7 @@ from nag.files.export import Origin
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.model import Model
+    from nag.witness.witness import Decomposition
 
 
 def system_of(case: Case, model: Model | None) -> PolynomialSystem:
@@ -20,6 +21,17 @@ def system_of(case: Case, model: Model | None) -> PolynomialSystem:
     if system is None:
         raise ValueError("a case without a system and without a mechanism")
     return system
+
+
+def decomposed(case: Case, model: Model | None, **options: Any) -> Decomposition:
+    """The components of what a case asks; options as of `nag.decomposition.decompose`."""
+    from nag.decomposition import decompose
+    from nag.mechanism.parts_decomposition import decompose_parts
+
+    options["symmetries"] = symmetries_of(case, model)
+    if case.assembly is not None:
+        return decompose_parts(case.assembly, **options)
+    return decompose(system_of(case, model), **options)
 
 
 def symmetries_of(case: Case, model: Model | None) -> tuple[SignedPermutation, ...]:

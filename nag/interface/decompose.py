@@ -60,15 +60,13 @@ def decompose(
     check_running(seed, threads, settings)
 
     from nag.decomposition.components import decompose as decompose_system
+    from nag.mechanism.parts_decomposition import decompose_parts
 
+    options: dict[str, Any] = {"seed": int(seed), "threads": int(threads), "settings": settings}
+    options |= {"progress": progress, "symmetries": kept}
     try:
-        return decompose_system(
-            problem.system,
-            seed=int(seed),
-            threads=int(threads),
-            settings=settings,
-            progress=progress,
-            symmetries=kept,
-        )
+        if problem.parts is not None:
+            return decompose_parts(problem.parts, **options)
+        return decompose_system(problem.system, **options)
     except SymmetryError as error:
         raise SymmetryError(f"symmetries: {error}") from None

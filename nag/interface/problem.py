@@ -17,10 +17,14 @@ SETTINGS = ("fast", "default", "careful")
 
 @dataclass(frozen=True)
 class Problem:
-    """An exact system, and signed permutations of its variables that keep it."""
+    """An exact system, signed permutations of its variables that keep it, and the parts it is of.
+
+    `parts` is the model of a case whose parts are not assembled.
+    """
 
     system: PolynomialSystem
     symmetries: tuple[SignedPermutation, ...] = ()
+    parts: Any = None
 
 
 def problem_of(given: Any, variables: Any = None) -> Problem:
@@ -42,7 +46,7 @@ def problem_of(given: Any, variables: Any = None) -> Problem:
         problem = (
             problem_of(given.mechanism)
             if given.system is None
-            else Problem(given.system, given.symmetries)
+            else Problem(given.system, given.symmetries, given.assembly)
         )
     elif _is(given, "networkx", "Graph"):
         raise ValueError(

@@ -17,10 +17,11 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.digits import number
-from nag.witness.cutting import ON, Cut, Equations, find_cut, sharpen
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.cutting import ON, Cut, Equations, find_cut
+from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
-from nag.witness.slices import padded, random_rows, rows_through, unit_complex
+from nag.witness.sampling import at_random
+from nag.witness.slices import padded, rows_through
 from nag.witness.witness import WitnessSet
 
 ATTEMPTS = 4
@@ -183,29 +184,21 @@ def samples(source: Source, count: int, rng: np.random.Generator, tracker: Track
     Raises:
         SourceError: if paths fail again and again, or end where the equations do not hold.
     """
-    d, n = source.dimension, source.system.n
-    owners = [(fibre, i) for fibre in source.fibres for i in range(len(fibre))]
+    n = source.system.n
     evaluator = Evaluator.of(source.system.polynomials, n)
     found: list[Sample] = []
     while len(found) < count:
-        for attempt in range(ATTEMPTS):
-            fibre, i = owners[int(rng.integers(len(owners)))]
-            target, gamma = random_rows(rng, d, n), complex(unit_complex(rng))
-            one = fibre.only(np.arange(len(fibre)) == i)
-            how = Tracker("careful" if attempt else tracker.settings, tracker.threads)
-            moved = move(one, source.rows, target, gamma, how)
-            if not moved.regular[0]:
-                continue
-            sharpened = sharpen(fibre.cut.evaluator, target, moved.points[0])
-            if sharpened.converged:
+        for how in tracker.attempts(ATTEMPTS):
+            target, there = at_random(source.fibres, source.rows, rng, how)
+            if len(there.x) and np.isfinite(there.accuracy):
                 break
         else:
             raise SourceError(f"{ATTEMPTS} paths to one point failed")
-        x = sharpened.z[:n]
-        if evaluator.residuals(x[None]).max(initial=0.0) > ON:
+        (fibre,) = there.fibres
+        if evaluator.residuals(fibre.x).max(initial=0.0) > ON:
             raise SourceError(
                 "some equations hold at the point alone and not on what moves through it: it is "
                 "singular; name a component"
             )
-        found.append(Sample(fibre.cut, target, sharpened.z))
+        found.append(Sample(fibre.cut, target, fibre.points[0]))
     return found

@@ -12,13 +12,17 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Sequence
 from functools import cache
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import Any
 
 import numpy as np
 
+from nag.machine_code.records import address
+
 LANES = 8
 ALIGNMENT = 64
+# Bytes of a vector.
+VECTOR = 8 * LANES
 
 
 def _vector(data: Any, index: int) -> np.ndarray:
@@ -88,11 +92,11 @@ def square_root(a: Any) -> Any:
 def aligned(vectors: int) -> np.ndarray:
     """A flat array of zeros for ``vectors`` vectors, aligned to 64 bytes."""
     raw = np.zeros(vectors * LANES + ALIGNMENT // 8)
-    offset = (-raw.ctypes.data % ALIGNMENT) // 8
+    offset = (-address(raw) % ALIGNMENT) // 8
     return raw[offset : offset + vectors * LANES]
 
 
 def separate(vectors: np.ndarray, sizes: Sequence[int]) -> list[np.ndarray]:
     """Parts of an `aligned` array with that many vectors each, one after the other."""
-    ends = LANES * np.cumsum([0, *sizes])
-    return [vectors[a:b] for a, b in pairwise(ends.tolist())]
+    ends = [0, *accumulate(sizes)]
+    return [vectors[LANES * a : LANES * b] for a, b in pairwise(ends)]

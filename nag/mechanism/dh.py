@@ -8,7 +8,7 @@ factors are constant, and the product has to be a real number (Hegedus, Schicho 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import acos, degrees, sqrt
@@ -138,6 +138,7 @@ class DHModel:
 
     reference = None
     symmetries = ()
+    formulation = "H"
 
     @property
     def reason(self) -> str:
@@ -159,20 +160,28 @@ class DHModel:
 
     def half_angles(self, point: Sequence[complex]) -> dict[str, tuple[complex, complex]]:
         """(c, s) of every open joint, up to scale each, at a solution of `system`."""
+        return self.turns([complex(x) for x in point], lambda c: complex(float(c)))
+
+    def turns(
+        self, point: Sequence[Any], convert: Callable[[Number], Any]
+    ) -> dict[str, tuple[Any, Any]]:
+        """(c, s) of every open joint in some arithmetic, into which ``convert`` takes numbers."""
+        one = convert(ONE)
         kept = [
-            (1 - float(k) * complex(x), float(k) + complex(x))
-            for k, x in zip(self.charts, point, strict=True)
+            (one - convert(k) * x, convert(k) + x) for k, x in zip(self.charts, point, strict=True)
         ]
-        factors = []
+        factors: list[Any] = []
         for (c, s), after in zip(kept, self.product, strict=True):
-            factors += [_turn(c, s), _numeric(after)]
+            factors += [_turn(c, s), tuple(tuple(map(convert, part)) for part in after)]
         flat = _flat(dual_conjugate(_product(factors)))
         w00, w10, w01, w11 = (
-            sum(float(y) * x for y, x in zip(row, flat, strict=True)) for row in self.coordinates
+            sum((convert(y) * x for y, x in zip(row, flat, strict=True)), 0 * one)
+            for row in self.coordinates
         )
         matrix = ((w00, w01), (w10, w11))
         row, column = max(
-            ((i, j) for i in (0, 1) for j in (0, 1)), key=lambda ij: abs(matrix[ij[0]][ij[1]])
+            ((i, j) for i in (0, 1) for j in (0, 1)),
+            key=lambda ij: abs(complex(matrix[ij[0]][ij[1]])),
         )
         ends = ((matrix[0][column], matrix[1][column]), matrix[row])
         numbers = (*self.kept, *self.eliminated)
@@ -189,7 +198,7 @@ def dh_model(loop: DHLoop) -> DHModel:
         raise DHError(
             f"{len(loop.open)} open angles; leave at least three open, or give all of them"
         )
-    numbers, links = _opened(loop)
+    numbers, links = opened(loop)
     shift, basis, regular = _eliminated(links)
     numbers = numbers[shift:] + numbers[:shift]
     links = links[shift:] + links[:shift]
@@ -252,7 +261,7 @@ def _gap(total: DualQuaternion) -> str:
     )
 
 
-def _opened(loop: DHLoop) -> tuple[tuple[int, ...], list[DualQuaternion]]:
+def opened(loop: DHLoop) -> tuple[tuple[int, ...], list[DualQuaternion]]:
     """The open joints, and all that is constant after each of them, as one factor."""
     start = loop.open[0]
     count = len(loop.rows)
@@ -319,10 +328,6 @@ def _product(factors: Sequence[DualQuaternion]) -> DualQuaternion:
 
 def _flat(x: DualQuaternion) -> list[Any]:
     return [entry for part in x for entry in part]
-
-
-def _numeric(x: DualQuaternion) -> DualQuaternion:
-    return tuple(float(y) for y in x[0]), tuple(float(y) for y in x[1])
 
 
 def _combine(row: Sequence[Number], flat: Sequence[Polynomial]) -> Polynomial:

@@ -123,6 +123,10 @@ class Framework:
                 return squared
         return None
 
+    def points_not_on(self, held: Sequence[str]) -> list[str]:
+        """The points that are not held, in order."""
+        return [p for p in self.points if p not in held]
+
     def infinitesimal_motions(self) -> int | None:
         """Velocities of the placement that keep all lengths, modulo motions; None without one."""
         if self.placement is None:

@@ -2,16 +2,17 @@
 
 In the plane the first bar is pinned to (0, 0) and (1, 0), and lengths count in multiples of its
 own. Frameworks that are given by lengths take isotropic coordinates there, z = x + iy and
-w = x - iy: a bar is (z - z')(w - w') = l^2, bilinear, and a realisation is real where w is the
-conjugate of z. In space a triangle is pinned. The frame is e1 along its first side, e2 across it in
-its plane, e3 across both, of whatever lengths make the equations rational where the squared lengths
-are.
+w = x - iy: either w is eliminated (`isotropic`), or a bar is (z - z')(w - w') = l^2, bilinear. A
+realisation is real where w is the conjugate of z. Where a placement is given, coordinates are its
+own, x and y, but components are found in z where that takes fewer paths. In space a triangle is
+pinned. The frame is e1 along its first side, e2 across it in its plane, e3 across both, of whatever
+lengths make the equations rational where the squared lengths are.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import sqrt
 from typing import Any
@@ -22,6 +23,8 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import cross, difference, dot
 from nag.mechanism.framework import Framework, FrameworkError, Place
+from nag.mechanism.isotropic import conjugates, isotropic_system
+from nag.mechanism.path_estimates import estimated_paths
 
 # Imaginary parts of real realisations, relative to the size of the point.
 REAL = 1e-8
@@ -34,10 +37,12 @@ class FrameworkModel:
     Attributes:
         framework: what is modelled.
         pinned: the points that are held: the ends of a bar, or a triangle.
-        coordinates: letters of each point's variables: ``"zw"``, ``"xy"`` or ``"xyz"``.
-        system: one equation for each bar that is not pinned.
+        coordinates: letters of each point's variables: ``"z"``, ``"zw"``, ``"xy"`` or ``"xyz"``.
+        system: one equation for each bar that is not pinned; in z one for each loop.
         reference: the placement in the system's variables, or None.
         symmetries: the reflection that keeps the pinned points.
+        smaller: the same framework in coordinates in which components are found by fewer paths.
+        instead: other coordinates, and how many paths they would take.
     """
 
     framework: Framework
@@ -46,22 +51,39 @@ class FrameworkModel:
     system: PolynomialSystem
     reference: tuple[Number, ...] | None
     symmetries: tuple[SignedPermutation, ...]
+    smaller: FrameworkModel | None = None
+    instead: tuple[str, int] | None = None
 
     @property
     def reason(self) -> str:
         """One sentence: what was made of the framework."""
         plane = self.framework.dimension == 2
-        letters = ", ".join(self.coordinates)
-        return (
+        text = (
             f"framework of {len(self.framework.points)} points and {len(self.framework.bars)} bars "
-            f"{'in the plane' if plane else 'in space'}; "
-            f"{'isotropic ' if self.coordinates == 'zw' else ''}coordinates ({letters}) of the "
+            f"{'in the plane' if plane else 'in space'}; {_in_words(self.coordinates)} of the "
             f"points, {'bar' if plane else 'triangle'} {'-'.join(self.pinned)} pinned"
         )
+        if self.instead is not None:
+            other, paths = self.instead
+            text += f": at most {self.paths} paths, {_in_words(other)} {paths}"
+        if self.smaller is not None:
+            text += (
+                f"; components are found in {_in_words(self.smaller.coordinates)}, at most "
+                f"{self.smaller.paths} paths instead of {self.paths}, and carried over"
+            )
+        return text
+
+    @property
+    def paths(self) -> int:
+        """Estimated number of paths that equation by equation are tracked at most."""
+        return min(estimated_paths(s) for s in (self.system, replace(self.system, groups=())))
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real realisation, to within rounding."""
         bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
+        if self.coordinates == "z":
+            pairs = zip(point, conjugates(self.framework, point), strict=True)
+            return all(abs(complex(z) - complex(w).conjugate()) <= bound for z, w in pairs)
         if self.coordinates != "zw":
             return all(abs(complex(x).imag) <= bound for x in point)
         pairs = zip(point[::2], point[1::2], strict=True)
@@ -82,10 +104,35 @@ def framework_model(framework: Framework) -> FrameworkModel:
         )
     if framework.dimension == 3:
         return _space_model(framework)
-    return _isotropic_model(framework) if framework.placement is None else _plane_model(framework)
+    if framework.placement is None:
+        return _isotropic_model(framework)
+    made = _plane_model(framework)
+    other = _by_places(framework)
+    return made if other is None or other.paths >= made.paths else replace(made, smaller=other)
+
+
+def _in_words(coordinates: str) -> str:
+    kind = "isotropic coordinates" if coordinates.startswith("z") else "coordinates"
+    letters = ", ".join(coordinates)
+    return f"{kind} {letters}" if len(coordinates) == 1 else f"{kind} ({letters})"
 
 
 def _isotropic_model(framework: Framework) -> FrameworkModel:
+    """In the isotropic coordinates that take fewer paths."""
+    made, other = _by_places(framework), _by_pairs(framework)
+    if made is None or made.paths > other.paths:
+        return other
+    return replace(made, instead=(other.coordinates, other.paths))
+
+
+def _by_places(framework: Framework) -> FrameworkModel | None:
+    system = isotropic_system(framework)
+    if system is None:
+        return None
+    return FrameworkModel(framework, framework.bars[0], "z", system, None, ())
+
+
+def _by_pairs(framework: Framework) -> FrameworkModel:
     pinned, unit = framework.bars[0], framework.squared_lengths[0]
     free, variables, names = _unknowns(framework, pinned, "zw")
     n = len(names)
@@ -99,6 +146,20 @@ def _isotropic_model(framework: Framework) -> FrameworkModel:
     system = PolynomialSystem(names, tuple(equations), groups=groups)
     # The reflection exchanges the groups, so it is no symmetry of multidegrees.
     return FrameworkModel(framework, pinned, "zw", system, None, ())
+
+
+def cartesian_system(framework: Framework) -> PolynomialSystem:
+    """The realisations in coordinates that are real where a realisation is.
+
+    Raises:
+        FrameworkError: as `framework_model` does.
+    """
+    if framework.dimension == 3:
+        return _space_model(framework).system
+    pinned, unit = framework.bars[0], framework.squared_lengths[0]
+    zero, one = Fraction(0), Fraction(1)
+    ends = {pinned[0]: (zero, zero), pinned[1]: (one, zero)}
+    return _metric_model(framework, pinned, ends, [unit, unit]).system
 
 
 def _plane_model(framework: Framework) -> FrameworkModel:
@@ -193,7 +254,7 @@ def _unknowns(
     framework: Framework, pinned: Sequence[str], letters: str
 ) -> tuple[list[str], tuple[Polynomial, ...], tuple[str, ...]]:
     """The points that are not pinned, their coordinates in order, and the names of these."""
-    free = [p for p in framework.points if p not in pinned]
+    free = framework.points_not_on(pinned)
     names = tuple(f"{letter}_{p}" for p in free for letter in letters)
     return free, Polynomial.variables(len(names)), names
 

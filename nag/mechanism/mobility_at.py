@@ -17,6 +17,7 @@ from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.dh import DHModel
+from nag.mechanism.dh_euler import DHEulerModel
 from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.joint_types import freedoms_in
@@ -25,6 +26,7 @@ from nag.mechanism.loops import loop_structure
 from nag.mechanism.mobility import gruebler_kutzbach
 from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model, model
+from nag.mechanism.parts_decomposition import decompose_parts
 from nag.numerics.local_dimension import local_dimension
 from nag.witness.expansion import expanded
 from nag.witness.witness import WitnessSet
@@ -75,13 +77,14 @@ class Subject:
             counted, what = parts.framework.freedoms, "of a framework"
         elif isinstance(parts, LinkageModel):
             space, counted, what = "planar", parts.linkage.gruebler_kutzbach, "of a linkage"
-        elif isinstance(parts, DHModel):
-            space, counted, what = "spatial", len(parts.loop.open) - 6, "of the closed table"
+        elif isinstance(parts, DHModel | DHEulerModel):
+            space, counted = "spatial", len(parts.loop.open) - 6
+            what = f"formulation {parts.formulation} of the closed table"
         else:
             raise ValueError(f"parts of type {type(parts).__name__} are not known")
         reference = None if parts.reference is None else tuple(parts.reference)
         symmetries = tuple(parts.symmetries)
-        return cls(parts.system, symmetries, reference, space, counted, what, 0, parts)
+        return cls(parts.system, symmetries, reference, space, counted, what, (), parts)
 
 
 def mobility(
@@ -174,13 +177,12 @@ def _components(
     subject: Subject, at: Sequence[Number], seed: int, threads: int, settings: str
 ) -> tuple[list[WitnessSet] | None, str]:
     """The components through a point, or why they are not known."""
-    found = decompose(
-        subject.system,
-        seed=seed,
-        threads=threads,
-        settings=settings,
-        symmetries=subject.symmetries,
-    )
+    options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
+    options["symmetries"] = subject.symmetries
+    if isinstance(subject.model, FrameworkModel):
+        found = decompose_parts(subject.model, **options)
+    else:
+        found = decompose(subject.system, **options)
     if not found.complete:
         return None, f"the decomposition is incomplete: {'; '.join(found.notes)}"
     through = through_points(found, [("the configuration", tuple(at))], threads)[0]

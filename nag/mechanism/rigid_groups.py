@@ -1,4 +1,8 @@
-"""Bodies that rigid joints tie together, taken as one body each."""
+"""Bodies that rigid joints tie together, taken as one body each.
+
+Triangles of bodies and the like are left as they are: each of their assemblies belongs to other
+components. In half-angles a planar triangle's equation factors, so that exact algebra takes it out.
+"""
 
 from __future__ import annotations
 

@@ -8,17 +8,19 @@ from math import inf
 import flint
 import numpy as np
 
-from nag.numerics.deflation import DIGITS, Deflated, Point, Round, descend
+from nag.numerics.deflation import Deflated
+from nag.numerics.descent import Point, Round, descend
 from nag.numerics.digits import log_size, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.series_zeros import ScaledSeries
+from nag.numerics.sharpening import DIGITS
 
 # Random starts for each zero that a cluster in several variables may have.
 STARTS, MOST_STARTS = 12, 400
 # Starts that lead to points nearer to each other than this, beside the cluster's size, are not
 # followed twice; points are compared again when they are known to all digits.
-SAME = 1e-5
+ALIKE = 1e-5
 
 
 def close_zeros(
@@ -37,8 +39,7 @@ def close_zeros(
     if not found.corank or not order:
         return
     with working(DIGITS):
-        rows = system.at(DIGITS)
-        descent = descend(rows, found.point, [first], order)
+        descent = descend(system, DIGITS, found.point, [first], order)
         assert descent is not None
         size = _size(descent.ring, descent.remaining, order)
         if not size < reach + 1:
@@ -47,7 +48,7 @@ def close_zeros(
         scale = flint.arb(10) ** flint.arb(size)
         for u in _zeros(scaled, order, rng):
             along = [flint.acb(complex(c)) * scale for c in u]
-            step = descend(rows, found.point, [first], order, along)
+            step = descend(system, DIGITS, found.point, [first], order, along)
             if step is not None:
                 yield [a + b for a, b in zip(found.point, step.displacement, strict=True)], size
 
@@ -73,6 +74,6 @@ def _zeros(scaled: ScaledSeries, order: int, rng: np.random.Generator) -> Iterat
         u = scaled.newton(start)
         if u is None or np.abs(u).max() > 100:
             continue
-        if all(np.abs(u - v).max() > SAME for v in known):
+        if all(np.abs(u - v).max() > ALIKE for v in known):
             known.append(u)
             yield u

@@ -1,4 +1,8 @@
-"""Points that coincide within their errors, found among neighbours in a projection."""
+"""Points that coincide within their errors: balls about them that meet.
+
+Errors are estimates, so that the balls are larger than these by a factor. Of many points those that
+coincide are found among neighbours in a projection.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +10,28 @@ from collections.abc import Iterator
 
 import numpy as np
 
-# End points that are closer than this (relative) are one; distinct solutions hardly ever are.
-SAME = 1e-8
+# Estimated errors of points may be too small by this factor, and errors in doubles that are
+# smaller than LEAST, relative to the point, are not believed.
+SAFETY, LEAST = 1e2, 1e-11
+# Ends of paths that may have led to a known point: nearer than HIT they have, or than errors
+# explain; beyond MISS, and beyond so many times the errors, they have not.
+HIT, MISS, BEYOND = 1e-8, 1e-5, 1e4
+
+
+def reach(points: np.ndarray, errors: np.ndarray | float) -> np.ndarray:
+    """Radii of the balls that points lie in, from their relative errors, shape ``(P,)``."""
+    return SAFETY * np.maximum(LEAST, errors) * (1 + np.linalg.norm(points, axis=1))
+
+
+def coincident(points: np.ndarray, x: np.ndarray, error: np.ndarray | float) -> np.ndarray:
+    """Which points may be the one at ``x``, as booleans of shape ``(P,)``.
+
+    Args:
+        points: shape ``(P, n)``.
+        x: shape ``(n,)``.
+        error: the larger one of the relative errors, of all points together or of each.
+    """
+    return np.linalg.norm(points - x, axis=1) <= reach(x[None], error)
 
 
 def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
@@ -32,16 +56,26 @@ def neighbours(key: np.ndarray, width: np.ndarray) -> Iterator[tuple[np.ndarray,
             yield order[near], order[near + apart]
 
 
-def clusters(points: np.ndarray, accuracy: np.ndarray, floor: float = SAME) -> list[np.ndarray]:
+def compared(distances: np.ndarray, errors: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
+    """Which ends of paths have led to a known point, and of which that is not clear.
+
+    Args:
+        distances: from the point, relative to its size, shape ``(P,)``.
+        errors: the larger ones of the relative errors of the ends and of the point.
+    """
+    same = distances < np.maximum(HIT, SAFETY * errors)
+    return same, ~same & (distances < np.maximum(MISS, BEYOND * errors))
+
+
+def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
     """Indices of points that coincide within their errors, a cluster each, in the points' order.
 
     Args:
         points: complex, shape ``(P, n)``.
         accuracy: relative errors, shape ``(P,)``.
-        floor: relative distance below which points coincide whatever their accuracy.
     """
     count, n = points.shape
-    tolerance = np.maximum(floor, 1e2 * accuracy) * (1 + np.linalg.norm(points, axis=1))
+    tolerance = reach(points, accuracy)
     label = np.arange(count)
 
     def root(i: int) -> int:
@@ -76,7 +110,7 @@ def conjugates_present(
     """
     taken = real.copy()
     n = points.shape[1]
-    tolerance = np.maximum(SAME, 2e2 * accuracy) * (1 + np.linalg.norm(points, axis=1))
+    tolerance = 2 * reach(points, accuracy)
     # Conjugate points share their real parts.
     weights = np.exp(1j * np.arange(1, n + 1) ** 2).real
     for i, j in neighbours(points.real @ weights, np.sqrt(n) * tolerance):

@@ -8,29 +8,21 @@ from math import inf
 import flint
 import numpy as np
 
-from nag.numerics.deflation import (
-    DIGITS,
-    MOST_WORK_ROUGHLY,
-    Deflated,
-    Descent,
-    NotDeflated,
-    Point,
-    Round,
-    deflate,
-    descend,
-    sharpen,
-    work,
-)
+from nag.numerics.deflation import MOST_WORK_ROUGHLY, Deflated, NotDeflated, deflate
+from nag.numerics.descent import Point, Round, work
 from nag.numerics.digits import LOG10_2, log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
+from nag.numerics.implicit_function import Reduction, eliminate
+from nag.numerics.power_series import evaluate
 from nag.numerics.series_zeros import ScaledSeries
+from nag.numerics.sharpening import DIGITS, predicted, sharpen
 
 # Orders of contact that are seen: all that are possible where there are at most so many zeros,
 # else this one, or the largest degree of an equation. Isolated zeros beside which the equations
 # vanish along some curve to a higher order are not told from others.
-ALL_OF, HIGHEST_CONTACT = 1000, 200
-# Binary logarithms of distances at which a smooth set of zeros is followed, each taken twice; the
-# smaller ones where it bends too much.
+ALL_OF, HIGHEST_CONTACT = 2000, 400
+# Binary logarithms of distances at which a smooth set of zeros is followed; the smaller ones where
+# it bends too much.
 NEAR = (7, 24, 48)
 STEP = 3
 # How many digits smaller than their distance the errors of points there may be, in this order:
@@ -53,25 +45,24 @@ def digits_at(system: ExactSystem, k: int) -> int:
 def smooth_set(system: ExactSystem, point: Point, rounds: Sequence[Round]) -> float:
     """Whether the equations vanish along the smooth set that the rounds leave: 0 if they do.
 
-    They are evaluated at points of the set, at two distances r and to as many digits that r to the
+    They are evaluated at a point of the set, at a distance r and to as many digits that r to the
     power of any possible multiplicity would be seen. If they do not vanish, the order to which they
-    do is returned, roughly; ``inf`` where no further points were found.
+    do is returned, roughly, by a second distance; ``inf`` where no further points were found.
     """
     for k in NEAR:
-        first = _values(system, point, rounds, k, LEAST_DIGITS)
+        digits = LEAST_DIGITS
+        first = _values(system, point, rounds, k, digits)
+        if first is not None and first < -VANISHING * digits:
+            digits = max(digits, digits_at(system, k))
+            if digits > LEAST_DIGITS:
+                first = _values(system, point, rounds, k, digits)
+            if first is not None and first < -VANISHING * digits:
+                return 0.0
         if first is None:
             continue
-        digits = digits_at(system, k + STEP)
-        if first >= -VANISHING * LEAST_DIGITS:
-            digits = LEAST_DIGITS
-        elif digits > LEAST_DIGITS:
-            first = _values(system, point, rounds, k, digits)
         second = _values(system, point, rounds, k + STEP, digits)
-        if first is None or second is None:
-            continue
-        if max(first, second) < -VANISHING * digits:
-            return 0.0
-        return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
+        if second is not None:
+            return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
     return inf
 
 
@@ -79,13 +70,13 @@ def _values(
     system: ExactSystem, point: Point, rounds: Sequence[Round], k: int, digits: int
 ) -> float | None:
     """Decimal logarithm of the equations' values on the set at distance 2^-k; None if not found."""
-    with working(digits):
+    with working(LEAST_DIGITS):
         left = len(point) - sum(len(r.columns) for r in rounds)
         along = [flint.acb(1, i + 1) / 2**k / (i + 2) for i in range(left)]
-        step = descend(system.at(digits), point, rounds, 2, along)
-        if step is None:
-            return None
-        start = [a + b for a, b in zip(point, step.displacement, strict=True)]
+        start = predicted(system, point, rounds, along)
+    if start is None:
+        return None
+    with working(digits):
         found = sharpen(system, start, rounds, digits)
         if found is None:
             return None
@@ -109,12 +100,13 @@ def curve_through(
     while order > 2 and work(found.corank, order, [first]) > MOST_WORK_ROUGHLY:
         order -= 1
     with working(DIGITS):
-        descent = descend(system.at(DIGITS), found.point, [first], order)
-        assert descent is not None
+        slopes, rows = system.values_at(DIGITS).jacobian, system.at(DIGITS)
+        series = eliminate(rows, found.point, first.rows, first.columns, order, slopes=slopes)
+        assert series is not None
         for attempt in range(attempts):
             begin = DISTANCES[: 2 if attempt % 2 else 1]
             plane = np.rint(64 * rng.normal(size=(2, found.corank))) / 64
-            dimension = _followed(system, found, descent, begin[-1], plane[0] + 1j * plane[1], rng)
+            dimension = _followed(system, found, series, begin[-1], plane[0] + 1j * plane[1], rng)
             if dimension:
                 return dimension
     return 0
@@ -123,7 +115,7 @@ def curve_through(
 def _followed(
     system: ExactSystem,
     found: Deflated,
-    descent: Descent,
+    series: Reduction,
     begin: int,
     plane: np.ndarray,
     rng: np.random.Generator,
@@ -131,11 +123,13 @@ def _followed(
     u = rng.normal(size=found.corank) + 1j * rng.normal(size=found.corank)
     dimension = 0
     for k in [k for k in DISTANCES if k >= begin]:
-        scaled = ScaledSeries.of(descent.ring, descent.remaining, -k * LOG10_2)
+        scaled = ScaledSeries.of(series.ring, series.rest, -k * LOG10_2)
         u = scaled.newton(u / (plane @ u), plane)
         if u is None or np.abs(u).max() > 1e3:
             return 0
-        dimension = _on_hyperplane(system, found, u, k, plane, rng, k == begin)
+        along = [flint.acb(complex(c)) / 2**k for c in u]
+        start = [middle(flint.acb(evaluate(f, series.ring, along))) for f in series.images]
+        dimension = _on_hyperplane(system, found, start, k, plane, rng, k == begin)
         if not dimension:
             return 0
     return dimension
@@ -144,24 +138,19 @@ def _followed(
 def _on_hyperplane(
     system: ExactSystem,
     found: Deflated,
-    u: np.ndarray,
+    start: Point,
     k: int,
     plane: np.ndarray,
     rng: np.random.Generator,
     proof: bool,
 ) -> int:
-    """Dimension of the exact zeros at ``u`` on the hyperplane at distance 2^-k; 0 if none is there.
+    """Dimension of the exact zeros by ``start`` on the hyperplane at distance 2^-k; 0 if none.
 
     It counts the direction away from the hyperplane. With ``proof``, they are zeros to so many
     digits that an isolated zero of any possible multiplicity could not make them vanish.
     """
     first = Round(found.rounds[0].rows, found.rounds[0].columns)
     free = [i for i in range(system.n) if i not in first.columns]
-    along = [flint.acb(complex(c)) / 2**k for c in u]
-    step = descend(system.at(DIGITS), found.point, [first], 4, along)
-    if step is None:
-        return 0
-    start = [a + b for a, b in zip(found.point, step.displacement, strict=True)]
     weights = [flint.acb(complex(c)) for c in plane]
     constant = -flint.acb(1) / 2**k
     for i, w in zip(free, weights, strict=True):

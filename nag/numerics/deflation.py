@@ -18,63 +18,28 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from math import comb, inf, log10
+from typing import Any
 
 import flint
 import numpy as np
 
+from nag.numerics.descent import Descent, Point, Round, descend, total_order, work
 from nag.numerics.digits import log_norm, log_size, middle, working
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.implicit_function import eliminate, jacobian
+from nag.numerics.implicit_function import jacobian
 from nag.numerics.pivots import pivots
-from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives, evaluate
+from nag.numerics.power_series import Series, SeriesRing, derivatives
+from nag.numerics.sharpening import ARRIVED, DIGITS, ROUNDING, ZERO, sharpen
 
-Point = list[flint.acb]
-
-# Digits in which singular points are judged. What vanishes there stays below 10^ZERO, relative to
-# coefficients of one; Newton's method has arrived when its step is below 10^ARRIVED.
-DIGITS, ZERO, ARRIVED = 150, -100.0, -125.0
-NEWTON_STEPS = 24
-# Inverse blocks with larger entries (decimal logarithm) are rounding, or the zero is not regular.
-LARGEST_INVERSE = 70.0
-# What rounding adds to a value (decimal logarithm): Newton's step cannot become smaller than this
-# times the inverse.
-ROUNDING = 10.0
 # Orders of the series in which the lowest terms of what remains are looked for, one after the
 # other, while they do not cost too much: where all terms so far are zero, and where they are not,
 # as at a point that is not known well.
 ORDERS = (3, 6, 12, 24, 48, 96, 192, 384)
 MOST_WORK, MOST_WORK_ROUGHLY = 1e6, 1.5e5
-
-
-@dataclass(frozen=True)
-class Round:
-    """One round: equations and variables solved for, and the order of what remains (0: unknown)."""
-
-    rows: tuple[int, ...]
-    columns: tuple[int, ...]
-    order: int = 0
-
-
-@dataclass(frozen=True, eq=False)
-class Descent:
-    """What all rounds say of a point.
-
-    Attributes:
-        displacement: Newton's step, for each variable.
-        ring, remaining: the equations that remain after the last round, in the variables that are
-            left there.
-        defect: decimal logarithm of the largest coefficient that should vanish.
-        inverse: decimal logarithm of the largest entry of an inverse block.
-    """
-
-    displacement: Point
-    ring: SeriesRing
-    remaining: list[Series]
-    defect: float
-    inverse: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,79 +71,6 @@ class NotDeflated(Exception):
     """Deflation did not succeed, for the reason that the text says."""
 
 
-def total_order(rounds: Sequence[Round], order: int) -> int:
-    """The order of the first round's series so that the last has one of that order."""
-    return order + sum(r.order - 1 for r in rounds if r.order)
-
-
-def work(m: int, order: int, rounds: Sequence[Round]) -> float:
-    """Products of coefficients that one monomial's series in ``m`` variables costs, roughly."""
-    return comb(2 * m + order, order) * (1 + order / 4 * bool(rounds[0].columns))
-
-
-def descend(
-    rows: Sequence[Terms],
-    centre: Sequence[flint.acb | int],
-    rounds: Sequence[Round],
-    order: int,
-    along: Sequence[flint.acb] | None = None,
-) -> Descent | None:
-    """Newton's step for all rounds at once, and what remains after them as series.
-
-    Args:
-        order: of the series of what remains after the last round.
-        along: displacements of the variables that the rounds do not determine; default zero.
-    """
-    this = rounds[0]
-    total = total_order(rounds, order)
-    reduction = eliminate(rows, centre, this.rows, this.columns, total)
-    if reduction is None:
-        return None
-    ring, rest = reduction.ring, reduction.rest
-    low = max(this.order, 1)
-    defect = log_norm(c for s in rest for k, c in s.items() if ring.degree(k) < low)
-    inverse = reduction.inverse
-    if len(rounds) > 1 and ring.m:
-        derived = derivatives(rest, ring, this.order - 1)
-        below = descend(derived, [0] * ring.m, rounds[1:], order, along)
-        if below is None:
-            return None
-        v, remaining, last = below.displacement, below.remaining, below.ring
-        defect, inverse = max(defect, below.defect), max(inverse, below.inverse)
-    else:
-        v = list(along) if along is not None else [flint.acb(0)] * ring.m
-        remaining, last = rest, ring
-    displacement = [
-        flint.acb(evaluate(image, ring, v)) - c
-        for image, c in zip(reduction.images, centre, strict=True)
-    ]
-    return Descent(displacement, last, remaining, defect, inverse)
-
-
-def sharpen(
-    system: ExactSystem, x: Sequence[flint.acb], rounds: Sequence[Round], digits: int = DIGITS
-) -> tuple[Point, Descent] | None:
-    """The zero of the rounds' equations next to ``x``, by Newton's method; None if not found."""
-    rows, last, point = system.at(digits), inf, list(x)
-    # The steps converge quadratically with series of order one in the last round, and cubically,
-    # but at the price of longer series, with order two.
-    corank = len(point) - len(rounds[0].columns)
-    order = 0 if len(rounds) == 1 else 2 if corank < 3 else 1
-    for step in range(NEWTON_STEPS):
-        found = descend(rows, point, rounds, order)
-        if found is None or found.inverse > LARGEST_INVERSE:
-            return None
-        size = log_norm(found.displacement)
-        arrived = max(ARRIVED + DIGITS, ROUNDING + found.inverse) - digits
-        if size > -0.3 or (step > 3 and size > last - 1.0 and size > arrived):
-            return None
-        point = [middle(a + b) for a, b in zip(point, found.displacement, strict=True)]
-        if size < arrived:
-            return point, found
-        last = size
-    return None
-
-
 def lowest_order(ring: SeriesRing, series: Sequence[Series], reach: float) -> int | None:
     """The degree of the lowest terms at a zero no further from the origin than ``reach``.
 
@@ -204,7 +96,10 @@ def lowest_order(ring: SeriesRing, series: Sequence[Series], reach: float) -> in
 
 
 def regular_block(
-    rows: Sequence[Terms], centre: Point, reach: float, rng: np.random.Generator
+    slopes: Callable[[Point], list[list[Any]]],
+    centre: Point,
+    reach: float,
+    rng: np.random.Generator,
 ) -> Round:
     """The largest block of the Jacobian that is regular at all points within ``reach``."""
     n = len(centre)
@@ -216,7 +111,7 @@ def regular_block(
         if i:
             moves = shifts[i - 1].tolist()
             point = [c + middle(size * flint.acb(s)) for c, s in zip(centre, moves, strict=True)]
-        return jacobian(rows, point)
+        return slopes(point)
 
     solved, columns = pivots(at, n, len(shifts), ZERO)
     return Round(tuple(solved), tuple(columns))
@@ -241,10 +136,10 @@ def deflate(
     """
     with working(DIGITS):
         rounds: list[Round] = []
-        rows: Sequence[Terms] = system.at(DIGITS)
+        slopes: Callable[[Point], list[list[Any]]] = system.values_at(DIGITS).jacobian
         point, centre = list(x), list(x)
         while True:
-            rounds.append(regular_block(rows, centre, reach, rng))
+            rounds.append(regular_block(slopes, centre, reach, rng))
             left = len(centre) - len(rounds[-1].columns)
             if len(rounds) > 1 and left == len(centre):
                 raise NotDeflated("its error is too large to see which derivatives vanish there")
@@ -262,6 +157,7 @@ def deflate(
             order, descent = lowest
             rounds[-1] = replace(rounds[-1], order=order)
             rows = derivatives(descent.remaining, descent.ring, order - 1)
+            slopes = partial(jacobian, rows)
             centre = [flint.acb(0)] * left
 
 
@@ -292,7 +188,7 @@ def _lowest_terms(
             continue
         if work(len(point) - len(rounds[0].columns), total_order(rounds, order), rounds) > most:
             raise NotDeflated(f"its series in {left} variables are too long at order {order}")
-        descent = descend(system.at(DIGITS), point, rounds, order)
+        descent = descend(system, DIGITS, point, rounds, order)
         assert descent is not None
         found = lowest_order(descent.ring, descent.remaining, reach)
         if found is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from fractions import Fraction
+from math import log10
 
 import flint
 import numpy as np
@@ -12,6 +13,8 @@ import numpy as np
 from nag.algebra.number import Number, to_mpf
 
 LOG10_2 = 0.30102999566398120
+# Absolute values between these are doubles to full precision.
+SMALLEST, LARGEST = 1e-290, 1e290
 
 
 def working(digits: int) -> AbstractContextManager[object]:
@@ -44,7 +47,7 @@ def point(x: Iterable[complex | str | tuple[str, str] | flint.acb]) -> list[flin
 
 def middle(z: flint.acb) -> flint.acb:
     """The midpoint of a ball, as an exact number."""
-    return flint.acb(z.real.mid(), z.imag.mid())
+    return z.mid()
 
 
 def _log2(a: flint.arb) -> float:
@@ -56,6 +59,9 @@ def log_size(z: flint.acb | int) -> float:
     """The decimal logarithm of ``|z|`` to within a factor of three; also beyond doubles' range."""
     if isinstance(z, int):
         return LOG10_2 * z.bit_length() if z else -np.inf
+    size = abs(complex(z))
+    if SMALLEST < size < LARGEST:
+        return log10(size)
     return LOG10_2 * max(_log2(z.real), _log2(z.imag))
 
 

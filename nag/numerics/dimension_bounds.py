@@ -11,26 +11,22 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.algebra.elimination import Elimination
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.algebraic_point import prime_images
 from nag.numerics.curves import curve_through
-from nag.numerics.deflation import (
-    DIGITS,
-    MOST_WORK,
-    Deflated,
-    Round,
-    sharpen,
-    work,
-)
+from nag.numerics.deflation import MOST_WORK, Deflated
+from nag.numerics.descent import Round, work
 from nag.numerics.digits import doubles, middle, number, working
 from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import LocalDimension
-from nag.numerics.local_structure import HIGHEST, NUMBERS, decimal
+from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, decimal
 from nag.numerics.located_zero import Zero, is_exact, located_zero
 from nag.numerics.null_space import Field, PrimeField, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, Terms
+from nag.numerics.sharpening import DIGITS, sharpen
 
 # Degrees of the dual space from which on sets of zeros through the point are looked for, if it has
 # not become smaller for two degrees.
@@ -74,6 +70,41 @@ def bounds(
         sharpened = [c * f for c, f in zip(zero.found.point, factors, strict=True)]
         digits = tuple((decimal(c.real), decimal(c.imag)) for c in sharpened)
         return replace(answer, point=doubles(sharpened), digits=digits)
+
+
+def reduced_bounds(
+    elimination: Elimination,
+    point: Sequence[Any],
+    error: float | None,
+    rng: np.random.Generator,
+) -> LocalDimension | None:
+    """`bounds` where linear equations have been solved: the local ring stays the same.
+
+    None if these equations lead further away from a rounded point than it may be off.
+    """
+    kept = elimination.project(point)
+    if error is not None:
+        given = np.array([complex(c) for c in point])
+        moved = np.abs(np.array([complex(c) for c in elimination.lift(kept)]) - given)
+        reach = 10.0 ** min(error + max(REACHES), max(FURTHEST, error))
+        if (moved > reach * np.maximum(1.0, np.abs(given))).any():
+            return None
+    found = bounds(elimination.system.polynomials, kept, error, rng)
+    if not found.digits:
+        return replace(found, point=np.array([complex(c) for c in elimination.lift(found.point)]))
+    with working(DIGITS):
+        precise = [flint.acb(flint.arb(re), flint.arb(im)) for re, im in found.digits]
+        lifted = [_value(image, precise) for image in elimination.images]
+        digits = tuple((decimal(c.real), decimal(c.imag)) for c in lifted)
+        return replace(found, point=doubles(lifted), digits=digits)
+
+
+def _value(image: Polynomial, point: Sequence[flint.acb]) -> flint.acb:
+    """The value of a polynomial of degree one."""
+    total = flint.acb(0)
+    for e, c in image.terms.items():
+        total = total + number(c) * (point[e.index(1)] if any(e) else 1)
+    return total
 
 
 def _at_zero(zero: Zero, rng: np.random.Generator) -> LocalDimension:

@@ -41,13 +41,26 @@ class DualSpace:
         return sum(self.hilbert)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class _Basis:
-    """Functionals, their leading monomials, and what multiplication with each variable makes."""
+    """Functionals so far: those of the last degree are added at the end.
 
-    functionals: list[Series]
+    Attributes:
+        keys: monomials that have a weight in some functional, and their places.
+        functionals: the weights of each, as many as ``keys``.
+        leading: for each functional a monomial that has weight 1 there and 0 in those added with
+            it and after it.
+        shifts: for each variable, what multiplication with it makes of each functional.
+    """
+
+    keys: dict[int, int]
+    functionals: list[list[Any]]
     leading: list[int]
-    shifts: list[list[dict[int, Any]]]
+    shifts: list[list[list[Any]]]
+
+    @property
+    def size(self) -> int:
+        return len(self.functionals)
 
 
 def dual_space(
@@ -69,7 +82,7 @@ def dual_space(
     Raises:
         nag.numerics.null_space.UnclearRank: if a rank cannot be read.
     """
-    basis = _Basis([{0: 1}], [0], [[{} for _ in range(m)]])
+    basis = _Basis({0: 0}, [[1]], [0], [[[0]] for _ in range(m)])
     hilbert = [1]
     ring, equations = series(min(2, highest))
     for degree in range(1, highest + 1):
@@ -89,80 +102,88 @@ def _next(
     field: Field, ring: SeriesRing, equations: Sequence[Series], basis: _Basis
 ) -> list[list[Any]]:
     """New functionals, each as the coefficients of its shifts in the basis."""
-    s, m = len(basis.functionals), ring.m
+    s, m = basis.size, ring.m
+    turned = [[list(row) for row in zip(*shift, strict=True)] for shift in basis.shifts]
     rows: list[list[Any]] = []
     for first, second in combinations(range(m), 2):
-        commute: dict[int, list[Any]] = {}
-        for i in range(s):
-            for place, other, sign in ((first, second, 1), (second, first, -1)):
-                for j, c in basis.shifts[i][other].items():
-                    row = commute.setdefault(j, [0] * (s * m))
-                    row[place * s + i] = row[place * s + i] + sign * c
-        rows.extend(commute.values())
-    for f in equations:
-        rows.append(_weights(ring, basis, f))
+        between, after = [0] * ((second - first - 1) * s), [0] * ((m - second - 1) * s)
+        for plus, minus in zip(turned[second], turned[first], strict=True):
+            if any(plus) or any(minus):
+                negative = [-c if c else 0 for c in minus]
+                rows.append([0] * (first * s) + plus + between + negative + after)
+    rows += _weights(field, ring, basis, equations)
     for key in basis.leading[1:]:
-        rows.append(_weights(ring, basis, {key: 1}))
+        row: list[Any] = [0] * (s * m)
+        k = _first(ring, key)
+        place = basis.keys.get(key - ring.unit(k))
+        if place is not None:
+            row[k * s : (k + 1) * s] = [weights[place] for weights in basis.functionals]
+        rows.append(row)
     return field.null_space(rows, s * m)
 
 
-def _weights(ring: SeriesRing, basis: _Basis, f: Series) -> list[Any]:
-    """What a functional makes of ``f``, as a linear form in the coefficients of its shifts."""
-    s = len(basis.functionals)
-    row: list[Any] = [0] * (s * ring.m)
-    lowered: list[dict[int, Any]] = [{} for _ in range(ring.m)]
-    for key, c in f.items():
-        if key:
-            k = next(i for i, e in enumerate(ring.exponents(key)) if e)
-            lowered[k][key - ring.unit(k)] = c
-    for k, part in enumerate(lowered):
-        for i, functional in enumerate(basis.functionals):
-            short, long = sorted((part, functional), key=len)
-            total = sum((c * long[key] for key, c in short.items() if key in long), 0)
-            row[k * s + i] = total % ring.modulus if ring.modulus else total
-    return row
+def _first(ring: SeriesRing, key: int) -> int:
+    """The first variable in a monomial."""
+    return next(i for i, e in enumerate(ring.exponents(key)) if e)
+
+
+def _weights(
+    field: Field, ring: SeriesRing, basis: _Basis, equations: Sequence[Series]
+) -> list[list[Any]]:
+    """What a functional makes of equations, as linear forms in the coefficients of its shifts."""
+    m, count = ring.m, len(equations)
+    # A monomial counts for its first variable, taken out of it.
+    lowered: list[list[Any]] = [[0] * (m * count) for _ in basis.keys]
+    first: dict[int, int] = {}
+    for number, f in enumerate(equations):
+        for key, c in f.items():
+            if not key:
+                continue
+            k = first.setdefault(key, -1)
+            if k < 0:
+                k = first[key] = _first(ring, key)
+            place = basis.keys.get(key - ring.unit(k))
+            if place is not None:
+                lowered[place][number * m + k] = c
+    found = field.product(basis.functionals, lowered)
+    columns = list(zip(*found, strict=True))
+    return [
+        [c for k in range(m) for c in columns[number * m + k]] for number in range(count) if columns
+    ]
 
 
 def _extend(field: Field, ring: SeriesRing, basis: _Basis, found: list[list[Any]]) -> None:
     """Add the functionals with these shifts, reduced so that each has a monomial of its own."""
-    s, m = len(basis.functionals), ring.m
-    new: list[tuple[Series, list[Any]]] = []
-    for vector in found:
-        functional: Series = {}
-        for k in range(m):
-            for i, other in enumerate(basis.functionals):
-                weight = vector[k * s + i]
-                if not weight:
-                    continue
-                for key, c in other.items():
-                    if any(ring.exponents(key)[:k]):
-                        continue
-                    raised = key + ring.unit(k)
-                    total = functional.get(raised, 0) + weight * c
-                    functional[raised] = total % ring.modulus if ring.modulus else total
-        new.append((functional, list(vector)))
-    for place in range(len(new)):
-        functional, vector = new[place]
-        keys = list(functional)
-        lead = keys[field.largest([functional[k] for k in keys])]
-        inverse = field.inverse(functional[lead])
-        functional = {k: _times(c, inverse, ring) for k, c in functional.items()}
-        vector = [_times(c, inverse, ring) for c in vector]
-        new[place] = functional, vector
-        basis.leading.append(lead)
-        for other in range(len(new)):
-            if other != place and new[other][0].get(lead):
-                factor = new[other][0][lead]
-                ring.add(new[other][0], functional, -factor)
-                new[other][0][lead] = 0
-                moved = zip(new[other][1], vector, strict=True)
-                reduced = [_times(1, a - factor * b, ring) for a, b in moved]
-                new[other] = new[other][0], reduced
-    for functional, vector in new:
-        basis.functionals.append({k: c for k, c in functional.items() if c})
-        parts = [vector[k * s : (k + 1) * s] for k in range(m)]
-        basis.shifts.append([{i: c for i, c in enumerate(part) if c} for part in parts])
-
-
-def _times(a: Any, b: Any, ring: SeriesRing) -> Any:
-    return a * b % ring.modulus if ring.modulus else a * b
+    s, m = basis.size, ring.m
+    keys: dict[int, int] = {}
+    moves: list[list[tuple[int, int]]] = []
+    for k in range(m):
+        here = [(p, key) for key, p in basis.keys.items() if not any(ring.exponents(key)[:k])]
+        moves.append([(p, keys.setdefault(key + ring.unit(k), len(keys))) for p, key in here])
+    rows = [[*[0] * len(keys), *vector] for vector in found]
+    for k in range(m):
+        part = field.product([v[k * s : (k + 1) * s] for v in found], basis.functionals)
+        for row, weights in zip(rows, part, strict=True):
+            for source, target in moves[k]:
+                if weights[source]:
+                    row[target] = row[target] + weights[source]
+    rows, pivots = field.reduced(rows, len(keys))
+    names = list(keys)
+    basis.leading.extend(names[p] for p in pivots)
+    for key in names:
+        basis.keys.setdefault(key, len(basis.keys))
+    width = len(basis.keys)
+    for weights in basis.functionals:
+        weights.extend([0] * (width - len(weights)))
+    places = [basis.keys[key] for key in names]
+    for shift in basis.shifts:
+        for line in shift:
+            line.extend([0] * len(rows))
+    for row in rows:
+        weights = [0] * width
+        for place, c in zip(places, row, strict=False):
+            weights[place] = c
+        basis.functionals.append(weights)
+        for k, shift in enumerate(basis.shifts):
+            start = len(keys) + k * s
+            shift.append([*row[start : start + s], *[0] * len(rows)])

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from math import floor, log2, prod
+from math import floor, lcm, log2, prod
 from typing import Any
 
 import flint
@@ -15,6 +15,7 @@ import numpy as np
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.digits import log_norm, number
+from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Terms
 
 
@@ -32,6 +33,7 @@ class ExactSystem:
     rows: tuple[tuple[tuple[tuple[int, ...], Any], ...], ...]
     scales: tuple[int, ...]
     _known: dict[int, list[Terms]] = field(default_factory=dict, repr=False)
+    _values: dict[int, PointValues] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(
@@ -60,6 +62,13 @@ class ExactSystem:
             with flint.ctx.workdps(digits):
                 self._known[digits] = [[(e, number(c)) for e, c in row] for row in self.rows]
         return self._known[digits]
+
+    def values_at(self, digits: int) -> PointValues:
+        """The rows as functions at points of so many digits."""
+        if digits not in self._values:
+            with flint.ctx.workdps(digits):
+                self._values[digits] = PointValues.of(self.at(digits), self.n)
+        return self._values[digits]
 
     def modulo(self, p: int) -> list[Terms]:
         """The rows modulo a prime.
@@ -90,7 +99,7 @@ class ExactSystem:
     def log_residual(self, y: Sequence[flint.acb], digits: int) -> float:
         """Decimal logarithm of the largest value at a point of so many digits."""
         with flint.ctx.workdps(digits):
-            return log_norm(_value(row, y) for row in self.at(digits))
+            return log_norm(self.values_at(digits).values(y))
 
     def vanishes_exactly(self, y: Sequence[Fraction]) -> bool:
         """Whether all rows vanish at a rational point."""
@@ -123,8 +132,15 @@ def _log2(c: Number | complex) -> float:
 def _scaled(
     terms: Any, scales: tuple[int, ...]
 ) -> tuple[tuple[tuple[int, ...], Number | complex], ...]:
-    """Terms in the scaled variables, over a power of two next to the largest."""
+    """Terms in the scaled variables, over a power of two next to the largest.
+
+    Rational coefficients are multiplied by their denominators first: short dyadic numbers are
+    exact at any precision, and products with them cost little.
+    """
     kept = [(e, c) for e, c in terms if not isinstance(c, complex) or c]
+    if all(isinstance(c, Fraction) for _, c in kept):
+        whole = lcm(*(c.denominator for _, c in kept))
+        kept = [(e, c * whole) for e, c in kept]
     shifts = [sum(k * s for k, s in zip(e, scales, strict=True)) for e, _ in kept]
     top = floor(max(_log2(c) + s for (_, c), s in zip(kept, shifts, strict=True)))
     result = []

@@ -7,8 +7,9 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import chain
 from typing import Any
 
@@ -17,8 +18,12 @@ import flint
 from nag.numerics.digits import log_norm, middle
 from nag.numerics.power_series import Series, SeriesRing, Terms, composed, product_of
 
-# Newton steps for the values at the centre, which may not be zero yet.
-CONSTANT_STEPS = 2
+Matrix = list[list[Any]]
+Slopes = Callable[[Sequence[Any]], Matrix]
+
+# Newton steps for the values at the centre, which may not be zero yet; the slopes are taken anew
+# where a step is larger than rounding, as a share of the digits.
+CONSTANT_STEPS, EXACT = 2, -0.8
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,17 +62,6 @@ def jacobian(rows: Sequence[Terms], centre: Sequence[Any], modulus: int = 0) -> 
     return result
 
 
-def _inverse(block: list[list[Any]], modulus: int) -> list[list[Any]] | None:
-    try:
-        if modulus:
-            found = flint.nmod_mat(len(block), len(block), list(chain(*block)), modulus).inv()
-            return [[int(c) for c in row] for row in found.tolist()]
-        found = flint.acb_mat([[flint.acb(c) for c in row] for row in block]).inv()
-        return [[middle(c) for c in row] for row in found.tolist()]
-    except ZeroDivisionError:
-        return None
-
-
 def eliminate(
     rows: Sequence[Terms],
     centre: Sequence[Any],
@@ -75,6 +69,7 @@ def eliminate(
     columns: Sequence[int],
     order: int,
     modulus: int = 0,
+    slopes: Slopes | None = None,
 ) -> Reduction | None:
     """Solve the equations ``solved`` for the variables ``columns`` as series in the others.
 
@@ -85,27 +80,87 @@ def eliminate(
         solved, columns: as many indices of rows as of variables.
         order: of the series.
         modulus: a prime, for arithmetic modulo it.
+        slopes: the Jacobian of ``rows`` at a point, where there is a faster way to it.
 
     Returns:
         None if the block of the Jacobian is singular.
     """
     free = [i for i in range(len(centre)) if i not in columns]
+    others = [i for i in range(len(rows)) if i not in solved]
     ring = SeriesRing(len(free), order if free else 0, modulus)
-    images: list[Series] = [{0: c} if c else {} for c in centre]
-    for place, i in enumerate(free):
-        images[i][ring.unit(place)] = 1
+    rest_rows = [rows[i] for i in others]
+    if not columns:
+        images = _images(centre, free, ring)
+        return Reduction(ring, images, composed(rest_rows, images, ring), -float("inf"))
     chosen = [rows[i] for i in solved]
-    size = -float("inf")
-    if columns:
-        gradients = jacobian(chosen, centre, modulus)
-        inverse = _inverse([[g[j] for j in columns] for g in gradients], modulus)
-        if inverse is None:
-            return None
-        size = 0.0 if modulus else log_norm(c for row in inverse for c in row)
-        for degree in [0] * CONSTANT_STEPS + list(range(1, ring.order + 1)):
-            truncated = SeriesRing(ring.m, degree, modulus)
-            values = composed(chosen, images, truncated)
-            for j, step in zip(columns, product_of(inverse, values, modulus), strict=True):
-                ring.add(images[j], step, -1)
-    rest = composed([row for i, row in enumerate(rows) if i not in solved], images, ring)
+    slopes = slopes or partial(jacobian, rows, modulus=modulus)
+    found = _at_centre(chosen, slopes, centre, solved, columns, modulus)
+    if found is None:
+        return None
+    centre, gradients, inverse = found
+    images = _images(centre, free, ring)
+    if ring.order:
+        across = [{ring.unit(k): gradients[i][j] for k, j in enumerate(free)} for i in solved]
+        for j, linear in zip(columns, product_of(inverse, across, modulus), strict=True):
+            ring.add(images[j], linear, -1)
+    for degree in range(2, ring.order):
+        values = composed(chosen, images, SeriesRing(ring.m, degree, modulus))
+        for j, step in zip(columns, product_of(inverse, values, modulus), strict=True):
+            ring.add(images[j], step, -1)
+    values = composed([*chosen, *rest_rows], images, ring)
+    rest = values[len(chosen) :]
+    # What the last step changes in the equations that remain is linear in it, to this order.
+    steps = product_of(inverse, values[: len(chosen)], modulus)
+    for j, step in zip(columns, steps, strict=True):
+        ring.add(images[j], step, -1)
+    outer = [[gradients[i][j] for j in columns] for i in others]
+    for value, change in zip(rest, product_of(outer, steps, modulus), strict=True):
+        ring.add(value, change, -1)
+    size = 0.0 if modulus else log_norm(c for row in inverse for c in row)
     return Reduction(ring, images, rest, size)
+
+
+def _images(centre: Sequence[Any], free: Sequence[int], ring: SeriesRing) -> list[Series]:
+    """The variables as constants, and the free ones as what is left variable."""
+    images: list[Series] = [{0: c} if c else {} for c in centre]
+    for place, i in enumerate(free if ring.order else ()):
+        images[i][ring.unit(place)] = 1
+    return images
+
+
+def _at_centre(
+    chosen: Sequence[Terms],
+    slopes: Slopes,
+    centre: Sequence[Any],
+    solved: Sequence[int],
+    columns: Sequence[int],
+    modulus: int,
+) -> tuple[list[Any], Matrix, Matrix] | None:
+    """The corrected centre, the Jacobian there, and the inverse of its block."""
+    gradients = slopes(centre)
+    inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
+    if inverse is None:
+        return None
+    ring, x, moved = SeriesRing(0, 0, modulus), list(centre), False
+    for _ in range(CONSTANT_STEPS):
+        values = composed(chosen, [{0: c} if c else {} for c in x], ring)
+        steps = [value.get(0, 0) for value in product_of(inverse, values, modulus)]
+        for j, step in zip(columns, steps, strict=True):
+            x[j] = (x[j] - step) % modulus if modulus else middle(x[j] - flint.acb(step))
+        moved = moved or any(steps) if modulus else moved or log_norm(steps) > EXACT * flint.ctx.dps
+    if not moved:
+        return x, gradients, inverse
+    gradients = slopes(x)
+    inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
+    return None if inverse is None else (x, gradients, inverse)
+
+
+def _inverse(block: Matrix, modulus: int) -> Matrix | None:
+    try:
+        if modulus:
+            found = flint.nmod_mat(len(block), len(block), list(chain(*block)), modulus).inv()
+            return [[int(c) for c in row] for row in found.tolist()]
+        exact = flint.acb_mat([[flint.acb(c) for c in row] for row in block]).inv()
+        return exact.mid().tolist()
+    except ZeroDivisionError:
+        return None

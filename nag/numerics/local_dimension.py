@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from nag.algebra.elimination import eliminate_linear
 from nag.algebra.from_python import coordinates
 from nag.algebra.number import Irrational, Number, is_zero
 
@@ -108,18 +109,25 @@ def local_dimension(
     >>> cusp.tangent_dimension, cusp.lower, cusp.upper
     (2, 1, 1)
     """
-    from nag.numerics.dimension_bounds import bounds
+    from nag.numerics.dimension_bounds import bounds, reduced_bounds
 
     point = coordinates(point, system.variables)
     exact = exact_numbers(point)
+    error: float | None = None
     if exact is not None and not accuracy:
         wrong = [i for i, f in enumerate(system.polynomials) if not is_zero(f(exact))]
         if wrong:
             raise NoSolution(f"equation {wrong[0] + 1} does not vanish at the point")
-        return bounds(system.polynomials, exact, None, np.random.default_rng(seed))
-    error = ROUNDED if accuracy is None else accuracy
+        point = exact
+    else:
+        error = log10(max(ROUNDED if accuracy is None else accuracy, 1e-300))
     rng = np.random.default_rng(seed)
-    return bounds(system.polynomials, list(point), log10(max(error, 1e-300)), rng)
+    elimination = eliminate_linear(system, graphs=False)
+    if 0 < elimination.system.n < system.n:
+        found = reduced_bounds(elimination, list(point), error, rng)
+        if found is not None:
+            return found
+    return bounds(system.polynomials, list(point), error, rng)
 
 
 def exact_numbers(point: Sequence[Any] | np.ndarray) -> tuple[Number, ...] | None:

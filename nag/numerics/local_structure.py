@@ -13,7 +13,8 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.clusters import close_zeros
 from nag.numerics.curves import curve_through
-from nag.numerics.deflation import DIGITS, MOST_WORK, Deflated, NotDeflated, deflate, work
+from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
+from nag.numerics.descent import work
 from nag.numerics.digits import doubles, log_norm, middle, point, working
 from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem, modular
@@ -21,6 +22,7 @@ from nag.numerics.implicit_function import eliminate
 from nag.numerics.null_space import Digits, Field, PrimeField, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.rational_point import rational_point
+from nag.numerics.sharpening import DIGITS
 from nag.numerics.singular_point import Place, SingularEnd
 
 # Decimal logarithms of the factors by which the error may exceed what is claimed, in this order.

@@ -13,20 +13,14 @@ import numpy as np
 
 from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.deflation import (
-    DIGITS,
-    ZERO,
-    Deflated,
-    NotDeflated,
-    Round,
-    deflate,
-    regular_block,
-)
+from nag.numerics.deflation import Deflated, NotDeflated, deflate, regular_block
+from nag.numerics.descent import Round
 from nag.numerics.digits import doubles, middle, number
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.local_structure import FURTHEST, REACHES
 from nag.numerics.rational_point import rational_point
 from nag.numerics.scaling import scaled_terms, variable_scales
+from nag.numerics.sharpening import DIGITS, ZERO
 
 # An exact point is known to all digits but these.
 ROUNDING = 5.0
@@ -118,8 +112,9 @@ def _exact_zero(
     if not system.rows:
         nothing = Deflated(y, (Round((), ()),), system.n, -np.inf, 0.0)
         return Zero(system, nothing, nothing.rounds[0], None), ""
+    slopes = system.values_at(DIGITS).jacobian
     if error is None:
-        block = regular_block(system.at(DIGITS), y, ROUNDING - DIGITS, rng)
+        block = regular_block(slopes, y, ROUNDING - DIGITS, rng)
         try:
             found = deflate(system, y, ROUNDING - DIGITS, rng)
             found = replace(found, point=y)
@@ -135,7 +130,9 @@ def _exact_zero(
             reasons.append(str(reason))
             continue
         if found.exact:
-            block = regular_block(system.at(DIGITS), found.point, ROUNDING - DIGITS, rng)
+            block = regular_block(
+                system.values_at(DIGITS).jacobian, found.point, ROUNDING - DIGITS, rng
+            )
             exact = rational_point(found.point, DIGITS) if system.rational else None
             if exact is not None and not system.vanishes_exactly(exact):
                 exact = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any, Protocol
 
 import flint
@@ -29,10 +30,15 @@ class Field(Protocol):
 
     def is_zero(self, a: Any) -> bool: ...
 
-    def inverse(self, a: Any) -> Any: ...
+    def product(self, left: Rows, right: Rows) -> list[list[Any]]:
+        """The product of two matrices, neither of them empty."""
+        ...
 
-    def largest(self, values: Sequence[Any]) -> int:
-        """The index of an entry to divide by."""
+    def reduced(self, rows: Rows, columns: int) -> tuple[list[list[Any]], list[int]]:
+        """Independent rows combined so that each has a 1 where the others have 0.
+
+        These entries, of which the indices are returned too, are in the first ``columns`` columns.
+        """
         ...
 
 
@@ -45,18 +51,23 @@ class PrimeField:
     def is_zero(self, a: int) -> bool:
         return a % self.modulus == 0
 
-    def inverse(self, a: int) -> int:
-        return pow(a, -1, self.modulus)
+    def _matrix(self, rows: Rows) -> flint.nmod_mat:
+        entries = list(chain.from_iterable(rows))
+        return flint.nmod_mat(len(rows), len(rows[0]), entries, self.modulus)
 
-    def largest(self, values: Sequence[int]) -> int:
-        return next(i for i, a in enumerate(values) if a % self.modulus)
+    def product(self, left: Rows, right: Rows) -> list[list[int]]:
+        found = self._matrix(left) * self._matrix(right)
+        return [list(map(int, row)) for row in found.tolist()]
+
+    def reduced(self, rows: Rows, columns: int) -> tuple[list[list[int]], list[int]]:
+        found, rank = self._matrix(rows).rref()
+        table = [list(map(int, row)) for row in found.tolist()][:rank]
+        return table, [next(j for j, c in enumerate(row) if c) for row in table]
 
     def null_space(self, rows: Rows, columns: int) -> list[list[int]]:
         if not rows:
             return [[int(i == j) for j in range(columns)] for i in range(columns)]
-        entries = [int(c) % self.modulus for row in rows for c in row]
-        matrix = flint.nmod_mat(len(rows), columns, entries, self.modulus)
-        basis, nullity = matrix.nullspace()
+        basis, nullity = self._matrix(rows).nullspace()
         return [[int(basis[i, j]) for i in range(columns)] for j in range(nullity)]
 
 
@@ -80,11 +91,28 @@ class Digits:
             raise UnclearRank(f"a number of 1e{size:.0f} may be zero or not")
         return size <= self.zero
 
-    def inverse(self, a: flint.acb) -> flint.acb:
-        return middle(1 / flint.acb(a))
+    def product(self, left: Rows, right: Rows) -> list[list[flint.acb]]:
+        found = (flint.acb_mat(left) * flint.acb_mat(right)).mid()
+        return [[c if c else 0 for c in row] for row in found.tolist()]
 
-    def largest(self, values: Sequence[flint.acb]) -> int:
-        return max(range(len(values)), key=lambda i: log_norm([values[i]]))
+    def reduced(self, rows: Rows, columns: int) -> tuple[list[list[flint.acb]], list[int]]:
+        table = [list(row) for row in rows]
+        pivots: list[int] = []
+        for place, row in enumerate(table):
+            pivots.append(max(range(columns), key=lambda j: log_norm([row[j]])))
+            lead = row[pivots[-1]]
+            table[place] = [middle(c / lead) if c else 0 for c in row]
+            table[place][pivots[-1]] = flint.acb(1)
+            for i, other in enumerate(table):
+                factor = other[pivots[-1]]
+                if i == place or not factor:
+                    continue
+                table[i] = [
+                    middle(a - factor * b) if b else a
+                    for a, b in zip(other, table[place], strict=True)
+                ]
+                table[i][pivots[-1]] = 0
+        return table, pivots
 
     def null_space(self, rows: Rows, columns: int) -> list[list[flint.acb]]:
         """Elimination in blocks: doubles choose a well-conditioned one, digits do the rest."""
@@ -142,11 +170,25 @@ def _schur_complement(
 
 def _well_conditioned(block: np.ndarray) -> tuple[list[int], list[int]]:
     """Rows and columns of a block that doubles see to be regular, as large as possible."""
-    import scipy.linalg
-
-    r, columns = scipy.linalg.qr(block, mode="r", pivoting=True)
-    diagonal = np.abs(np.diag(r))
+    columns, diagonal = _pivoted(block)
     rank = max(1, int(np.sum(diagonal > 1e-8 * diagonal[0])))
-    chosen = columns[:rank]
-    _, rows = scipy.linalg.qr(block[:, chosen].T, mode="r", pivoting=True)
-    return [int(i) for i in rows[:rank]], [int(j) for j in chosen]
+    rows, _ = _pivoted(block[:, columns[:rank]].T)
+    return rows[:rank], columns[:rank]
+
+
+def _pivoted(block: np.ndarray) -> tuple[list[int], np.ndarray]:
+    """The order of the columns in a QR decomposition that always takes the longest, and lengths."""
+    rest, lengths = np.array(block, dtype=complex), []
+    order = list(range(rest.shape[1]))
+    for k in range(min(rest.shape)):
+        norms = np.linalg.norm(rest[:, k:], axis=0)
+        best = k + int(norms.argmax())
+        lengths.append(norms[best - k])
+        if not lengths[-1]:
+            break
+        order[k], order[best] = order[best], order[k]
+        rest[:, [k, best]] = rest[:, [best, k]]
+        q = rest[:, k] / lengths[-1]
+        for _ in range(2):
+            rest[:, k + 1 :] -= np.outer(q, q.conj() @ rest[:, k + 1 :])
+    return order, np.array(lengths)

@@ -114,7 +114,7 @@ def composed(rows: Sequence[Terms], images: Sequence[Series], ring: SeriesRing) 
 def product_of(matrix: list[list[Any]], column: Sequence[Series], modulus: int) -> list[Series]:
     """A matrix times a column of series, in compiled code."""
     keys = sorted({k for value in column for k in value})
-    if not keys:
+    if not keys or not matrix:
         return [{} for _ in matrix]
     table = [[value.get(k, 0) for k in keys] for value in column]
     if modulus:

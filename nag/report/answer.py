@@ -6,11 +6,15 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.one_equation import is_one_equation
+from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
+from nag.files.dh_case import is_table
 from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
 from nag.report.assemblies import assembly_rows, parts_rows
-from nag.report.formulations import alternative_lines, joint_lines
+from nag.report.formulations import alternative_lines, joint_lines, table_lines
 from nag.report.table import (
     component_table,
     labelled,
@@ -49,6 +53,16 @@ def _rank_text(equations: int, rank: int, variables: int, assembled: bool) -> st
         f"{text} in {unknowns}, by exact linear algebra: every component has dimension {free} or "
         f"more{', so it moves' if assembled else ''}"
     )
+
+
+def _exact_rows(system: PolynomialSystem) -> list[tuple[str, str]]:
+    if not is_one_equation(Reduction.of(system, scaled=True)):
+        return []
+    text = (
+        "exact linear algebra leaves one equation: its factors over the complex numbers are the "
+        "components, by algebra alone, without paths"
+    )
+    return [("exact", text)]
 
 
 def _mobility_rows(
@@ -95,6 +109,8 @@ def answer_lines(
 ) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
+    if decomposition.paths.tracked == 0:
+        head[1:1] = _exact_rows(decomposition.system)
     if model is not None:
         head = _model_rows(model) + head
     if case.assembly is not None:
@@ -127,7 +143,7 @@ def answer_lines(
 def model_lines(case: Case, model: Model | None) -> list[str]:
     """The polynomial system of a case, line by line."""
     system = system_of(case, model)
-    head = [("system", system_line(system))]
+    head = [("system", system_line(system)), *_exact_rows(system)]
     if model is not None:
         head = _model_rows(model) + body_rows(model) + head
     if case.assembly is not None:
@@ -144,4 +160,6 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     for name, point in points_of(case, model):
         values = zip(system.variables, point, strict=True)
         lines += [printable(name), "  " + ", ".join(f"{v} = {number_text(x)}" for v, x in values)]
-    return lines if model is None else lines + joint_lines(model) + alternative_lines(model)
+    if model is not None:
+        return lines + joint_lines(model) + alternative_lines(model)
+    return lines + table_lines(case.assembly) if is_table(case) else lines

@@ -63,12 +63,12 @@ def assembly_rows(kind: str, assembly: AssemblyModel, decomposition: Decompositi
     if moving:
         largest = max(c.dimension for c in moving)
         count = sum(c.orbit for c in moving)
-        parts.append(
-            f"mobile, mobility {largest} at most, on {count} component{'' if count == 1 else 's'}"
-        )
+        on = f"{count} component{'' if count == 1 else 's'}"
+        parts.append(f"mobile, mobility {largest} at most, on {on}{_reality(assembly)}")
     if isolated:
-        count = sum(c.orbit * len(c.points) for c in isolated)
-        real = sum(c.orbit * sum(assembly.is_real(x) for x in c.points) for c in isolated)
+        each = _points_of_each(assembly)
+        count = sum(c.orbit * len(c.points) for c in isolated) // each
+        real = sum(c.orbit * sum(assembly.is_real(x) for x in c.points) for c in isolated) // each
         motions = " up to motions" if kind == "framework" else ""
         parts.append(
             f"{count} {what if count == 1 else plural}{motions}, {real} of them real"
@@ -79,11 +79,25 @@ def assembly_rows(kind: str, assembly: AssemblyModel, decomposition: Decompositi
     return [(plural, "; ".join(parts))]
 
 
+def _reality(assembly: AssemblyModel) -> str:
+    from nag.mechanism.real_assemblies import real_text
+
+    return "" if assembly.reference is not None else f"; {real_text(assembly)}"
+
+
 def real_row(kind: str, assembly: AssemblyModel, points: Iterable[Sequence[complex]]) -> Rows:
     """How many solutions are real assemblies; isotropic coordinates of these are not real."""
-    given = list(points)
+    real = [assembly.is_real(x) for x in points]
+    each = _points_of_each(assembly)
     plural = {"assembly": "assemblies"}.get(_WHAT[kind], f"{_WHAT[kind]}s")
-    return [(plural, f"{len(given)}, {sum(assembly.is_real(x) for x in given)} of them real")]
+    return [(plural, f"{len(real) // each}, {sum(real) // each} of them real")]
+
+
+def _points_of_each(assembly: AssemblyModel) -> int:
+    """How many points of the system each assembly is: Euler parameters have signs."""
+    from nag.mechanism.dh_euler import DHEulerModel
+
+    return 2 ** len(assembly.symmetries) if isinstance(assembly, DHEulerModel) else 1
 
 
 def _freedoms(count: int) -> str:

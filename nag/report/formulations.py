@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,8 @@ from nag.mechanism.joint_types import JOINT_TYPES
 from nag.report.table import align, printable
 
 if TYPE_CHECKING:
+    from nag.mechanism.dh import DHModel
+    from nag.mechanism.dh_euler import DHEulerModel
     from nag.mechanism.formulations import Alternative
     from nag.mechanism.model import Model
 
@@ -30,20 +33,31 @@ def joint_lines(model: Model) -> list[str]:
 
 def alternative_lines(model: Model) -> list[str]:
     """Every formulation with its numbers, the one that is taken marked."""
-    rows = [["formulation", "variables", "equations", "Bezout", "groups' bound", "paths", ""]]
-    rows.append(unreduced_row(model))
     covered = [a for a in model.alternatives if a.form is not None]
-    for each in covered:
-        taken = "taken" if each.formulation == model.formulation else ""
-        rows.append([*alternative_row(each), taken])
-    lines = [
-        "formulations; paths: at most so many, equation by equation",
-        *(f"  {line}" for line in align(rows, (0, 6))),
-    ]
+    lines = _formulation_lines(covered, model.formulation, [unreduced_row(model)])
     lines += [
         f"  {a.formulation}: {printable(a.problem)}" for a in model.alternatives if a.form is None
     ]
     return lines
+
+
+def table_lines(table: DHModel | DHEulerModel) -> list[str]:
+    """The same of a table by Denavit and Hartenberg."""
+    from nag.mechanism.dh_euler import table_alternatives
+
+    return _formulation_lines(table_alternatives(table.loop), table.formulation, [])
+
+
+def _formulation_lines(
+    covered: Sequence[Alternative], taken: str, others: Sequence[Sequence[str]]
+) -> list[str]:
+    rows = [["formulation", "variables", "equations", "Bezout", "groups' bound", "paths", ""]]
+    rows += [list(row) for row in others]
+    rows += [[*alternative_row(a), "taken" if a.formulation == taken else ""] for a in covered]
+    return [
+        "formulations; paths: at most so many, equation by equation",
+        *(f"  {line}" for line in align(rows, (0, 6))),
+    ]
 
 
 def alternative_row(each: Alternative) -> list[str]:

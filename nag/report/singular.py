@@ -47,7 +47,8 @@ def answer_rows(locus: SingularLocus, decomposition: Decomposition) -> list[tupl
         which = "the component" if count == 1 else f"component {_numbers(smooth)} of {count}"
         if len(smooth) > 1:
             which = f"components {_numbers(smooth)} of {count}"
-        rows.append(("smooth", f"{which}, by itself"))
+        proof = "; proved, by a Groebner basis" if set(smooth) <= set(locus.proved) else ""
+        rows.append(("smooth", f"{which}, by itself{proof}"))
     if not locus.complete:
         rows.append(("", "INCOMPLETE, see below"))
     return rows

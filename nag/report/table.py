@@ -35,4 +35,4 @@ def component_table(decomposition: Decomposition) -> list[str]:
     rows = component_rows(decomposition)
     if not rows:
         return []
-    return align(rows, [rows[0].index("status"), rows[0].index("precision")])
+    return align(rows, [rows[0].index("status")])

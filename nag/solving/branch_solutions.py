@@ -18,12 +18,18 @@ from nag.algebra.branches import branches
 from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
-from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
+from nag.algebra.generic_multiplicity import (
+    generic_multiplicity,
+    independent_gradients,
+    is_own_ring,
+)
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
+from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import multiplicity_of_all, possible_zeros, vanishes_at_all
+from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
@@ -43,11 +49,13 @@ class _Found:
     Attributes:
         zero: the exact zero, where it is one of an algebraic branch.
         elimination: what led from the branch to the system that was tracked otherwise.
+        branch: the branch's own equations.
     """
 
     solution: Solution
     zero: AlgebraicZero | None = None
     elimination: Elimination | None = None
+    branch: tuple[Polynomial, ...] = ()
 
     @cached_property
     def vanishes(self) -> Vanishing:
@@ -156,8 +164,9 @@ def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
         point = elimination.lift(np.ones((1, reduced.n), dtype=complex))
         return _Part(system, (), None, point, np.zeros((0, system.n), dtype=complex))
     result = tracked(reduced)
+    equations = system.polynomials
     found = tuple(
-        _Found(replace(s, point=elimination.lift(s.point)), None, elimination)
+        _Found(replace(s, point=elimination.lift(s.point)), None, elimination, equations)
         for s in result.solutions
     )
     lifted = elimination.lift
@@ -307,10 +316,15 @@ def _near(each: _Found, others: Sequence[_Found]) -> bool:
 def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
     """The multiplicity of a solution in the scheme of all equations; 0 if it was not found."""
     x, accuracy = each.solution.point, each.solution.accuracy
+    if each.branch and is_own_ring(equations, each.branch, each.vanishes):
+        return each.solution.multiplicity
 
     def independent(polynomials: Sequence[Polynomial]) -> bool:
         if each.zero is not None and all(f.exact for f in polynomials):
             return each.zero.independent(polynomials)
+        if each.solution.precision >= DIGITS:
+            # Each coordinate is known to rounding, however small it is beside the others.
+            return independent_gradients(*scaled_at(polynomials, x), 1e3 * accuracy)
         error = max(1e3 * accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
         return independent_gradients(polynomials, x, error)
 

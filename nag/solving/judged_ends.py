@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.zero_count import ZeroCount
 from nag.numerics.coincidence import clusters, conjugates_present
 from nag.numerics.singular_point import Place, analyse
 from nag.solving.solutions import Solution
@@ -23,18 +25,41 @@ BLOCK = 2048
 
 
 @dataclass(frozen=True, eq=False)
+class IsolatedZero:
+    """An isolated solution in the scaled variables."""
+
+    point: np.ndarray
+    multiplicity: int
+    residual: float
+    accuracy: float
+    condition: float
+    precision: int
+
+
+@dataclass(frozen=True, eq=False)
 class JudgedEnds:
     """The end points of all paths, sorted; coordinates are those of the original variables.
 
-    ``close``: the paths to those undecided.
+    ``close``: the paths to those undecided. ``isolated``: the isolated zeros of all equations in
+    the scaled variables, those included that ``nonzero`` leaves out. ``unclear``: what notes say
+    of ends that are no such zeros, or may not be; ``notes``: all else. ``count``: how many zeros
+    there are, by exact algebra, where that was asked.
     """
 
     solutions: tuple[Solution, ...]
-    on_components: np.ndarray
-    undecided: np.ndarray
     excluded: tuple[Solution, ...]
     notes: tuple[str, ...]
+    on_components: np.ndarray
+    undecided: np.ndarray
+    unclear: tuple[str, ...]
     close: np.ndarray
+    isolated: tuple[IsolatedZero, ...]
+    count: ZeroCount | None = None
+
+    @property
+    def zeros(self) -> int:
+        """The number of isolated zeros, by multiplicity."""
+        return sum(zero.multiplicity for zero in self.isolated)
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,24 +72,17 @@ class _Zeros:
     residual: np.ndarray
     regular: np.ndarray
 
+    def alone(self) -> np.ndarray:
+        """Indices of the regular ends, which are distinct, as the tracker has seen."""
+        return np.flatnonzero(self.regular)
+
     def groups(self) -> list[np.ndarray]:
-        """Ends at one point each. Regular ends are distinct, as the tracker has seen."""
+        """The other ends, those at one point each."""
         several = np.flatnonzero(~self.regular)
-        alone = [np.array([i]) for i in np.flatnonzero(self.regular)]
+        if not len(several):
+            return []
         found = clusters(self.points[several], self.accuracy[several])
-        return alone + [several[group] for group in found]
-
-
-@dataclass(frozen=True, eq=False)
-class _Isolated:
-    """An isolated solution in the scaled variables."""
-
-    point: np.ndarray
-    multiplicity: int
-    residual: float
-    accuracy: float
-    condition: float
-    precision: int
+        return [several[group] for group in found]
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +93,7 @@ class _Place:
     """
 
     place: Place | None
-    isolated: _Isolated | None = None
+    isolated: IsolatedZero | None = None
     close: bool = False
 
 
@@ -95,18 +113,25 @@ def judged_ends(
     n = problem.system.n
     evaluator = Evaluator.of(problem.equations, n)
     zeros, lost = _zeros(problem, begin, paths, evaluator)
-    notes = [f"{lost} end points are zeros of the equations only roughly"] if lost else []
-    isolated: list[_Isolated] = []
+    unclear = [f"{lost} end points are zeros of the equations only roughly"] if lost else []
+    isolated: list[IsolatedZero] = []
     elsewhere: dict[Place, list[np.ndarray]] = {Place.ON_COMPONENT: [], Place.UNDECIDED: []}
     close: list[int] = []
-    for group in zeros.groups():
+    groups = zeros.groups()
+    if problem.added or problem.squared:
+        groups = [*zeros.alone()[:, None], *groups]
+    else:
+        isolated = _simple(zeros, zeros.alone(), paths)
+    for group in groups:
         best = int(group[np.argmin(zeros.accuracy[group])])
         found = _place(problem, zeros, best, paths, evaluator, rng)
         if found.isolated is not None:
             multiplicity = found.isolated.multiplicity
             isolated.append(found.isolated)
             if begin.complete and not problem.squared and multiplicity != len(group):
-                notes.append(f"{len(group)} paths end at a solution of multiplicity {multiplicity}")
+                unclear.append(
+                    f"{len(group)} paths end at a solution of multiplicity {multiplicity}"
+                )
         elif found.place is not None:
             # That one of several zeros was met leaves open which the other paths met.
             place = Place.UNDECIDED if found.place is Place.CLUSTER else found.place
@@ -115,27 +140,29 @@ def judged_ends(
         if found.close:
             close.extend(zeros.path[group].tolist())
         if finite and found.place is Place.ON_COMPONENT:
-            notes.append("the solution set is not finite; the other ends were not looked at")
+            unclear.append("the solution set is not finite; the other ends were not looked at")
             break
     if elsewhere[Place.UNDECIDED]:
-        notes.append(
+        unclear.append(
             f"{len(elsewhere[Place.UNDECIDED])} end points may or may not be isolated solutions, "
             "or several that are close together"
         )
-    solutions, excluded, unclear, paired = _solutions(problem, isolated)
-    if unclear:
-        notes.append(f"{unclear} solutions may be such as are excluded")
-    if not paired:
-        notes.append("the conjugate of a solution is missing")
     original = problem.target.original
     return JudgedEnds(
-        solutions,
+        *_solutions(problem, isolated),
         original(np.array(elsewhere[Place.ON_COMPONENT]).reshape(-1, n)),
         original(np.array(elsewhere[Place.UNDECIDED]).reshape(-1, n)),
-        excluded,
-        tuple(notes),
+        tuple(unclear),
         np.array(sorted(close), dtype=np.int64),
+        tuple(isolated),
     )
+
+
+def enlarged(problem: SquareProblem, ends: JudgedEnds, zeros: Sequence[IsolatedZero]) -> JudgedEnds:
+    """The same, with more zeros in the scaled variables."""
+    isolated = (*ends.isolated, *zeros)
+    solutions, excluded, notes = _solutions(problem, isolated)
+    return replace(ends, solutions=solutions, excluded=excluded, notes=notes, isolated=isolated)
 
 
 def _zeros(
@@ -157,6 +184,23 @@ def _zeros(
     return kept, int(lost.sum())
 
 
+def _simple(zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
+    """Regular ends as zeros of the equations."""
+    path = zeros.path[chosen]
+    columns = (
+        zeros.residual[chosen],
+        zeros.accuracy[chosen],
+        paths.condition[path],
+        paths.precision[path],
+    )
+    return [
+        IsolatedZero(point, 1, *numbers)
+        for point, *numbers in zip(
+            zeros.points[chosen], *(column.tolist() for column in columns), strict=True
+        )
+    ]
+
+
 def _place(
     problem: SquareProblem,
     zeros: _Zeros,
@@ -176,26 +220,21 @@ def _place(
             return _Place(Place.UNDECIDED)
         if not solves:
             return _Place(None)
-        residual, condition = float(zeros.residual[i]), float(paths.condition[path])
-        simple = _Isolated(point, 1, residual, accuracy, condition, precision)
-        return _Place(Place.ISOLATED, simple)
+        return _Place(Place.ISOLATED, _simple(zeros, np.array([i]), paths)[0])
     end = analyse(problem.equations, point, accuracy, rng)
     if end.place is not Place.ISOLATED:
         return _Place(end.place, close=end.place is Place.UNDECIDED)
     residual = float(evaluator.residuals(end.point[None]).max())
-    multiple = _Isolated(
+    multiple = IsolatedZero(
         end.point, end.multiplicity, residual, end.accuracy, end.condition, precision
     )
     return _Place(Place.ISOLATED, multiple)
 
 
 def _solutions(
-    problem: SquareProblem, isolated: list[_Isolated]
-) -> tuple[tuple[Solution, ...], tuple[Solution, ...], int, bool]:
-    """The solutions where nothing vanishes that must not, and those that were left out.
-
-    Also of how many that is not known, and whether the conjugate of each is there.
-    """
+    problem: SquareProblem, isolated: Sequence[IsolatedZero]
+) -> tuple[tuple[Solution, ...], tuple[Solution, ...], tuple[str, ...]]:
+    """The solutions where nothing vanishes that must not, and those that were left out; notes."""
     points = np.array([s.point for s in isolated], dtype=complex).reshape(-1, problem.system.n)
     accuracy = np.array([s.accuracy for s in isolated])
     multiplicity = np.array([s.multiplicity for s in isolated], dtype=np.int64)
@@ -203,18 +242,25 @@ def _solutions(
     imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
     real = imaginary <= np.maximum(1e2 * accuracy, 1e-10) * sizes
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
-    answers = [problem.excluded(s.point, s.accuracy, s.multiplicity > 1) for s in isolated]
+    answers: list[bool | None] = [False] * len(isolated)
+    if problem.nonzero:
+        answers = [problem.excluded(s.point, s.accuracy, s.multiplicity > 1) for s in isolated]
+    original = np.array(problem.target.original(points), dtype=np.complex128)
+    original.setflags(write=False)
     solutions = [
-        Solution(
-            point, s.multiplicity, bool(is_real), s.residual, s.accuracy, s.condition, s.precision
-        )
-        for point, s, is_real in zip(problem.target.original(points), isolated, real, strict=True)
+        Solution(point, s.multiplicity, is_real, s.residual, s.accuracy, s.condition, s.precision)
+        for point, s, is_real in zip(original, isolated, real.tolist(), strict=True)
     ]
     kept, left_out = (
         tuple(s for s, answer in zip(solutions, answers, strict=True) if answer is wanted)
         for wanted in (False, True)
     )
-    return kept, left_out, answers.count(None), paired
+    notes = []
+    if None in answers:
+        notes.append(f"{answers.count(None)} solutions may be such as are excluded")
+    if not paired:
+        notes.append("the conjugate of a solution is missing")
+    return kept, left_out, tuple(notes)
 
 
 def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:

@@ -33,9 +33,13 @@ class Solution:
     precision: int
 
     def __post_init__(self) -> None:
-        point = np.array(self.point, dtype=np.complex128)
-        point.setflags(write=False)
-        object.__setattr__(self, "point", point)
+        point = np.asarray(self.point, dtype=np.complex128)
+        # What can be written to may be changed by others.
+        if point.flags.writeable:
+            point = point.copy()
+            point.setflags(write=False)
+        if point is not self.point:
+            object.__setattr__(self, "point", point)
 
     def __repr__(self) -> str:
         from nag.solving.shown import solution_line

@@ -9,15 +9,18 @@ from dataclasses import replace
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.zero_count import ZeroCount
 from nag.solving.branch_solutions import solve_apart
+from nag.solving.counted import Verdict, counted, doubtful, verdict
 from nag.solving.judged_ends import JudgedEnds, judged_ends
+from nag.solving.missing_zeros import with_missing_zeros
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import check_kind, choose
 from nag.solving.start.target import Start, Target
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
-from nag.tracking.settings import Settings, named
+from nag.tracking.settings import Settings, named, tighter
 from nag.tracking.track import merged, track
 
 Progress = Callable[[str, int, int], None]
@@ -90,15 +93,36 @@ def _solve_whole(
     if progress:
         progress("solve", 0, 1)
     begin, reason = choose(problem.target, start, system.groups, rng, threads)
-    paths = track(begin.homotopy, begin.points, settings, threads)
-    ends = judged_ends(problem, begin, paths, rng, finite)
-    if len(ends.close) and not (finite and len(ends.on_components)):
-        # What looks like a multiple zero and is none may be simple ones close together.
-        separating = replace(named(settings), evidence=SEPARATING)
-        more = track(begin.homotopy, begin.points[ends.close], separating, threads)
-        paths = merged(paths, more, ends.close)
+    paths = track(begin.homotopy, begin.points, settings, threads, most=begin.most)
+
+    def look(paths: Paths, count: ZeroCount | None = None) -> JudgedEnds:
         ends = judged_ends(problem, begin, paths, rng, finite)
+        ends = replace(ends, count=count) if count else counted(problem, begin, paths, ends)
+        return with_missing_zeros(problem, begin, paths, ends, rng)
+
+    ends = look(paths)
+    unclear = len(ends.close) and not (finite and len(ends.on_components))
+    if unclear and verdict(ends) is not Verdict.ALL:
+        # What looks like a multiple zero and is none may be simple ones close together.
+        chosen, separating = ends.close, replace(named(settings), evidence=SEPARATING)
+        paths = _once_more(begin, paths, chosen, separating, threads)
+        ends = look(paths, ends.count)
+    if verdict(ends) in (Verdict.MISSING, Verdict.TOO_MANY):
+        # An end that is not proved may be another one: what is near it, or a jump.
+        chosen = doubtful(paths)
+        separating = replace(tighter(named(settings)), evidence=SEPARATING)
+        more = _once_more(begin, paths, chosen, separating, threads)
+        again = look(more, ends.count)
+        if again.zeros > ends.zeros or verdict(again) is Verdict.ALL:
+            paths, ends = more, again
     return _result(problem, begin, reason, paths, ends, seed, name)
+
+
+def _once_more(
+    begin: Start, paths: Paths, chosen: np.ndarray, settings: Settings, threads: int
+) -> Paths:
+    """The paths, those chosen tracked with other settings."""
+    return merged(paths, track(begin.homotopy, begin.points[chosen], settings, threads), chosen)
 
 
 def begin_of(
@@ -112,7 +136,7 @@ def begin_of(
     problem = SquareProblem.of(system, [f for f in system.polynomials if f], rng)
     begin, _ = choose(problem.target, start, system.groups, rng, 1)
     started = time.perf_counter()
-    paths = track(begin.homotopy, begin.points, settings)
+    paths = track(begin.homotopy, begin.points, settings, most=begin.most)
     return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())
 
 
@@ -160,17 +184,15 @@ def _result(
         *(len(paths.where(status)) for status in PathStatus),
         int(paths.steps.sum()),
     )
-    notes = list(ends.notes)
-    if counts.failed:
-        causes = ", ".join(f"{k} because {why}" for why, k in paths.failures.items())
-        notes.append(f"{counts.failed} of {counts.tracked} paths failed: {causes}")
-    infinite = paths.where(PathStatus.AT_INFINITY)
-    far = np.abs(paths.points[infinite][:, list(begin.homotopy.infinity)])
-    error = np.minimum(paths.accuracy[infinite], ROUGHLY_INFINITE)
-    unsure = int((far.min(axis=1, initial=np.inf) > np.maximum(INFINITE, error)).sum())
-    if unsure:
-        notes.append(f"{unsure} paths to infinity may end at solutions far out")
-    complete = begin.complete and not notes
+    seen = verdict(ends)
+    if seen is Verdict.ALL:
+        notes = list(ends.notes)
+        reason = f"{reason}; linear algebra modulo two primes shows no more than {ends.zeros}"
+    else:
+        notes = [*ends.unclear, *_open(begin, paths), *ends.notes]
+        if seen is not Verdict.UNKNOWN:
+            notes.append(f"{ends.zeros} zeros were found, and there are {ends.count.bound}")
+    complete = (begin.complete or seen is Verdict.ALL) and not notes
     if len(ends.on_components):
         notes.append(
             f"the solution set has positive dimension; {len(ends.on_components)} end points lie "
@@ -185,7 +207,7 @@ def _result(
         system=problem.system,
         solutions=ends.solutions,
         on_components=ends.on_components,
-        undecided=ends.undecided,
+        undecided=ends.undecided[:0] if seen is Verdict.ALL else ends.undecided,
         excluded=len(ends.excluded),
         paths=counts,
         start=begin.name,
@@ -196,3 +218,19 @@ def _result(
         notes=tuple(notes),
         excluded_solutions=ends.excluded,
     )
+
+
+def _open(begin: Start, paths: Paths) -> list[str]:
+    """What is left open of the paths that failed, and of those to infinity."""
+    notes = []
+    failed = len(paths.where(PathStatus.FAILED))
+    if failed:
+        causes = ", ".join(f"{k} because {why}" for why, k in paths.failures.items())
+        notes.append(f"{failed} of {len(paths)} paths failed: {causes}")
+    infinite = paths.where(PathStatus.AT_INFINITY)
+    far = np.abs(paths.points[infinite][:, list(begin.homotopy.infinity)])
+    error = np.minimum(paths.accuracy[infinite], ROUGHLY_INFINITE)
+    unsure = int((far.min(axis=1, initial=np.inf) > np.maximum(INFINITE, error)).sum())
+    if unsure:
+        notes.append(f"{unsure} paths to infinity may end at solutions far out")
+    return notes

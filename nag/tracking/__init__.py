@@ -22,6 +22,9 @@ track.ALIKE           1e-9     Leading coefficients of branches that are compare
 track.BENT            1e-4     The same of the coefficients that follow, over their sizes together.
 track.AT_INFINITY     1e-10    Homogenising coordinates of finite zeros in `track_regular`, whose
                                systems have generic coefficients.
+track.NONZERO         1e3      A coordinate over the error of a regular end that is not zero, where
+                               the mixed volume says that all zeros are found: others get 32
+                               digits.
 straight_run          1e-9     Newton corrections in doubles that need not contract any more.
 .ROUNDING
 straight_run          12       Steps behind the safe point before a path that does not get on goes
@@ -49,7 +52,8 @@ ends.linear_algebra   1e-6     What a correction leaves of a coordinate that it 
 .GONE                          along the whole path.
 solve.ON *            1e-9     Residual of the equations, relative to their terms, at a solution: a
                                zero of some combinations of the equations only is larger.
-clusters.SAME         1e-8     Distance of ends that are looked at together: no decision, as what is
-                               one and what is several is seen in 150 digits (`nag.numerics`).
+coincidence.LEAST     1e-11    Least relative error of ends in doubles; those within a hundred times
+                               their errors are looked at together: no decision, as what is one and
+                               what is several is seen in 150 digits (`nag.numerics`).
 ====================  =======  =====================================================================
 """

@@ -19,6 +19,11 @@ def _frozen(array: np.ndarray | None, N: int) -> np.ndarray:
     return array
 
 
+def norms(points: np.ndarray) -> np.ndarray:
+    """Euclidean norms of complex rows, shape ``(P,)``."""
+    return np.sqrt((points.real**2 + points.imag**2).sum(axis=1))
+
+
 @dataclass(frozen=True, eq=False)
 class Homotopy:
     """Polynomial rows, linear rows, and one patch for each group of coordinates.
@@ -80,9 +85,11 @@ class Homotopy:
     def normalized(self, points: np.ndarray) -> np.ndarray:
         """The same projective points with unit norm in each group, shape ``(P, N)``."""
         points = np.array(points, dtype=np.complex128).reshape(-1, self.N)
+        if len(self.groups) == 1:
+            return points / norms(points)[:, None]
         for indices in self.groups:
             block = points[:, list(indices)]
-            points[:, list(indices)] = block / np.linalg.norm(block, axis=1, keepdims=True)
+            points[:, list(indices)] = block / norms(block)[:, None]
         return points
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from nag.machine_code.lanes import aligned, separate
-from nag.machine_code.records import Reals, Table, Wholes, table
+from nag.machine_code.lanes import VECTOR, aligned, separate
+from nag.machine_code.records import Reals, Table, Wholes, address, replaced, table
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 
@@ -109,26 +110,24 @@ def _parts(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _rows(rows: CompiledRows) -> tuple[Any, ...]:
     """The arrays of compiled rows, in the order of `System` from ``first`` on."""
-    if "lanes" not in rows._cache:
-        tape = rows.tape
-        value, jacobian = tape.value_coefficient, tape.jacobian_coefficient
-        rows._cache["lanes"] = (
-            tape.first,
-            tape.second,
-            tape.value_place,
-            tape.value_part,
-            tape.value_start,
-            tape.value_slot,
-            *_parts(value),
-            _real_blocks(tape.value_start, value),
-            tape.jacobian_place,
-            tape.jacobian_part,
-            tape.jacobian_start,
-            tape.jacobian_slot,
-            *_parts(jacobian),
-            _real_blocks(tape.jacobian_start, jacobian),
-        )
-    return rows._cache["lanes"]
+    tape = rows.tape
+    value, jacobian = tape.value_coefficient, tape.jacobian_coefficient
+    return (
+        tape.first,
+        tape.second,
+        tape.value_place,
+        tape.value_part,
+        tape.value_start,
+        tape.value_slot,
+        *_parts(value),
+        _real_blocks(tape.value_start, value),
+        tape.jacobian_place,
+        tape.jacobian_part,
+        tape.jacobian_start,
+        tape.jacobian_slot,
+        *_parts(jacobian),
+        _real_blocks(tape.jacobian_start, jacobian),
+    )
 
 
 def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
@@ -136,38 +135,59 @@ def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
     known = homotopy.__dict__.get("_system")
     if known is not None and weights is None:
         return known
-    tape = homotopy.rows.tape
     factors = np.array(homotopy.factors, dtype=np.complex128).reshape(-1, 2)
     moving = (factors[:, 1] != 0) | (factors[:, 0] != 1) | (weights is not None)
-    made = table(
-        System(
-            homotopy.N,
-            len(homotopy.rows),
-            len(homotopy.A0),
-            len(homotopy.groups),
-            len(factors),
-            tape.value_products,
-            len(tape.first),
-            len(tape.value_place),
-            len(tape.jacobian_place),
-            *_rows(homotopy.rows),
-            *_parts(factors),
-            moving.astype(np.int64),
-            *_parts(homotopy.A0),
-            *_parts(homotopy.A1),
-            homotopy.A1.any(axis=1).astype(np.int64),
-            homotopy.group_of,
-            int(weights is not None),
-            np.zeros(1) if weights is None else np.ascontiguousarray(weights, dtype=float).ravel(),
-        )
+    (factor_re, factor_im), (A0_re, A0_im), (A1_re, A1_im) = map(
+        _parts, (factors, homotopy.A0, homotopy.A1)
+    )
+    made = replaced(
+        _template(homotopy),
+        linear=len(homotopy.A0),
+        parts=len(factors),
+        factor_re=factor_re,
+        factor_im=factor_im,
+        moving=moving.astype(np.int64),
+        A0_re=A0_re,
+        A0_im=A0_im,
+        A1_re=A1_re,
+        A1_im=A1_im,
+        linear_moving=homotopy.A1.any(axis=1).astype(np.int64),
+        toric=int(weights is not None),
+        weights=np.zeros(1) if weights is None else np.ascontiguousarray(weights, float).ravel(),
     )
     if weights is None:
         homotopy.__dict__["_system"] = made
     return made
 
 
-def work(homotopy: Homotopy, order: int) -> Work:
-    """Scratch vectors for ``homotopy`` and Taylor coefficients up to ``order``."""
+def _template(homotopy: Homotopy) -> Table:
+    """What all homotopies of the same rows have in common."""
+    rows = homotopy.rows
+    if "system" not in rows._cache:
+        tape, nothing, none = rows.tape, np.zeros(0), np.zeros(0, np.int64)
+        rows._cache["system"] = table(
+            System(
+                rows.N,
+                len(rows),
+                0,
+                len(homotopy.groups),
+                0,
+                tape.value_products,
+                len(tape.first),
+                len(tape.value_place),
+                len(tape.jacobian_place),
+                *_rows(rows),
+                *(nothing, nothing, none, nothing, nothing, nothing, nothing, none),
+                homotopy.group_of,
+                0,
+                nothing,
+            )
+        )
+    return rows._cache["system"]
+
+
+def work(homotopy: Homotopy, order: int) -> Table:
+    """The table of `Work` for ``homotopy`` and Taylor coefficients up to ``order``."""
     N = homotopy.N
     tape = homotopy.rows.tape
     slots = N + 1 + len(tape.first)
@@ -175,5 +195,8 @@ def work(homotopy: Homotopy, order: int) -> Work:
     parts = len(homotopy.factors)
     sizes = [slots] * 2 + [order * value_slots] * 2 + [value_slots] * 2 + [N * N] * 2 + [N] * 4
     sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, order + 2, 1, 1, 1, 8]
-    vectors = separate(aligned(sum(sizes)), sizes)
-    return Work(*vectors, np.zeros(48, np.int64))
+    vectors, counters = aligned(sum(sizes)), np.zeros(48, np.int64)
+    words = np.array([0, *accumulate(sizes)]) * VECTOR
+    words += address(vectors)
+    words[-1] = address(counters)
+    return Table(words, address(words), Work(*separate(vectors, sizes), counters))

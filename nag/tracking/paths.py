@@ -138,7 +138,10 @@ class Paths:
 
     def where(self, *status: PathStatus) -> np.ndarray:
         """Indices of the paths with one of these statuses."""
-        return np.flatnonzero(np.isin(self.status, status))
+        chosen = np.zeros(len(self.status), dtype=bool)
+        for one in status:
+            chosen |= self.status == int(one)
+        return np.flatnonzero(chosen)
 
     @property
     def failures(self) -> dict[str, int]:

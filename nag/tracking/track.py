@@ -10,6 +10,7 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cache
 
 import numpy as np
 
@@ -31,6 +32,8 @@ RESIDUAL = 1e-29
 ALIKE = 1e-9
 # Their next coefficients, over the sum of their sizes.
 BENT = 1e-4
+# A coordinate that exceeds the error of its point so many times does not vanish.
+NONZERO = 1e3
 # Below so many paths a second thread costs more than it brings.
 PATHS_PER_THREAD = 64
 
@@ -43,6 +46,7 @@ def track(
     *,
     endgame: bool = True,
     distinct: bool = True,
+    most: int | None = None,
 ) -> Paths:
     """Track ``starts`` from t = 1 to t = 0.
 
@@ -55,6 +59,8 @@ def track(
             end, and one that ends otherwise has failed.
         distinct: the starts are pairwise distinct, so that equal regular ends betray a path jump;
             such paths are tracked again with tighter control.
+        most: where it is known that a target with so many regular zeros, none of whose coordinates
+            vanish, has no other zeros: once these are found, all other paths lead to infinity.
 
     Raises:
         ValueError: if the starts have a wrong shape, or settings an unknown name.
@@ -64,7 +70,7 @@ def track(
     if starts.ndim != 2 or starts.shape[1] != homotopy.N:
         raise ValueError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
     starts = homotopy.normalized(starts)
-    paths = _attempt(homotopy, starts, chosen, threads, endgame)
+    paths = _attempt(homotopy, starts, chosen, threads, endgame, most if distinct else None)
     for attempt in range(chosen.retries if distinct else 0):
         jumped = collisions(homotopy, paths)
         if attempt == 0:
@@ -74,7 +80,7 @@ def track(
             return paths
         chosen = tighter(chosen)
         paths = merged(paths, _attempt(homotopy, starts[jumped], chosen, threads, endgame), jumped)
-    return _without(paths, collisions(homotopy, paths)) if distinct else paths
+    return without(paths, collisions(homotopy, paths)) if distinct else paths
 
 
 def track_regular(
@@ -120,7 +126,12 @@ class _Raw:
 
 
 def _attempt(
-    homotopy: Homotopy, starts: np.ndarray, settings: Settings, threads: int, endgame: bool
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    settings: Settings,
+    threads: int,
+    endgame: bool,
+    most: int | None = None,
 ) -> Paths:
     raw = _run(homotopy, starts, settings, threads, endgame)
     paths, regular = _judged(homotopy, raw)
@@ -128,6 +139,8 @@ def _attempt(
     doubtful = doubtful[raw.reason[doubtful] != Reason.START]
     if not len(doubtful) or settings.digits < 32:
         return paths
+    if most is not None and _all_are_found(homotopy, paths, most):
+        return _to_infinity(homotopy, paths, doubtful)
     from nag.tracking.ends.follow import follow
 
     reached = raw.reason[doubtful] == Reason.NONE
@@ -142,8 +155,28 @@ def _attempt(
         threads,
     )
     if not endgame:
-        new = _without(new, new.where(PathStatus.SINGULAR))
+        new = without(new, new.where(PathStatus.SINGULAR))
     return merged(paths, new, doubtful)
+
+
+def _all_are_found(homotopy: Homotopy, paths: Paths, most: int) -> bool:
+    """Whether there are ``most`` distinct regular finite ends, no coordinate of which vanishes."""
+    regular = paths.where(PathStatus.REGULAR)
+    if len(regular) != most or len(collisions(homotopy, paths)):
+        return False
+    sizes = np.abs(paths.points[regular]).min(axis=1)
+    return bool((sizes > NONZERO * paths.accuracy[regular]).all())
+
+
+def _to_infinity(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> Paths:
+    """The same, with the paths ``chosen`` known to lead to infinity, though not where."""
+    status, reason, points = paths.status.copy(), paths.reason.copy(), paths.points.copy()
+    status[chosen], reason[chosen] = PathStatus.AT_INFINITY, Reason.NONE
+    infinite = np.array(homotopy.infinity)
+    least = infinite[np.abs(points[np.ix_(chosen, infinite)]).argmin(axis=1)]
+    points[chosen, least] = 0.0
+    points[chosen] = homotopy.normalized(points[chosen])
+    return replace(paths, points=points, status=status, reason=reason)
 
 
 def _run(
@@ -209,42 +242,41 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
     """
     P = len(raw.points)
     points = raw.points.copy()
-    status = np.full(P, PathStatus.FAILED, dtype=np.int8)
-    accuracy = np.full(P, np.inf)
-    condition = np.full(P, np.inf)
-    reason = raw.reason.astype(np.int8)
-    regular = np.zeros(P, dtype=bool)
-    ended = np.flatnonzero(raw.reason == Reason.NONE)
+    good, regular = np.zeros(P, dtype=bool), np.zeros(P, dtype=bool)
+    accuracy, condition = np.full(P, np.inf), np.full(P, np.inf)
+    ended = np.flatnonzero(raw.reason == int(Reason.NONE))
     if len(ended):
         error = np.maximum(raw.error[ended], 1e-15)
-        sharp = refine(homotopy, None, homotopy.normalized(points[ended]))
-        steady = sharp.smallest > 0.5 * sharp.before
+        sharp = refine(homotopy, None, points[ended])
         # Newton's method proves a regular zero where its steps are far smaller than the singular
-        # values.
+        # values, which hardly change on the way.
         near = (sharp.moved <= 1e3 * error + 1e-11) | (sharp.moved <= 0.1 * sharp.smallest)
-        proved = steady & near & (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
-        points[ended] = sharp.points
-        accuracy[ended] = sharp.error
-        condition[ended] = sharp.condition
+        proved = near & (sharp.smallest > 0.5 * sharp.before)
+        proved &= (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
-        known = sizes > RESIDUAL / np.maximum(sharp.smallest, 1e-300)
-        status[ended[proved & known]] = PathStatus.REGULAR
-        regular[ended[proved]] = True
-    failed = status == PathStatus.FAILED
-    reason[failed & (reason == Reason.NONE)] = Reason.ENDGAME
-    accuracy[failed] = np.inf
-    winding = np.where(failed, 0, 1)
-    digits = np.where(failed, 16, 32).astype(np.int16)
-    paths = Paths(points, status, winding, accuracy, condition, raw.steps, digits, reason, ~failed)
-    return paths, regular
+        known = sizes * np.maximum(sharp.smallest, 1e-300) > RESIDUAL
+        points[ended] = sharp.points
+        condition[ended] = sharp.condition
+        regular[ended] = proved
+        good[ended] = proved & known
+        accuracy[ended] = np.where(proved & known, sharp.error, np.inf)
+    failed = ~good
+    status, digits = np.zeros(P, np.int8), np.full(P, 32, np.int16)
+    status[good], status[failed], digits[failed] = PathStatus.REGULAR, PathStatus.FAILED, 16
+    reason = raw.reason.astype(np.int8)
+    reason[failed & (reason == int(Reason.NONE))] = Reason.ENDGAME
+    winding = good.astype(np.int64)
+    return Paths(
+        points, status, winding, accuracy, condition, raw.steps, digits, reason, good
+    ), regular
 
 
-def _without(paths: Paths, lost: np.ndarray) -> Paths:
+def without(paths: Paths, lost: np.ndarray) -> Paths:
     """The same, with the paths at ``lost`` failed."""
-    status, reason = paths.status.copy(), paths.reason.copy()
-    status[lost], reason[lost] = PathStatus.FAILED, Reason.ENDGAME
-    simple = paths.simple & (status != PathStatus.FAILED)
-    return replace(paths, status=status, reason=reason, simple=simple)
+    status, reason, winding = paths.status.copy(), paths.reason.copy(), paths.winding.copy()
+    status[lost], reason[lost], winding[lost] = PathStatus.FAILED, Reason.ENDGAME, 0
+    simple = paths.simple & (status != int(PathStatus.FAILED))
+    return replace(paths, status=status, reason=reason, winding=winding, simple=simple)
 
 
 def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
@@ -253,8 +285,8 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     Two ends coincide if they do in all digits that both are known to. A limit that is reached
     without winding is compared with the regular ends as well.
     """
-    ended = paths.status != PathStatus.FAILED
-    chosen = np.flatnonzero(paths.simple | (ended & (paths.winding == 1)))
+    # Paths that failed have no winding number.
+    chosen = np.flatnonzero(paths.simple | (paths.winding == 1))
     if len(chosen) < 2 or not paths.simple.any():
         return chosen[:0]
     points = paths.points[chosen]
@@ -262,7 +294,7 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     # ones are neighbours in a window of that coordinate.
     key = np.zeros(len(chosen))
     for indices in homotopy.groups:
-        key += np.abs(points[:, list(indices)] @ np.exp(1j * np.arange(len(indices)) ** 2)) ** 2
+        key += np.abs(points[:, list(indices)] @ _directions(len(indices))) ** 2
     found: set[int] = set()
     tolerance = np.maximum(1e-10, 1e3 * paths.accuracy[chosen])
     for i, j in neighbours(key, np.full(len(key), 1e-6)):
@@ -272,6 +304,11 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
             if paths.same(homotopy, a, b):
                 found |= {a, b}
     return np.array(sorted(found), dtype=np.int64)
+
+
+@cache
+def _directions(n: int) -> np.ndarray:
+    return np.exp(1j * np.arange(n) ** 2)
 
 
 def alike(paths: Paths) -> np.ndarray:

@@ -19,8 +19,8 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # A point that satisfies the equations so well, relative to their terms, is taken for a rounded one.
 ROUNDED = 1e-9
-# Relative error of an exact point that is rounded to doubles, with room for its coordinates' sums.
-EXACT = 1e-12
+# Relative error of an exact point that is rounded to doubles, and least one of others.
+EXACT, INEXACT = 1e-15, 1e-12
 
 
 def sampled(
@@ -64,7 +64,7 @@ def contains(
         residual = float(evaluator.residuals(at[None]).max(initial=0.0))
         if residual > max(ROUNDED, accuracy or 0.0):
             return False
-        accuracy = max(EXACT, 10 * residual) if accuracy is None else accuracy
+        accuracy = max(INEXACT, 10 * residual) if accuracy is None else accuracy
     alone = Decomposition(system, (component,), PathCounts(), 0, "default", (), True)
     (answer,) = memberships(alone, at, accuracy=accuracy, **running)
     if answer is Membership.UNDECIDED:

@@ -114,8 +114,7 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
 
 def _proved(equations: Sequence[Polynomial], component: WitnessSet, cut: Slice) -> CertifiedPoints:
     singular = np.full(component.degree, component.corank > component.dimension)
-    accuracy = np.full(component.degree, component.accuracy)
-    return certify_points(equations, cut.rows, component.points, accuracy, singular)
+    return certify_points(equations, cut.rows, component.points, component.errors, singular)
 
 
 def _others(system: PolynomialSystem, component: WitnessSet) -> list[WitnessSet]:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import vanish, vanish_at
+from nag.algebra.high_precision import DIGITS, vanish, vanish_at, vanish_in_balls
 from nag.algebra.number import decimal_digits
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, analyse
+from nag.witness.close_points import Fine, zero_from
 from nag.witness.cutting import ON, Cut
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded
@@ -20,22 +22,39 @@ REGULAR = 1e-5
 # Values in doubles below this, beside their terms, are rounding, if coefficients have no more
 # digits.
 CERTAIN, ROUND_NUMBERS = 1e-14, 6
+NOTHING: Mapping[int, Fine] = MappingProxyType({})
 
 
-def confirmed(cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np.ndarray) -> bool:
+def confirmed(
+    cut: Cut,
+    equations: Sequence[Polynomial],
+    rows: np.ndarray,
+    z: np.ndarray,
+    fine: Fine | None = None,
+) -> bool:
     """Whether the zero of ``cut`` on the slice near ``z`` is one of all ``equations``.
 
     The square system's zero is computed to 100 digits; there the other equations must vanish too.
     """
+    if fine is not None:
+        return _at_close_zero(cut, equations, rows, fine) is True
     matrix = np.vstack([cut.evaluator.jacobian(z), padded(rows, 1 + len(z))[:, 1:]])
     smallest = np.linalg.svd(matrix, compute_uv=False).min(initial=np.inf)
-    if not cut.levels and len(cut.polynomials) == len(equations) and smallest > REGULAR:
+    if not cut.deflated and len(cut.polynomials) == len(equations) and smallest > REGULAR:
         return True
     return _at_zero(cut, equations, rows, z) is True
 
 
-def vanishing(cut: Cut, f: Polynomial, rows: np.ndarray, points: np.ndarray) -> list[bool | None]:
+def vanishing(
+    cut: Cut,
+    f: Polynomial,
+    rows: np.ndarray,
+    points: np.ndarray,
+    fine: Mapping[int, Fine] = NOTHING,
+) -> list[bool | None]:
     """At which zeros of ``cut`` on the slice, shape ``(P, n + aux)``, ``f`` vanishes.
+
+    ``fine`` are more digits of some of them, by their indices.
 
     Values that are no rounding errors of their terms are computed to 100 digits: at large points a
     value of one may be small beside its terms, and a small coordinate need not be zero. So are all
@@ -47,10 +66,31 @@ def vanishing(cut: Cut, f: Polynomial, rows: np.ndarray, points: np.ndarray) -> 
     coefficients = [c for g in (f, *cut.polynomials) for c in g.terms.values()]
     if max(map(decimal_digits, coefficients), default=0) > ROUND_NUMBERS:
         rounding[:] = False
+    rounding[list(fine)] = False
     return [
-        bool(near) and (bool(certain) or _at_zero(cut, [f], rows, z))
-        for near, certain, z in zip(small, rounding[:, 0], points, strict=True)
+        bool(near)
+        and (
+            bool(certain)
+            or (
+                _at_close_zero(cut, [f], rows, fine[i])
+                if i in fine
+                else _at_zero(cut, [f], rows, z)
+            )
+        )
+        for i, (near, certain, z) in enumerate(zip(small, rounding[:, 0], points, strict=True))
     ]
+
+
+def _at_close_zero(
+    cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, fine: Fine
+) -> bool | None:
+    """Whether equations vanish at a zero that is close to others; None if it was not found."""
+    import flint
+
+    more = int(2 * np.log10(max(fine.curvature, 1.0)))
+    with flint.ctx.workdps(DIGITS + 10 + 2 * more):
+        found = zero_from(cut.polynomials, rows, fine, DIGITS + more)
+        return None if found is None else vanish_in_balls(equations, found[0])
 
 
 def _at_zero(

@@ -6,6 +6,7 @@ if the component is reduced, of their isosingular deflation otherwise (Hauenstei
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -17,13 +18,12 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import CompiledRows, compile_rows
+from nag.witness.isosingular import Deflated, Level
 from nag.witness.slices import padded
 
 # A value relative to the size of its terms: zeros lie below 2.5e-13 at sharpened points, others
 # above 2e-6 in all systems measured.
 ON = 1e-9
-# A deflation of more steps that add unknowns has not been met in the literature's examples.
-MOST_DEFLATIONS = 4
 # A rank is read where neighbouring singular values differ by this factor, and at a point that is
 # known to be singular, though perhaps not well, below this value.
 GAP = 1e3
@@ -31,15 +31,16 @@ NEARLY_SINGULAR = 1e-5
 # Newton's method may correct an end by this much, relative to its size: estimates of the error of
 # a singular end are themselves uncertain.
 NEAR = 1e-7
-# Deflated systems of more unknowns, or of more terms, cost more than they are worth.
-MOST_UNKNOWNS = 80
-MOST_TERMS = 100_000
+# A deflation of more steps that add unknowns has not been met in the literature's examples.
+MOST_DEFLATIONS = 4
 # A random choice of null vectors may be an unlucky one.
 ATTEMPTS = 3
 # Gradients below this, relative to what their degree lets them have, are not scaled up further.
 FLAT = 1e-4
 # Newton's method from the end point of a path must arrive within this many steps.
 NEWTON_STEPS = 12
+# Steps that are rounding errors, and residuals at points that are known.
+ROUNDING, VANISHING = 1e-14, 1e-11
 # Rows of larger matrices are chosen by LAPACK, which takes longer to load than smaller ones take.
 MOST_ENTRIES = 2000
 
@@ -54,21 +55,6 @@ class Equations:
     @cached_property
     def evaluator(self) -> Evaluator:
         return Evaluator.of(self.polynomials, self.n)
-
-
-@dataclass(frozen=True, eq=False)
-class Level:
-    """One deflation step: ``J(z) (Q1 + Q2 L) = 0`` in new unknowns ``L``, column by column."""
-
-    base: Evaluator
-    q1: np.ndarray
-    q2: np.ndarray
-
-    def unknowns(self, z: np.ndarray) -> np.ndarray:
-        """The values of ``L`` at ``z``, by least squares, flattened column by column."""
-        jacobian = self.base.jacobian(z)
-        solution, *_ = np.linalg.lstsq(jacobian @ self.q2, -jacobian @ self.q1, rcond=None)
-        return solution.T.ravel()
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +80,11 @@ class Cut:
     @cached_property
     def evaluator(self) -> Evaluator:
         return Evaluator.of(self.polynomials, self.n + self.aux)
+
+    @property
+    def deflated(self) -> bool:
+        """Whether its polynomials are those of a deflation, not some of the system's."""
+        return bool(self.levels) or self.aux > 0
 
     def lift(self, x: np.ndarray) -> np.ndarray:
         """An affine point with the values of the added unknowns appended."""
@@ -136,13 +127,36 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
             floor = min(max(1e-10, 1e2 * np.finfo(float).eps * s[0] / s[-1]), 1e-8)
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
         # Rounding alone keeps the steps at a badly conditioned point from shrinking further.
-        if step < 1e-14 or (step < floor and step > 0.25 * last):
+        if step < ROUNDING or (step < floor and step > 0.25 * last):
             break
         slow += step > 0.25 * last
         if not np.isfinite(step) or slow > 2:
             return Sharpened(z, np.inf, False)
     residual = float(evaluator.residuals(z[None]).max(initial=0.0))
-    return Sharpened(z, step, bool(step < floor) and residual < 1e-11)
+    return Sharpened(z, step, bool(step < floor) and residual < VANISHING)
+
+
+def sharpen_all(evaluator: Evaluator, rows: np.ndarray, points: np.ndarray) -> list[Sharpened]:
+    """`sharpen` for points of shape ``(P, n)``; those known to rounding take one step together."""
+    found: list[Sharpened | None] = [None] * len(points)
+    a = padded(rows, 1 + points.shape[1])
+    columns = points.shape[1]
+    if len(evaluator.coefficients) + len(a) == columns > 0:
+        jacobians = evaluator.placed_derivatives(columns)(points)
+        slices = np.broadcast_to(a[:, 1:], (len(points), len(a), columns))
+        matrices = np.concatenate([jacobians, slices], axis=1)
+        values = [evaluator.values(points), a[:, 0] + points @ a[:, 1:].T]
+        with contextlib.suppress(np.linalg.LinAlgError):
+            steps = np.linalg.solve(matrices, np.concatenate(values, axis=1)[:, :, None])[:, :, 0]
+            moved = points - steps
+            sizes = np.linalg.norm(steps, axis=1) / (1 + np.linalg.norm(moved, axis=1))
+            residuals = evaluator.residuals(moved).max(axis=1, initial=0.0)
+            for i in np.flatnonzero((sizes < ROUNDING) & (residuals < VANISHING)):
+                found[i] = Sharpened(moved[i], float(sizes[i]), True)
+    return [
+        sharpen(evaluator, rows, z) if known is None else known
+        for z, known in zip(points, found, strict=True)
+    ]
 
 
 def _floors(evaluator: Evaluator, z: np.ndarray, slices: int) -> np.ndarray:
@@ -229,34 +243,6 @@ def _most_independent(matrix: np.ndarray, need: int) -> list[int]:
     return sorted(chosen)
 
 
-def _deflated(
-    polynomials: Sequence[Polynomial], n: int, q1: np.ndarray, q2: np.ndarray
-) -> list[Polynomial]:
-    """The polynomials together with ``J (q1 + q2 L) = 0``, exact, in the variables ``(z, L)``."""
-    k, m = q2.shape[1], q1.shape[1]
-    total = n + k * m
-    first = [[Fraction(q) for q in row] for row in q1]
-    second = [[Fraction(q) for q in row] for row in q2]
-    zeros = (0,) * (k * m)
-    units = [(*zeros[:i], 1, *zeros[i + 1 :]) for i in range(k * m)]
-    result = [f.with_variables(total, range(n)) for f in polynomials]
-    for f in polynomials:
-        gradient = [(i, f.derivative(i)) for i in sorted(f.support)]
-        for column in range(m):
-            terms: dict[tuple[int, ...], Number] = {}
-            for i, derivative in gradient:
-                entries = [(zeros, first[i][column])]
-                entries += [(units[column * k + j], second[i][j]) for j in range(k)]
-                for exponents, coefficient in derivative.terms.items():
-                    for unit, q in entries:
-                        key = exponents + unit
-                        terms[key] = terms.get(key, 0) + coefficient * q
-            value = Polynomial(total, terms)
-            if value:
-                result.append(value)
-    return result
-
-
 def find_cut(
     equations: Equations,
     rows: np.ndarray,
@@ -270,46 +256,78 @@ def find_cut(
     Without ``deflate`` only subsets of ``equations`` are tried: success means that the component
     through ``x`` is reduced. Returns None where no cut is found.
     """
-    for _ in range(ATTEMPTS if deflate else 1):
-        found = _find_cut(equations, rows, x, accuracy, rng, deflate)
+    end = _End(rows, x, accuracy)
+    if not deflate:
+        return end.regular_subset(_not_deflated(equations), x, rng)
+    for _ in range(ATTEMPTS):
+        found = _deflated_cut(equations, end, rng)
         if found is not None:
             return found
     return None
 
 
-def _find_cut(
-    equations: Equations,
-    rows: np.ndarray,
-    x: np.ndarray,
-    accuracy: float,
-    rng: np.random.Generator,
-    deflate: bool,
+def _not_deflated(equations: Equations) -> Deflated:
+    return Deflated.none(equations.polynomials, equations.evaluator, equations.n)
+
+
+def _deflated_cut(
+    equations: Equations, end: _End, rng: np.random.Generator
 ) -> tuple[Cut, np.ndarray] | None:
-    n, evaluator = equations.n, equations.evaluator
-    polynomials, total, z, levels = list(equations.polynomials), n, x, []
+    """A cut from deflations with random null vectors, as many as are needed."""
+    system, z = _not_deflated(equations), end.x
     steps = 0
     while True:
-        found = _regular_subset(polynomials, evaluator, tuple(levels), rows, x, z, accuracy, rng)
-        if found is not None or not deflate:
+        found = end.regular_subset(system, z, rng)
+        if found is not None:
             return found
-        free = total - len(rows)
-        q = dyadic(rng, (total, free))
-        singular = np.linalg.svd(evaluator.balanced_jacobian(z) @ q, compute_uv=False)
+        free = system.total - len(end.rows)
+        q = dyadic(rng, (system.total, free))
+        singular = np.linalg.svd(system.evaluator.balanced_jacobian(z) @ q, compute_uv=False)
         m = numerical_corank(singular, free, NEARLY_SINGULAR)
         if m == 0:
             return None
         steps += free > m
-        if steps > MOST_DEFLATIONS or total + (free - m) * m > MOST_UNKNOWNS:
+        if steps > MOST_DEFLATIONS or system.too_large(free, m):
             return None
-        entries = sum(sum(map(bool, e)) for f in polynomials for e in f.terms)
-        if entries * m * (1 + free - m) > MOST_TERMS:
+        system = system.once_more(q[:, :m], q[:, m:])
+        z = np.concatenate([z, system.levels[-1].unknowns(z)])
+
+
+@dataclass(frozen=True, eq=False)
+class _End:
+    """The end of a path on the slice ``rows``, for which a square system is looked for."""
+
+    rows: np.ndarray
+    x: np.ndarray
+    accuracy: float
+
+    def regular_subset(
+        self, system: Deflated, z: np.ndarray, rng: np.random.Generator
+    ) -> tuple[Cut, np.ndarray] | None:
+        """As many of the equations as are needed, or combinations, and the point sharpened.
+
+        Args:
+            z: the point with the unknowns that deflation added.
+        """
+        rows, n = self.rows, system.n
+        sharpened = sharpen(system.evaluator, rows, z)
+        # A regular zero is where the path ended, not somewhere in its neighbourhood.
+        distance = np.linalg.norm(sharpened.z[:n] - self.x) / (1 + np.linalg.norm(self.x))
+        if not sharpened.converged or distance > max(1e3 * self.accuracy, NEAR):
             return None
-        level = Level(evaluator, q[:, :m], q[:, m:])
-        polynomials = _deflated(polynomials, total, level.q1, level.q2)
-        z = np.concatenate([z, level.unknowns(z)])
-        total = len(z)
-        evaluator = Evaluator.of(polynomials, total)
-        levels.append(level)
+        chosen = _square_rows(system.evaluator, rows, sharpened.z)
+        if chosen is None:
+            return None
+        subset = tuple(system.polynomials[i] for i in chosen)
+        for combined in (False, True):
+            chosen = _combinations(system.polynomials, len(subset), rng) if combined else subset
+            cut = Cut(n, system.total - n, chosen, system.levels)
+            again = sharpen(cut.evaluator, rows, sharpened.z)
+            if again.converged and regular_on(cut.evaluator, rows, again):
+                return cut, again.z
+            if not regular_on(system.evaluator, rows, sharpened):
+                return None
+        return None
 
 
 def dyadic(rng: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
@@ -318,37 +336,6 @@ def dyadic(rng: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
     With coefficients that are exact, Newton's method in any precision converges to exact points.
     """
     return rng.choice([-1, 1], shape) * (64 + rng.integers(0, 128, shape)) / 128
-
-
-def _regular_subset(
-    polynomials: Sequence[Polynomial],
-    evaluator: Evaluator,
-    levels: tuple[Level, ...],
-    rows: np.ndarray,
-    x: np.ndarray,
-    z: np.ndarray,
-    accuracy: float,
-    rng: np.random.Generator,
-) -> tuple[Cut, np.ndarray] | None:
-    n, total = len(x), len(z)
-    sharpened = sharpen(evaluator, rows, z)
-    # A regular zero is where the path ended, not somewhere in its neighbourhood.
-    distance = np.linalg.norm(sharpened.z[:n] - x) / (1 + np.linalg.norm(x))
-    if not sharpened.converged or distance > max(1e3 * accuracy, NEAR):
-        return None
-    chosen = _square_rows(evaluator, rows, sharpened.z)
-    if chosen is None:
-        return None
-    subset = tuple(polynomials[i] for i in chosen)
-    for combined in (False, True):
-        chosen = _combinations(polynomials, len(subset), rng) if combined else subset
-        cut = Cut(n, total - n, chosen, levels)
-        again = sharpen(cut.evaluator, rows, sharpened.z)
-        if again.converged and regular_on(cut.evaluator, rows, again):
-            return cut, again.z
-        if not regular_on(evaluator, rows, sharpened):
-            return None
-    return None
 
 
 def _combinations(

@@ -5,16 +5,21 @@ Sums of them are exact, so that what cancels is known to the error of the points
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from nag.algebra.high_precision import zero_near
 from nag.tracking.newton import Refined, refine
+from nag.witness.close_points import Fine, zero_from
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, homogeneous
 from nag.witness.slices import padded
 
+# Digits that points are known to at least, where their condition allows it.
+FEWEST = 28
 # Digits for which Newton's method with residuals in double-double may be enough.
 DOUBLE_DOUBLE = 30
 # Error of a step that is solved in doubles, in roundings times the condition, and of residuals in
@@ -36,11 +41,29 @@ class ExactPoints:
         bits: the unit is ``2 ** -bits``.
         radii: estimated errors of the coordinates, the largest of each point; inf where Newton's
             method did not converge, shape ``(P,)``.
+        balls: which points were found in balls, not in double-double, shape ``(P,)``.
     """
 
     values: np.ndarray
     bits: int
     radii: np.ndarray
+    balls: np.ndarray
+
+    def only(self, indices: Sequence[int]) -> ExactPoints:
+        """Some of the points."""
+        return ExactPoints(
+            self.values[indices], self.bits, self.radii[indices], self.balls[indices]
+        )
+
+
+def of_balls(points: Sequence[Sequence[Any]]) -> ExactPoints:
+    """Points from balls (FLINT's ``acb``) that hold their coordinates, in the fewest digits."""
+    bits = bits_of(FEWEST)
+    values = np.array([_whole(point, bits) for point in points], dtype=object)
+    radii = [max((float(z.rad()) for z in point), default=0.0) for point in points]
+    return ExactPoints(
+        values, bits, np.array(radii) + 2.0 ** (1 - bits), np.ones(len(points), dtype=bool)
+    )
 
 
 def bits_of(digits: int) -> int:
@@ -60,9 +83,14 @@ def exact_points(fibre: Fibre, rows: np.ndarray, digits: int) -> ExactPoints:
     radii = np.full(len(fibre), np.inf)
     if digits <= DOUBLE_DOUBLE:
         values, radii = _twice(fibre, rows, bits)
-    for i in np.flatnonzero(~np.isfinite(radii)):
-        values[i], radii[i] = _in_balls(fibre.cut, rows, fibre.points[i], digits, bits)
-    return ExactPoints(values, bits, radii)
+    radii[list(fibre.fine)] = np.inf
+    balls = ~np.isfinite(radii)
+    for i in np.flatnonzero(balls).tolist():
+        if i in fibre.fine:
+            values[i], radii[i] = _from_fine(fibre.cut, rows, fibre.fine[i], digits, bits)
+        else:
+            values[i], radii[i] = _in_balls(fibre.cut, rows, fibre.points[i], digits, bits)
+    return ExactPoints(values, bits, radii, balls)
 
 
 def _twice(fibre: Fibre, rows: np.ndarray, bits: int) -> tuple[np.ndarray, np.ndarray]:
@@ -127,6 +155,26 @@ def fixed(z: np.ndarray, bits: int) -> np.ndarray:
     return np.where(shift >= 0, whole << np.maximum(shift, 0), whole >> np.maximum(-shift, 0))
 
 
+def _from_fine(
+    cut: Cut, rows: np.ndarray, fine: Fine, digits: int, bits: int
+) -> tuple[np.ndarray, float]:
+    """A point that is close to others, from the digits that it has."""
+    import flint
+
+    lost = max(0, int(np.log10(fine.curvature)))
+    with flint.ctx.workdps(digits + SPARE + 2 * lost):
+        found = zero_from(cut.polynomials, rows, fine, digits + lost)
+        if found is None:
+            return np.zeros(2 * cut.n, dtype=object), np.inf
+        return _whole(found[0][: cut.n], bits), found[1] + 2.0**-bits
+
+
+def _whole(point: Sequence[Any], bits: int) -> np.ndarray:
+    """Coordinates as integers of the unit ``2 ** -bits``, real and then imaginary parts."""
+    parts = [x.real for x in point] + [x.imag for x in point]
+    return np.array([int((x * 2**bits).mid().floor().unique_fmpz()) for x in parts], dtype=object)
+
+
 def _in_balls(
     cut: Cut, rows: np.ndarray, z: np.ndarray, digits: int, bits: int
 ) -> tuple[np.ndarray, float]:
@@ -141,6 +189,4 @@ def _in_balls(
         if found is None:
             return nothing, np.inf
         point, error = found
-        parts = [x.real for x in point[:n]] + [x.imag for x in point[:n]]
-        whole = [int((x * 2**bits).mid().floor().unique_fmpz()) for x in parts]
-    return np.array(whole, dtype=object), error
+        return _whole(point[:n], bits), error

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
+from nag.witness.close_points import Fine
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
 from nag.witness.witness import Decomposition, Slice, WitnessSet
@@ -20,7 +21,10 @@ def image(component: WitnessSet, symmetry: SignedPermutation) -> WitnessSet:
     cut = Slice(symmetry.of_point(component.slice.A), component.slice.b)
     points = symmetry.of_point(component.points)
     fibres = tuple(_image(fibre, symmetry) for fibre in component.fibres)
-    return replace(component, slice=cut, points=points, orbit=1, images=(), fibres=fibres)
+    radii = np.abs(symmetry.of_point(component.radii))
+    return replace(
+        component, slice=cut, points=points, radii=radii, orbit=1, images=(), fibres=fibres
+    )
 
 
 def _image(fibre: Fibre, symmetry: SignedPermutation) -> Fibre:
@@ -30,7 +34,13 @@ def _image(fibre: Fibre, symmetry: SignedPermutation) -> Fibre:
     whole = SignedPermutation((*back.sources, *range(n, n + aux)), (*back.signs, *([1] * aux)))
     polynomials = tuple(whole.of_polynomial(f) for f in fibre.cut.polynomials)
     points = np.hstack([symmetry.of_point(fibre.x), fibre.points[:, n:]])
-    return Fibre(Cut(n, aux, polynomials), fibre.dimension, points)
+    fine = {i: _image_of_fine(each, symmetry, n) for i, each in fibre.fine.items()}
+    return Fibre(Cut(n, aux, polynomials), fibre.dimension, points, fine)
+
+
+def _image_of_fine(point: Fine, symmetry: SignedPermutation, n: int) -> Fine:
+    moved = np.moveaxis(symmetry.of_point(np.moveaxis(point.words[:n], 0, -1)), -1, 0)
+    return Fine(np.concatenate([moved, point.words[n:]]), point.curvature)
 
 
 def expanded(decomposition: Decomposition) -> Decomposition:

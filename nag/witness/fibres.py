@@ -2,21 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from nag.numerics.coincidence import coincident
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
-from nag.witness.cutting import NEAR, ON, Cut, Equations, find_cut, regular_on, sharpen
+from nag.witness.close_points import (
+    WORDS,
+    Fine,
+    affine_fine,
+    chosen,
+    close_pairs,
+    distance,
+    rated,
+)
+from nag.witness.cutting import (
+    MOST_DEFLATIONS,
+    NEAR,
+    ON,
+    Cut,
+    Equations,
+    find_cut,
+    regular_on,
+    sharpen,
+)
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
 
-# Two ends are one point when they differ by less than this, or than their errors explain.
-SAME = 1e-9
+# Newton's constant of points that are close, over their inverse distance.
+STEEPER = 2.0
+
+# Called with a stage's name, the step reached and the number of steps.
+Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,11 +47,13 @@ class Fibre:
 
     Attributes:
         points: complex, shape ``(P, n + aux)``, affine.
+        fine: more digits of points that are close to others, by their indices.
     """
 
     cut: Cut
     dimension: int
     points: np.ndarray
+    fine: Mapping[int, Fine] = field(default_factory=dict)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Fibre):
@@ -39,6 +63,7 @@ class Fibre:
             and self.cut.n == other.cut.n
             and self.dimension == other.dimension
             and np.array_equal(self.points, other.points)
+            and self.fine == other.fine
         )
 
     @property
@@ -49,17 +74,51 @@ class Fibre:
     def __len__(self) -> int:
         return len(self.points)
 
+    def lifted(self, x: np.ndarray) -> np.ndarray:
+        """A point with values of the added unknowns, to start Newton's method from.
+
+        Where the cut does not keep how it was found, the unknowns are solved for, those that each
+        step of deflation added being linear in its equations.
+        """
+        n = self.cut.n
+        if self.cut.levels or not self.cut.aux:
+            return self.cut.lift(x)
+        z = np.concatenate([x, self.points[np.linalg.norm(self.x - x, axis=1).argmin(), n:]])
+        for _ in range(MOST_DEFLATIONS):
+            slopes, values = (
+                self.cut.evaluator.jacobian(z)[:, n:],
+                self.cut.evaluator.values(z[None]),
+            )
+            z[n:] -= np.linalg.lstsq(slopes, values[0], rcond=None)[0]
+        return z
+
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
-        return replace(self, points=self.points[mask])
+        fine = chosen(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
+        return replace(self, points=self.points[mask], fine=fine)
 
 
 @dataclass(frozen=True)
 class Tracker:
-    """How paths are to be tracked: settings, or the name of some, and number of threads."""
+    """How paths are to be tracked: settings, or the name of some, and number of threads.
+
+    ``progress`` is told how far work that takes long has got.
+    """
 
     settings: Settings | str = "default"
     threads: int = 1
+    progress: Progress | None = None
+
+    def tell(self, stage: str, done: int, total: int) -> None:
+        """Tell of the step ``done`` of ``total``; 0 if their number is not known."""
+        if self.progress is not None:
+            self.progress(stage, done, total)
+
+    def attempts(self, count: int) -> Iterator[Tracker]:
+        """How to track where paths may fail: as asked for, and then with the careful settings."""
+        yield self
+        for _ in range(count - 1):
+            yield replace(self, settings="careful")
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +130,7 @@ class Moved:
         finite: whether the path ended at a finite point.
         regular: whether it ended at a regular one.
         accuracy: estimated relative errors of the ends.
+        fine: more digits of regular ends that are close to others, by their indices.
     """
 
     points: np.ndarray
@@ -79,11 +139,24 @@ class Moved:
     failed: np.ndarray
     accuracy: np.ndarray
     counts: PathCounts = field(default=PathCounts())
+    fine: Mapping[int, Fine] = field(default_factory=dict)
+
+    def without(self, indices: Iterable[int]) -> Moved:
+        """The ends but for some."""
+        kept = np.setdiff1d(np.arange(len(self.points)), list(indices))
+        names = ("points", "finite", "regular", "failed", "accuracy")
+        arrays = {name: getattr(self, name)[kept] for name in names}
+        return replace(self, **arrays, fine=chosen(self.fine, kept))
+
+    def fibre(self, cut: Cut, dimension: int, indices: Sequence[int]) -> Fibre:
+        """Some of the ends."""
+        return Fibre(cut, dimension, self.points[indices], chosen(self.fine, indices))
 
 
 def homogeneous(points: np.ndarray) -> np.ndarray:
     """Affine points as homogeneous ones of norm one."""
-    points = np.hstack([np.ones((len(points), 1)), points])
+    # Columns chosen by indices lie apart in memory; the tracker reads points in one piece.
+    points = np.ascontiguousarray(np.hstack([np.ones((len(points), 1)), points]))
     return points / np.linalg.norm(points, axis=1, keepdims=True)
 
 
@@ -100,14 +173,35 @@ def moved(paths: Paths, keep: int | None = None) -> Moved:
     infinite = paths.status == PathStatus.AT_INFINITY
     failed = ~finite & ~infinite
     points = affine(paths.points)
-    return Moved(
-        points if keep is None else points[:, :keep],
-        finite,
-        paths.status == PathStatus.REGULAR,
-        failed,
-        accuracy,
-        PathCounts(len(finite), int(failed.sum()), int(infinite.sum())),
-    )
+    points = points if keep is None else points[:, :keep]
+    regular = paths.status == PathStatus.REGULAR
+    counts = PathCounts(len(finite), int(failed.sum()), int(infinite.sum()))
+    fine = _fine(paths, points, regular) if paths.balls else {}
+    return Moved(points, finite, regular, failed, accuracy, counts, fine)
+
+
+def _fine(paths: Paths, points: np.ndarray, regular: np.ndarray) -> dict[int, Fine]:
+    """The digits of regular ends in balls that are close to others."""
+    known = np.array(sorted(i for i in paths.balls if regular[i]), dtype=int)
+    found: dict[int, Fine] = {}
+    for pair in close_pairs(points[known]):
+        own = [int(known[k]) for k in pair]
+        first, second = (
+            found[i]
+            if i in found
+            else affine_fine(_words(paths.balls[i]), 1.0).first(points.shape[1])
+            for i in own
+        )
+        size = 1 + float(np.linalg.norm(points[own[0]]))
+        apart = max(distance(points[own[0]], first, points[own[1]], second), 1e-300)
+        for i, each in zip(own, (first, second), strict=True):
+            found[i] = Fine(each.words, max(each.curvature, STEEPER * size / apart))
+    return found
+
+
+def _words(ball: Ball) -> np.ndarray:
+    spare = WORDS - ball.centre.shape[-1]
+    return np.pad(ball.centre, ((0, 0), (0, 0), (0, spare)))
 
 
 def move(
@@ -123,6 +217,8 @@ def move(
     All rows turn with the same ``gamma``: only then do all points of a fibre, and all fibres of a
     set, move as one.
     """
+    if fibre.fine:
+        return _moved_apart(fibre, source, target, gamma, tracker, endgame)
     columns = 1 + fibre.cut.n + fibre.cut.aux
     a0, a1 = padded(target, columns), padded(gamma * source - target, columns)
     paths = track(
@@ -133,6 +229,74 @@ def move(
         endgame=endgame,
     )
     return moved(paths)
+
+
+def _moved_apart(
+    fibre: Fibre,
+    source: np.ndarray,
+    target: np.ndarray,
+    gamma: complex,
+    tracker: Tracker,
+    endgame: bool,
+) -> Moved:
+    """`move` where some points are close to others: their paths are tracked in more digits."""
+    from nag.tracking.close_paths import moving_rows
+
+    indices = np.array(sorted(fibre.fine))
+    plain = np.setdiff1d(np.arange(len(fibre)), indices)
+    rest = replace(fibre, points=fibre.points[plain], fine={})
+    columns = 1 + fibre.cut.n + fibre.cut.aux
+    rows = padded(source, columns), padded(target, columns)
+    starts = [fibre.fine[i] for i in indices]
+    homotopy = moving_rows(fibre.cut.rows, *rows, gamma)
+    close = moved_close(homotopy, starts, fibre.cut, target, tracker, endgame)
+    return joined(
+        {0: plain, 1: indices}, (move(rest, source, target, gamma, tracker, endgame), close)
+    )
+
+
+def moved_close(
+    homotopy: Homotopy,
+    starts: Sequence[Fine],
+    cut: Cut,
+    rows: np.ndarray,
+    tracker: Tracker,
+    endgame: bool,
+) -> Moved:
+    """Where paths end that start at points that are close to others.
+
+    Their ends are zeros of ``cut`` on the slice ``rows``; further coordinates are left out.
+    """
+    from nag.tracking.close_paths import track_close
+
+    paths = track_close(
+        homotopy,
+        np.array([start.homogeneous for start in starts]),
+        np.array([start.curvature for start in starts]),
+        tracker.settings,
+        tracker.threads,
+        endgame=endgame,
+    )
+    close, total = moved(replace(paths, balls={}), keep=cut.n + cut.aux), cut.n + cut.aux
+    fine = {
+        i: rated(cut.polynomials, rows, affine_fine(_words(paths.balls[i]), 1.0).first(total))
+        for i in np.flatnonzero(close.regular).tolist()
+    }
+    return replace(close, fine=fine)
+
+
+def joined(places: Mapping[int, np.ndarray], parts: Sequence[Moved]) -> Moved:
+    """Ends of several parts in one: those of part ``k`` at ``places[k]``."""
+    count = sum(map(len, places.values()))
+    arrays = {}
+    for name in ("points", "finite", "regular", "failed", "accuracy"):
+        pieces = [getattr(part, name) for part in parts]
+        whole = np.zeros((count, *pieces[0].shape[1:]), dtype=pieces[0].dtype)
+        for k, piece in enumerate(pieces):
+            whole[places[k]] = piece
+        arrays[name] = whole
+    fine = {int(places[k][i]): f for k, part in enumerate(parts) for i, f in part.fine.items()}
+    return Moved(**arrays, counts=sum((p.counts for p in parts), PathCounts()), fine=fine)
 
 
 def carried(
@@ -149,7 +313,7 @@ def carried(
         counts += ends.counts.repeatable
         if not ends.regular.all():
             return None, counts
-        result.append(Fibre(fibre.cut, fibre.dimension, ends.points))
+        result.append(ends.fibre(fibre.cut, fibre.dimension, range(len(fibre))))
     return result, counts
 
 
@@ -165,9 +329,9 @@ def admit(
     """Put a singular end into the fibre whose cut makes it regular; find a cut if there is none."""
     n = len(x)
     for i, fibre in enumerate(fibres):
-        if bool(fibre.cut.levels) != deflate:
+        if fibre.cut.deflated != deflate:
             continue
-        sharpened = sharpen(fibre.cut.evaluator, rows, fibre.cut.lift(x))
+        sharpened = sharpen(fibre.cut.evaluator, rows, fibre.lifted(x))
         end, scale = sharpened.z[:n], 1 + np.linalg.norm(x)
         near = np.linalg.norm(end - x) < max(1e3 * accuracy, NEAR) * scale
         if (
@@ -177,9 +341,9 @@ def admit(
             and equations.evaluator.residuals(end[None]).max(initial=0.0) < ON
         ):
             known = np.vstack([other.x for other in fibres])
-            if (np.linalg.norm(known - end, axis=1) > SAME * scale).all():
+            if not coincident(known, end, sharpened.step).any():
                 points = np.vstack([fibre.points, sharpened.z])
-                fibres[i] = Fibre(fibre.cut, fibre.dimension, points)
+                fibres[i] = replace(fibre, points=points)
             return True
     found = find_cut(equations, rows, x, accuracy, rng, deflate)
     if found is None:

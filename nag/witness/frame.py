@@ -59,12 +59,19 @@ class Frame:
         sizes = 1 + np.linalg.norm(self.points(y), axis=1)
         return float((np.linalg.norm(moved, axis=1) / sizes).max(initial=EPS))
 
-    def slice(self, rows: np.ndarray) -> Slice:
-        """A slice of the reduced space as one of the original space: its coordinates are kept."""
+    def slice(self, rows: np.ndarray, orthonormal: bool = True) -> Slice:
+        """A slice of the reduced space as one of the original space: its coordinates are kept.
+
+        Where coordinates are scaled, making the rows orthonormal rounds them; without it they are
+        exact.
+        """
         A = np.zeros((len(rows), len(self.t)), dtype=complex)
         A[:, self.positions] = rows[:, 1:] / self.scales
         b = -rows[:, 0]
-        if (self.scales != 1).any():
+        if (self.scales != 1).any() and not orthonormal:
+            powers = -np.frexp(np.linalg.norm(A, axis=1))[1]
+            A, b = A * np.ldexp(1.0, powers)[:, None], b * np.ldexp(1.0, powers)
+        elif (self.scales != 1).any():
             q, r = np.linalg.qr(A.conj().T)
             A, b = q.conj().T, np.linalg.solve(r.conj().T, b)
         return Slice(A, b)

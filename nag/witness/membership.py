@@ -11,16 +11,16 @@ import numpy as np
 from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.witness.cutting import ON, Equations
-from nag.witness.fibres import Fibre, Tracker, cut_fibres, move
-from nag.witness.slices import rows_through, unit_complex
+from nag.numerics.coincidence import compared
+from nag.witness.close_points import DIGITS, Fine
+from nag.witness.cutting import ON, Cut, Equations
+from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres, move
+from nag.witness.slices import padded, rows_through, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
-# Ends of membership paths lay within 5e-11 of a member and beyond 7e-4 of any other point in all
-# systems measured; what falls between is asked again on another slice.
-HIT = 1e-8
-MISS = 1e-5
 ATTEMPTS = 4
+# What rounding may do to a point that is close to others, and how much further the next one is.
+SPREAD = 10.0
 
 
 class Membership(Enum):
@@ -51,24 +51,67 @@ def is_member(
         return Membership.FOREIGN, counts
     dimension = fibres[0].dimension
     scale = 1 + float(np.linalg.norm(point))
-    hit, miss = max(HIT, 1e2 * accuracy), max(MISS, 1e4 * accuracy)
     for _ in range(ATTEMPTS):
         target = rows_through(rng, dimension, point)
         gamma = complex(unit_complex(rng))
-        nearest, unclear = np.inf, False
+        unclear = False
         for fibre in fibres:
             ends = move(fibre, flag[:dimension], target, gamma, tracker, endgame=True)
             counts += ends.counts.repeatable
+            if ends.fine:
+                answers = [
+                    _at_end(point, accuracy * scale, fibre, ends, i, target) for i in ends.fine
+                ]
+                if Membership.MEMBER in answers:
+                    return Membership.MEMBER, counts
+                unclear |= Membership.UNDECIDED in answers
+                ends = ends.without(ends.fine)
             x = ends.points[ends.finite, : fibre.cut.n]
             distances = np.linalg.norm(x - point, axis=1) / scale
-            nearest = distances.min(initial=nearest)
-            if nearest < hit:
+            if compared(distances, accuracy)[0].any():
                 return Membership.MEMBER, counts
-            unclear |= bool(ends.failed.any() or (distances < miss).any())
-            unclear |= bool((distances < 1e4 * ends.accuracy[ends.finite]).any())
+            errors = np.maximum(accuracy, ends.accuracy[ends.finite])
+            unclear |= bool(ends.failed.any() or np.any(compared(distances, errors)))
         if not unclear:
             return Membership.FOREIGN, counts
     return Membership.UNDECIDED, counts
+
+
+def _at_end(
+    point: np.ndarray, error: float, fibre: Fibre, ends: Moved, i: int, rows: np.ndarray
+) -> Membership:
+    """Whether a point that is off by so much may be an end to which other zeros are close.
+
+    Undecided where the next zero is no further away than what the point is off by can make out.
+    """
+    end = ends.fine[i]
+    # The slice through a point beside the set meets it so much further off at most.
+    reach = SPREAD * error / _angle(fibre.cut, rows, end)
+    distance = float(np.linalg.norm(ends.points[i, : fibre.cut.n] - point))
+    if distance > reach:
+        return Membership.FOREIGN
+    apart = (1 + float(np.linalg.norm(point))) / end.curvature
+    return Membership.MEMBER if apart > SPREAD * reach else Membership.UNDECIDED
+
+
+def _angle(cut: Cut, rows: np.ndarray, end: Fine) -> float:
+    """The least singular value of the gradients and the slice, all of length one."""
+    import flint
+
+    from nag.numerics.ball_polynomials import BallPolynomials
+
+    exact = BallPolynomials.of(cut.polynomials, padded(rows, 1 + len(end.words)))
+    with flint.ctx.workdps(2 * DIGITS):
+        slopes = exact.jacobian(end.balls())
+        lengths = [
+            sum((abs(slopes[i, j]) ** 2 for j in range(slopes.ncols())), flint.arb(0)).sqrt()
+            for i in range(slopes.nrows())
+        ]
+        unit = [
+            [complex((slopes[i, j] / lengths[i]).mid()) for j in range(slopes.ncols())]
+            for i in range(slopes.nrows())
+        ]
+    return max(float(np.linalg.svd(np.array(unit), compute_uv=False)[-1]), 1e-300)
 
 
 def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fibre]:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.witness.cutting import ON, sharpen
+from nag.witness.cutting import ON
+from nag.witness.error_radii import Sharp, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
 from nag.witness.slices import to_slice, unit_complex
@@ -39,14 +41,57 @@ def orthonormal_rows(rows: np.ndarray) -> np.ndarray:
     return np.hstack([(u.conj().T @ rows[:, :1]) / s[:, None], vh])
 
 
-def sharpened_ends(fibre: Fibre, rows: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, float]:
-    """Points of a fibre to rounding, with added unknowns, and the largest last step."""
-    found, steps = np.zeros(points.shape, dtype=complex), [0.0]
-    for i, z in enumerate(points):
-        sharpened = sharpen(fibre.cut.evaluator, rows, z)
-        found[i] = sharpened.z
-        steps.append(sharpened.step if sharpened.converged else np.inf)
-    return found, max(steps)
+@dataclass(frozen=True, eq=False)
+class Arrival:
+    """Points on the slice that they were carried to, sharpened there.
+
+    Attributes:
+        sharp: the regular ends of the paths, by fibres, with their error radii.
+        infinite, irregular: numbers of paths that ended at infinity, and of those that failed or
+            ended where the slice cuts no regular point.
+    """
+
+    sharp: list[Sharp]
+    infinite: int
+    irregular: int
+
+    @property
+    def fibres(self) -> list[Fibre]:
+        """The points with the equations that cut them."""
+        return [each.fibre for each in self.sharp]
+
+    @property
+    def x(self) -> np.ndarray:
+        """The points without added unknowns, shape ``(P, n)``."""
+        return np.vstack([fibre.x for fibre in self.fibres])
+
+    @property
+    def accuracy(self) -> float:
+        """Largest relative error, infinite where Newton's method did not converge."""
+        errors = np.concatenate([each.errors for each in self.sharp])
+        return float(errors.max(initial=np.finfo(float).eps))
+
+
+def arrival(
+    fibres: Sequence[Fibre],
+    rows: np.ndarray,
+    target: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    endgame: bool = True,
+) -> Arrival:
+    """What becomes of fibres when the slice moves from ``rows`` to ``target``."""
+    gamma, found = complex(unit_complex(rng)), []
+    infinite, irregular = 0, 0
+    for fibre in fibres:
+        there = fibre
+        if len(rows):
+            ends = move(fibre, rows, target, gamma, tracker, endgame)
+            infinite += ends.counts.at_infinity
+            irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
+            there = ends.fibre(fibre.cut, fibre.dimension, np.flatnonzero(ends.regular))
+        found.append(sharpened(there, target))
+    return Arrival(found, infinite, irregular)
 
 
 def witness_at(
@@ -78,35 +123,25 @@ def witness_at(
     rng = np.random.default_rng([seed, 2])
     rows, goal = component.slice.rows, orthonormal_rows(target.rows)
     fibres = component_fibres(system, component)
+    evaluator = Evaluator.of(system.polynomials, system.n)
     lost = ""
-    for attempt in range(ATTEMPTS):
-        tracker = Tracker("careful" if attempt else settings, threads)
-        gamma = complex(unit_complex(rng))
-        found, accuracy, infinite, irregular = [], np.finfo(float).eps, 0, 0
-        for fibre in fibres:
-            ends = move(fibre, rows, goal, gamma, tracker, endgame=True)
-            infinite += ends.counts.at_infinity
-            irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-            z, step = sharpened_ends(fibre, goal, ends.points[ends.regular])
-            if system.n:
-                z = z[np.lexsort((z.imag[:, 0], z.real[:, 0]))]
-            found.append(Fibre(fibre.cut, component.dimension, z))
-            accuracy = max(accuracy, step)
-        points = np.vstack([fibre.x for fibre in found])
-        residual = float(
-            Evaluator.of(system.polynomials, system.n).residuals(points).max(initial=0.0)
-        )
-        if len(points) == component.degree and np.isfinite(accuracy) and residual < ON:
+    for tracker in Tracker(settings, threads).attempts(ATTEMPTS):
+        there = arrival(fibres, rows, goal, rng, tracker)
+        found = [in_order(each) for each in there.sharp]
+        points = np.vstack([each.fibre.x for each in found])
+        residual = float(evaluator.residuals(points).max(initial=0.0))
+        if len(points) == component.degree and np.isfinite(there.accuracy) and residual < ON:
             return replace(
                 component,
                 slice=to_slice(goal),
                 points=points,
                 residual=residual,
-                accuracy=accuracy,
-                fibres=tuple(found),
+                radii=np.vstack([each.radii for each in found]),
+                digits=np.concatenate([each.digits for each in found]),
+                fibres=tuple(each.fibre for each in found),
             )
         lost = (
-            f"of the {component.degree} points of the component, the slice meets {infinite} at "
-            f"infinity and {irregular} where the intersection is not transversal"
+            f"of the {component.degree} points of the component, the slice meets {there.infinite} "
+            f"at infinity and {there.irregular} where the intersection is not transversal"
         )
     raise SliceError(lost)

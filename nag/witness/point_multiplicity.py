@@ -14,13 +14,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from nag.numerics.coincidence import compared
 from nag.witness.fibres import Fibre, Tracker, move
-from nag.witness.membership import HIT, MISS
 from nag.witness.slices import rows_through, unit_complex
 
 ATTEMPTS = 4
-# Ends at a point of multiplicity m are known to about the m-th root of rounding.
-MULTIPLE_HIT, MULTIPLE_MISS = 1e-5, 1e-3
+# Relative error of ends at a point of multiplicity m, about the m-th root of rounding.
+MULTIPLE = 1e-7
 
 
 def multiplicity_at(
@@ -56,10 +56,9 @@ def multiplicity_at(
                 ends = moved.points[moved.finite, : fibre.cut.n]
                 regular = moved.regular[moved.finite]
             distance = np.linalg.norm(ends - point, axis=1) / scale
-            hit = np.where(regular, max(HIT, 1e2 * accuracy), MULTIPLE_HIT)
-            miss = np.where(regular, max(MISS, 1e4 * accuracy), MULTIPLE_MISS)
-            count += int((distance < hit).sum())
-            unclear |= bool(((distance >= hit) & (distance < miss)).any())
+            here, doubtful = compared(distance, np.where(regular, accuracy, MULTIPLE))
+            count += int(here.sum())
+            unclear |= bool(doubtful.any())
         if not unclear:
             return count
     return None

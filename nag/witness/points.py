@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
+from nag.witness.close_points import (
+    DIGITS,
+    WORDS,
+    Fine,
+    chosen,
+    close_pairs,
+    distance,
+    in_words,
+    zero_from,
+)
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points
+from nag.witness.fibres import STEEPER, Fibre, Tracker, move
 from nag.witness.witness import PathCounts
 
 # Points of a component nearer to each other than this, relative to their size, are one.
@@ -25,19 +36,62 @@ class Points:
         cuts: square systems that cut them.
         which: for each point, the index of its cut.
         z: each point with the unknowns that deflation added, shape ``(n + aux,)``.
+        fine: more digits of points that are close to others, by their indices.
+        known: all points in the fewest digits that are of use, where these have been found.
     """
 
     rows: np.ndarray
     cuts: tuple[Cut, ...] = ()
     which: tuple[int, ...] = ()
     z: tuple[np.ndarray, ...] = ()
+    fine: Mapping[int, Fine] = field(default_factory=dict)
+    known: ExactPoints | None = None
 
     @classmethod
     def of(cls, fibres: Sequence[Fibre], rows: np.ndarray) -> Points:
         """The points of fibres, in their order."""
         which = [k for k, fibre in enumerate(fibres) for _ in range(len(fibre))]
         z = [z for fibre in fibres for z in fibre.points]
-        return cls(rows, tuple(fibre.cut for fibre in fibres), tuple(which), tuple(z))
+        fine, first = {}, 0
+        for fibre in fibres:
+            fine |= {first + i: each for i, each in fibre.fine.items()}
+            first += len(fibre)
+        points = cls(rows, tuple(fibre.cut for fibre in fibres), tuple(which), tuple(z), fine)
+        return points._with_fine()
+
+    def _with_fine(self) -> Points:
+        """With more digits of all points that are close to others, where they can be found."""
+        pairs, fine = close_pairs(self.x), dict(self.fine)
+        if not pairs:
+            return self
+        for i in sorted({i for pair in pairs for i in pair} - set(fine)):
+            found = self._in_digits(i, min(self._apart(pair, fine) for pair in pairs if i in pair))
+            if found is not None:
+                fine[i] = found
+        for pair in pairs:
+            steep = STEEPER * self._size(pair[0]) / max(self._apart(pair, fine), 1e-300)
+            for i in set(pair) & set(fine):
+                fine[i] = replace(fine[i], curvature=max(fine[i].curvature, steep))
+        return replace(self, fine=fine)
+
+    def _size(self, i: int) -> float:
+        return 1 + float(np.linalg.norm(self.x[i]))
+
+    def _apart(self, pair: tuple[int, int], fine: Mapping[int, Fine]) -> float:
+        i, j = pair
+        return distance(self.x[i], fine.get(i), self.x[j], fine.get(j))
+
+    def _in_digits(self, i: int, apart: float) -> Fine | None:
+        """More digits of a point in doubles that is so far from the next one."""
+        import flint
+
+        words = np.zeros((len(self.z[i]), 2, WORDS))
+        words[:, 0, 0], words[:, 1, 0] = self.z[i].real, self.z[i].imag
+        steep = STEEPER * self._size(i) / max(apart, 1e-300)
+        with flint.ctx.workdps(2 * DIGITS):
+            cut = self.cuts[self.which[i]]
+            found = zero_from(cut.polynomials, self.rows, Fine(words, steep), DIGITS)
+            return None if found is None else in_words(found[0], steep)
 
     def __len__(self) -> int:
         return len(self.z)
@@ -63,14 +117,32 @@ class Points:
         for k, cut in enumerate(self.cuts):
             own = indices[which[indices] == k]
             if len(own):
-                found.append(Fibre(cut, self.dimension, np.array([self.z[i] for i in own])))
+                points = np.array([self.z[i] for i in own])
+                found.append(Fibre(cut, self.dimension, points, chosen(self.fine, own)))
                 order.append(own)
         return found, np.concatenate(order) if order else np.zeros(0, dtype=int)
 
-    def with_point(self, cut: Cut, z: np.ndarray) -> Points:
+    @cached_property
+    def exact(self) -> ExactPoints:
+        """All points in the fewest digits that are of use, in their order."""
+        if self.known is not None:
+            return self.known
+        fibres, order = self.fibres(range(len(self)))
+        parts = [exact_points(fibre, self.rows, FEWEST) for fibre in fibres]
+        if len(parts) == 1:
+            return parts[0]
+        arrays = ("values", "radii", "balls")
+        values, radii, balls = (
+            np.concatenate([getattr(part, name) for part in parts])[np.argsort(order)]
+            for name in arrays
+        )
+        return ExactPoints(values, parts[0].bits, radii, balls)
+
+    def with_point(self, cut: Cut, z: np.ndarray, fine: Fine | None = None) -> Points:
         """One point more, at the end."""
         cuts = self.cuts if cut in self.cuts else (*self.cuts, cut)
-        return Points(self.rows, cuts, (*self.which, cuts.index(cut)), (*self.z, z))
+        known = self.fine if fine is None else {**self.fine, len(self): fine}
+        return Points(self.rows, cuts, (*self.which, cuts.index(cut)), (*self.z, z), known)
 
     def place(self, x: np.ndarray) -> int | None:
         """The index of the point at ``x``, if there is one."""
@@ -81,19 +153,34 @@ class Points:
         return nearest if distances[nearest] < SAME * (1 + np.linalg.norm(x)) else None
 
 
+def with_fine(fibres: Sequence[Fibre], rows: np.ndarray) -> list[Fibre]:
+    """Fibres on a common slice with more digits of all points that are close to others."""
+    if not close_pairs(np.vstack([fibre.x for fibre in fibres])):
+        return list(fibres)
+    points = Points.of(fibres, rows)
+    return points.fibres(range(len(points)))[0]
+
+
 def moved_points(
     points: Points, indices: Sequence[int], target: np.ndarray, gamma: complex, tracker: Tracker
-) -> tuple[dict[int, np.ndarray], PathCounts]:
-    """Ends of some points when the slice moves to another generic one.
+) -> tuple[Points, np.ndarray, PathCounts]:
+    """Some points when the slice moves to another generic one.
 
-    Returns them by the points' indices; paths that did not end regularly are left out.
+    Returns the points there, and which ones they were; paths that did not end regularly are left
+    out.
     """
-    counts, ends = PathCounts(), {}
+    counts = PathCounts()
     fibres, order = points.fibres(indices)
+    found: dict[int, tuple[np.ndarray, Fine | None]] = {}
     first = 0
     for fibre in fibres:
         own, first = order[first : first + len(fibre)], first + len(fibre)
         there = move(fibre, points.rows, target, gamma, tracker)
         counts += there.counts.repeatable
-        ends.update({int(i): there.points[k] for k, i in enumerate(own) if there.regular[k]})
-    return ends, counts
+        for k in np.flatnonzero(there.regular).tolist():
+            found[int(own[k])] = there.points[k], there.fine.get(k)
+    origins = np.array(sorted(found), dtype=int)
+    which = tuple(points.which[i] for i in origins)
+    fine = {k: f for k, i in enumerate(origins.tolist()) if (f := found[i][1]) is not None}
+    z = tuple(found[i][0] for i in origins.tolist())
+    return Points(target, points.cuts, which, z, fine), origins, counts

@@ -15,15 +15,17 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
 from nag.witness.cutting import numerical_corank
-from nag.witness.fibres import SAME, Fibre, Tracker, move
+from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
-from nag.witness.moving import sharpened_ends
-from nag.witness.slices import padded, random_rows, to_slice, unit_complex
+from nag.witness.moving import arrival
+from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import Slice, WitnessSet
 
 ATTEMPTS = 3
 # Slices on which the numbers of points must agree.
 SLICES = 2
+# Newton's last step, relative to the point, at points that are compared.
+SHARP = 1e-8
 
 
 class ProjectionError(ValueError):
@@ -106,9 +108,8 @@ def project(
     fibres = component_fibres(system, component)
     d = component.dimension
     r = _image_dimension(fibres[0], chosen)
-    found = [
-        _pseudo_witness(fibres, component, chosen, r, rng, settings, threads) for _ in range(SLICES)
-    ]
+    tracker = Tracker(settings, threads)
+    found = [_pseudo_witness(fibres, component, chosen, r, rng, tracker) for _ in range(SLICES)]
     degrees = {(degree, fibre_degree) for degree, fibre_degree, *_ in found}
     if len(degrees) > 1:
         raise ProjectionError("the numbers of points differ between two slices")
@@ -123,30 +124,19 @@ def _pseudo_witness(
     coordinates: Sequence[int],
     r: int,
     rng: np.random.Generator,
-    settings: str,
-    threads: int,
+    tracker: Tracker,
 ) -> tuple[int, int, np.ndarray, np.ndarray]:
     """Degree of the image and of the fibre, the slice's rows, and the points on it."""
     rows, d = component.slice.rows, component.dimension
     reason = "paths failed"
-    for attempt in range(ATTEMPTS):
-        tracker = Tracker("careful" if attempt else settings, threads)
+    for how in tracker.attempts(ATTEMPTS):
         target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
-        gamma, points, unclear = complex(unit_complex(rng)), [], False
-        for fibre in fibres:
-            ends = fibre.points
-            if d:
-                moved = move(fibre, rows, padded(target, rows.shape[1]), gamma, tracker, True)
-                # Finite points of a generic slice are regular (Bertini's theorem).
-                unclear |= bool((moved.failed | (moved.finite & ~moved.regular)).any())
-                ends = moved.points[moved.regular]
-            z, step = sharpened_ends(fibre, target, ends)
-            unclear |= not step < 1e-8
-            points.append(z[:, : fibre.cut.n])
-        if unclear:
+        there = arrival(fibres, rows, target, rng, how)
+        # Finite points of a generic slice are regular (Bertini's theorem).
+        if there.irregular or not there.accuracy < SHARP:
             continue
-        x = np.vstack(points)
-        images = clusters(x[:, list(coordinates)], np.full(len(x), 1e-12), SAME)
+        x = there.x
+        images = clusters(x[:, list(coordinates)], np.full(len(x), there.accuracy))
         sizes = {len(image) for image in images}
         if len(sizes) == 1:
             return len(images), sizes.pop(), target, x

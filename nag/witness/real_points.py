@@ -7,12 +7,14 @@ if it lies on the component (a path test). Nothing found is no proof that there 
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.coincidence import coincident
 from nag.witness.cutting import ON
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import descend, polish
@@ -20,11 +22,12 @@ from nag.witness.membership import Membership, component_fibres, is_member
 from nag.witness.witness import WitnessSet
 
 STARTS = 24
-# Nearest points are known to about half the digits; within this, relative to size, they are one.
-SAME = 1e-6
-# Steps along the component towards the given point, and when they have arrived.
+# Largest standard deviation of starting points, relative to the size of the given one.
+SPREAD = 0.5
+# Steps along the component towards the given point, the length of those that have arrived, and of
+# the last one where rounding keeps them from becoming shorter.
 MOST_STEPS = 60
-STATIONARY = 1e-10
+STATIONARY, ALMOST = 1e-10, 1e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +60,6 @@ def real_points_near(
     near: np.ndarray,
     *,
     starts: int = STARTS,
-    spread: float = 0.5,
     seed: int = 0,
     threads: int = 1,
     settings: str = "default",
@@ -68,7 +70,6 @@ def real_points_near(
         system: the equations that the component was found from.
         near: real, shape ``(n,)``.
         starts: number of starting points; the first is ``near`` itself.
-        spread: largest standard deviation of the others, relative to the size of ``near``.
 
     Raises:
         ValueError: if ``near`` is not real and of shape ``(n,)``, or witness points are none.
@@ -80,62 +81,74 @@ def real_points_near(
     tracker = Tracker(settings, threads)
     fibres = component_fibres(system, component)
     everything = Evaluator.of(system.polynomials, system.n)
-    found = np.zeros((0, system.n))
-    flags: list[bool] = []
+    known = np.zeros((0, system.n))
+    pulls: list[float] = []
     zeros, undecided = 0, 0
-    cuts = {id(fibre.cut): fibre for fibre in fibres}.values()
-    for k in range(starts):
-        scale = spread * k / max(1, starts - 1) * (1 + np.linalg.norm(near))
-        start = near + scale / np.sqrt(max(1, system.n)) * rng.standard_normal(system.n)
-        for fibre in cuts:
-            arrival = _nearest(fibre, everything, start, near)
-            if arrival is None:
-                continue
-            x, stationary = arrival
+    for start in _starts(near, starts, rng):
+        for x, pull in _nearest_zeros(fibres, everything, start, near):
             zeros += 1
-            if (np.linalg.norm(found - x, axis=1) < SAME * (1 + np.linalg.norm(x))).any():
+            if coincident(known, x, pull if pull < ALMOST else 0.0).any():
                 continue
             answer, _ = is_member(x + 0j, 1e-12, fibres, component.slice.rows, rng, tracker)
             undecided += answer is Membership.UNDECIDED
             if answer is Membership.MEMBER:
-                found = np.vstack([found, x])
-                flags.append(stationary)
-    distances = np.linalg.norm(found - near, axis=1)
+                known = np.vstack([known, x])
+                pulls.append(pull)
+    distances = np.linalg.norm(known - near, axis=1)
     order = np.argsort(distances, kind="stable")
     reason = ""
-    if not len(found):
+    if not len(known):
         reason = f"no real zero of the equations was found from {starts} starting points"
         if zeros:
             reason = f"none of {zeros} real zeros that were found lies on the component"
     return RealPoints(
-        found[order],
+        known[order],
         distances[order],
-        np.array(flags, dtype=bool)[order],
-        float(everything.residuals(found + 0j).max(initial=0.0)),
+        np.array(pulls, dtype=float)[order] < ALMOST,
+        float(everything.residuals(known + 0j).max(initial=0.0)),
         undecided,
         reason,
     )
 
 
+def _starts(near: np.ndarray, count: int, rng: np.random.Generator) -> Iterator[np.ndarray]:
+    """Starting points ever further from a point, beginning with the point itself."""
+    n = len(near)
+    for k in range(count):
+        scale = SPREAD * k / max(1, count - 1) * (1 + np.linalg.norm(near))
+        yield near + scale / np.sqrt(max(1, n)) * rng.standard_normal(n)
+
+
+def _nearest_zeros(
+    fibres: Sequence[Fibre], everything: Evaluator, start: np.ndarray, near: np.ndarray
+) -> Iterator[tuple[np.ndarray, float]]:
+    """Real zeros of each cut from ``start``, moved to where their distance is stationary.
+
+    Also the length of the next step along the component, relative to the size of ``near``.
+    """
+    for fibre in {id(fibre.cut): fibre for fibre in fibres}.values():
+        # What deflation added is known where the equations hold, not where they do not.
+        there = descend(everything, start) if fibre.cut.aux else start
+        z = None if there is None else _real_zero(fibre, everything, fibre.lifted(there).real)
+        if z is not None:
+            yield _nearest(fibre, everything, z, near)
+
+
 def _nearest(
-    fibre: Fibre, everything: Evaluator, start: np.ndarray, near: np.ndarray
-) -> tuple[np.ndarray, bool] | None:
-    """A real zero of the cut from ``start``, moved to where its distance is stationary."""
+    fibre: Fibre, everything: Evaluator, z: np.ndarray, near: np.ndarray
+) -> tuple[np.ndarray, float]:
     cut, d = fibre.cut, fibre.dimension
-    z = _real_zero(fibre, everything, cut.lift(start).real)
-    if z is None:
-        return None
     reach = 1.0
     for _ in range(MOST_STEPS):
         x = z[: cut.n]
         _, _, vh = np.linalg.svd(cut.evaluator.balanced_jacobian(z).real)
         tangent = vh[len(z) - d :].T
-        # Unknowns that deflation added follow; the distance is measured in the variables.
-        along, *_ = np.linalg.lstsq(tangent[: cut.n], near - x, rcond=1e-10)
-        pull = float(np.linalg.norm(tangent[: cut.n] @ along)) / (1 + float(np.linalg.norm(near)))
+        # The distance is measured in the variables, and unknowns that deflation added follow.
+        step = tangent[: cut.n] @ np.linalg.lstsq(tangent[: cut.n], near - x, rcond=1e-10)[0]
+        pull = float(np.linalg.norm(step)) / (1 + float(np.linalg.norm(near)))
         if pull < STATIONARY:
-            return x, True
-        trial = _real_zero(fibre, everything, z + reach * (tangent @ along))
+            break
+        trial = _real_zero(fibre, everything, fibre.lifted(x + reach * step).real)
         gain = np.inf if trial is None else np.linalg.norm(trial[: cut.n] - near)
         if gain < np.linalg.norm(x - near):
             z, reach = trial, min(1.0, 2 * reach)
@@ -143,7 +156,7 @@ def _nearest(
             break
         else:
             reach /= 4
-    return z[: cut.n], pull < 1e-5
+    return z[: cut.n], pull
 
 
 def _real_zero(fibre: Fibre, everything: Evaluator, z: np.ndarray) -> np.ndarray | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,13 +10,15 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.witness.cutting import ON
-from nag.witness.fibres import Tracker, move
+from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
-from nag.witness.moving import sharpened_ends
-from nag.witness.slices import random_rows, unit_complex
+from nag.witness.moving import Arrival, arrival
+from nag.witness.slices import random_rows
 from nag.witness.witness import WitnessSet
 
 ATTEMPTS = 4
+# Newton's last step, relative to the point, at a sample.
+SHARP = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,29 +67,33 @@ def sample(
     """
     rng = np.random.default_rng([seed, 3])
     fibres = component_fibres(system, component)
-    rows, d, n = component.slice.rows, component.dimension, system.n
-    owners = [(fibre, i) for fibre in fibres for i in range(len(fibre))]
-    evaluator = Evaluator.of(system.polynomials, n)
-    points, accuracy = np.zeros((count, n), dtype=complex), np.finfo(float).eps
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    points, accuracy = np.zeros((count, system.n), dtype=complex), float(np.finfo(float).eps)
     for k in range(count):
-        for attempt in range(ATTEMPTS):
-            fibre, i = owners[int(rng.integers(len(owners)))]
-            target, gamma = random_rows(rng, d, n), complex(unit_complex(rng))
-            one = fibre.only(np.arange(len(fibre)) == i)
-            ends = one.points
-            if d:
-                tracker = Tracker("careful" if attempt else settings, threads)
-                moved = move(one, rows, target, gamma, tracker)
-                ends = moved.points[moved.regular]
-            z, step = sharpened_ends(fibre, target, ends)
-            x = z[:, :n]
-            if len(x) and step < 1e-10 and evaluator.residuals(x).max(initial=0.0) < ON:
-                points[k], accuracy = x[0], max(accuracy, step)
+        for tracker in Tracker(settings, threads).attempts(ATTEMPTS):
+            _, there = at_random(fibres, component.slice.rows, rng, tracker)
+            x = there.x
+            if len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON:
+                points[k], accuracy = x[0], max(accuracy, there.accuracy)
                 break
         else:
             some = _samples(evaluator, points[:k], accuracy)
             raise SamplingError(f"point {k + 1} of {count}: {ATTEMPTS} paths failed", some)
     return _samples(evaluator, points, accuracy)
+
+
+def at_random(
+    fibres: Sequence[Fibre], rows: np.ndarray, rng: np.random.Generator, tracker: Tracker
+) -> tuple[np.ndarray, Arrival]:
+    """A random slice, and what became of a random point of the fibres on its way there."""
+    chosen = int(rng.integers(sum(map(len, fibres))))
+    for fibre in fibres:
+        if chosen < len(fibre):
+            break
+        chosen -= len(fibre)
+    one = fibre.only(np.arange(len(fibre)) == chosen)
+    target = random_rows(rng, len(rows), fibre.cut.n)
+    return target, arrival([one], rows, target, rng, tracker, endgame=False)
 
 
 def _samples(evaluator: Evaluator, points: np.ndarray, accuracy: float) -> Samples:

@@ -101,7 +101,6 @@ def _like(component: WitnessSet) -> tuple[object, ...]:
         multidegree_text(component.multidegree),
         component.multiplicity,
         str(component.status),
-        component.precision,
     )
 
 
@@ -127,7 +126,7 @@ def _row(group: Sequence[WitnessSet]) -> dict[str, str]:
         "status": str(first.status),
         "residual": magnitude(float(np.max([c.residual for c in group]))),
         "accuracy": magnitude(float(np.max([c.accuracy for c in group]))),
-        "precision": first.precision,
+        "digits": str(min(c.precision for c in group)),
     }
 
 
@@ -157,8 +156,8 @@ def _rests_on(components: Sequence[WitnessSet]) -> str:
         magnitude(float(np.max([getattr(c, name) for c in components])))
         for name in ("residual", "accuracy")
     )
-    digits = ", ".join(dict.fromkeys(c.precision for c in components))
-    return f"residual {residual}, accuracy {accuracy}, {digits} arithmetic"
+    digits = min(c.precision for c in components)
+    return f"residual {residual}, accuracy {accuracy} by {digits} digits"
 
 
 def decomposition_text(decomposition: Decomposition) -> str:
@@ -211,9 +210,11 @@ def witness_set_html(component: WitnessSet) -> str:
     """A component's witness points as a table."""
     n = component.points.shape[1]
     names = component.system.variables if component.system else [f"x{i}" for i in range(n)]
-    rows = [["point", *names]]
+    rows = [["point", *names, "error"]]
+    errors = np.linalg.norm(component.radii, axis=1)
     for i, point in enumerate(component.points[:MOST_POINTS]):
-        rows.append([str(i), *(f"{z.real:.6g}{z.imag:+.6g}i" for z in point)])
+        numbers = (f"{z.real:.6g}{z.imag:+.6g}i" for z in point)
+        rows.append([str(i), *numbers, magnitude(float(errors[i]))])
     hidden = component.degree - MOST_POINTS
     note = f"{component.status}; {_rests_on([component])}"
     more = f"; {counted(hidden, 'more point')}" if hidden > 0 else ""

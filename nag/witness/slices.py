@@ -48,4 +48,6 @@ def to_slice(rows: np.ndarray) -> Slice:
 
 def padded(rows: np.ndarray, columns: int) -> np.ndarray:
     """Rows with zero columns appended until there are ``columns``."""
-    return np.pad(rows, ((0, 0), (0, columns - rows.shape[1])))
+    if rows.shape[1] == columns:
+        return rows
+    return np.hstack([rows, np.zeros((len(rows), columns - rows.shape[1]))])

@@ -23,6 +23,16 @@ def _read_only(array: np.ndarray, dtype: type) -> np.ndarray:
     return array
 
 
+# Decimal digits of doubles.
+DOUBLE = 16
+
+
+def even_radii(points: np.ndarray, accuracy: float) -> np.ndarray:
+    """Radii of points that are known to one relative error, shape ``(P, n)``."""
+    sizes = 1 + np.linalg.norm(points, axis=1, keepdims=True)
+    return np.broadcast_to(accuracy * sizes, np.shape(points))
+
+
 class Status(StrEnum):
     """What is known of a component."""
 
@@ -35,7 +45,8 @@ class Slice:
     """A linear slice ``A x = b`` of codimension ``len(b)`` in affine space.
 
     Attributes:
-        A: complex, shape ``(d, n)``, rows orthonormal.
+        A: complex, shape ``(d, n)``, rows orthonormal; of norms about one only, where that would
+            have rounded them and points are too close to each other for it.
         b: complex, shape ``(d,)``.
     """
 
@@ -73,13 +84,14 @@ class WitnessSet:
             where it is not known.
         status: `IRREDUCIBLE` where the trace test and the final checks passed.
         residual: largest relative residual of the original equations at the points.
-        accuracy: largest estimated distance of a point from the exact one, relative to its size.
+        radii: errors of the points' coordinates, absolute, shape ``(degree, n)``: no coordinate of
+            a point is further from that of the exact point on the slice, as far as arithmetic of
+            twice the digits shows (`nag.witness.error_radii`); inf where it does not.
+        digits: decimal digits of the arithmetic that the radii rest on, shape ``(degree,)``.
         corank: corank of the Jacobian of the original equations at the points.
         multidegree: integer array of order ``dimension``: entry ``[i, j, ..]`` counts the points
             with groups ``i, j, ..`` of the system fixed at random values; None without groups.
         orbit: number of components that a symmetry carries into this one, itself included.
-        precision: arithmetic that the points needed: ``"double"``, ``"double-double"`` or
-            ``"mpmath N"``.
         note: why the status is undecided; empty otherwise.
         images: symmetries of the system that carry it into the others of its orbit, one each;
             empty where they are not known.
@@ -95,18 +107,27 @@ class WitnessSet:
     multiplicity: int
     status: Status
     residual: float
-    accuracy: float
+    radii: np.ndarray
+    digits: np.ndarray
     corank: int
     multidegree: np.ndarray | None = None
     orbit: int = 1
-    precision: str = "double"
     note: str = ""
     images: tuple[SignedPermutation, ...] = ()
     fibres: tuple[Fibre, ...] = ()
     system: PolynomialSystem | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", _read_only(self.points, complex))
+        points = _read_only(self.points, complex)
+        object.__setattr__(self, "points", points)
+        radii, digits = _read_only(self.radii, float), _read_only(self.digits, int)
+        if radii.shape != points.shape or digits.shape != points.shape[:1]:
+            raise ValueError(
+                f"radii have shape {radii.shape}, digits {digits.shape}, where the points have "
+                f"{points.shape}"
+            )
+        object.__setattr__(self, "radii", radii)
+        object.__setattr__(self, "digits", digits)
         object.__setattr__(self, "status", Status(self.status))
         if self.multidegree is not None:
             object.__setattr__(self, "multidegree", _read_only(self.multidegree, int))
@@ -114,14 +135,15 @@ class WitnessSet:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, WitnessSet):
             return NotImplemented
-        plain = ("multiplicity", "status", "residual", "accuracy", "corank", "orbit")
-        plain += ("precision", "note", "images")
+        plain = ("multiplicity", "status", "residual", "corank", "orbit", "note", "images")
         if (self.multidegree is None) != (other.multidegree is None):
             return False
         return (
             all(getattr(self, name) == getattr(other, name) for name in plain)
             and self.slice == other.slice
             and np.array_equal(self.points, other.points)
+            and np.array_equal(self.radii, other.radii)
+            and np.array_equal(self.digits, other.digits)
             and self.fibres == other.fibres
             and (self.multidegree is None or np.array_equal(self.multidegree, other.multidegree))
         )
@@ -133,6 +155,23 @@ class WitnessSet:
     @property
     def degree(self) -> int:
         return len(self.points)
+
+    @property
+    def errors(self) -> np.ndarray:
+        """Errors of the points, relative to one and their sizes, shape ``(degree,)``."""
+        with np.errstate(all="ignore"):
+            sizes = 1 + np.linalg.norm(self.points, axis=1)
+            return np.linalg.norm(self.radii, axis=1) / sizes
+
+    @property
+    def accuracy(self) -> float:
+        """The largest of the points' relative errors."""
+        return float(self.errors.max(initial=0.0))
+
+    @property
+    def precision(self) -> int:
+        """Decimal digits of the arithmetic that the least known of the points rests on."""
+        return int(self.digits.min()) if len(self.digits) else DOUBLE
 
     def __repr__(self) -> str:
         return (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from nag.solving.start.multihomogeneous import (
@@ -83,7 +85,7 @@ def _least_work(
     counts = [f"total degree {total}"]
     if len(groups) > 1:
         counts.append(f"multihomogeneous {number} in {_groups(groups)}")
-    least = min(total, number)
+    least, most = min(total, number), None
     if least > FEW:
         from nag.solving.start.mixed_cells import mixed_cells
         from nag.solving.start.polyhedral import polyhedral
@@ -95,6 +97,10 @@ def _least_work(
             if 0 < WORK * volume <= least:
                 start = polyhedral(target, cells, rng, threads)
                 return start, f"polyhedral, the least work: {', '.join(counts)}"
+            # Zeros in a system's polytopes' directions make them fewer than the mixed volume
+            # (Bernshtein, The number of roots of a system of equations, 1975, theorem B); with
+            # constant terms, also those on coordinate hyperplanes are among these.
+            most = volume if target.has_constants and volume else None
             if 0 < volume < least:
                 counts.append("whose start system would take more work than it saves")
         except StartError as error:
@@ -102,9 +108,9 @@ def _least_work(
     elif least > 1:
         counts.append("so few that the mixed volume was not computed")
     if number < total:
-        start = multihomogeneous(target, groups, rng)
+        start = replace(multihomogeneous(target, groups, rng), most=most)
         return start, f"multihomogeneous, the least work: {', '.join(counts)}"
-    start = total_degree(target, rng, generic)
+    start = replace(total_degree(target, rng, generic), most=most)
     return start, f"total degree, the least work: {', '.join(counts)}"
 
 

@@ -263,12 +263,17 @@ def _follow(
     return found[: numbers[0]].copy()
 
 
-def mixed_cells(supports: Sequence[np.ndarray], rng: np.random.Generator) -> MixedCells:
-    """The mixed cells of ``supports`` for random lifting values.
+def mixed_cells(
+    supports: Sequence[np.ndarray],
+    rng: np.random.Generator,
+    lifts: Sequence[np.ndarray] | None = None,
+) -> MixedCells:
+    """The mixed cells of ``supports``, for random lifting values if none are given.
 
     Args:
         supports: ``n`` arrays of non-negative exponents, each shape ``(terms, n)``.
         rng: where the lifting values come from.
+        lifts: whole numbers from 0 to `LARGEST_LIFT` for each point, generic.
 
     Raises:
         StartError: if there are too many cells.
@@ -284,7 +289,9 @@ def mixed_cells(supports: Sequence[np.ndarray], rng: np.random.Generator) -> Mix
         values = np.append(0.0, heights + 1 + 100 * rng.random(n))
         values[1 + i] = heights[i]
         simplex_lifts.append(values)
-    lifts = [rng.integers(0, LARGEST_LIFT, len(s)).astype(float) for s in supports]
+    if lifts is None:
+        lifts = [rng.integers(0, LARGEST_LIFT, len(s)) for s in supports]
+    lifts = [lift.astype(float) for lift in lifts]
     points = [simplex] * n
     values = list(simplex_lifts)
     cells = np.array([[[0, 1 + i] for i in range(n)]], dtype=np.int64)
@@ -312,8 +319,12 @@ def mixed_cells(supports: Sequence[np.ndarray], rng: np.random.Generator) -> Mix
         points[stage], values[stage] = supports[i], lifts[i]
     edges = np.zeros_like(cells)
     edges[:, order] = cells
-    vectors = np.array(
-        [[s[b] - s[a] for s, (a, b) in zip(supports, cell, strict=True)] for cell in edges]
-    ).reshape(len(edges), n, n)
-    volumes = np.rint(np.abs(np.linalg.det(vectors.astype(float)))).astype(np.int64)
-    return MixedCells(tuple(supports), tuple(lifts), edges, volumes)
+    return MixedCells(tuple(supports), tuple(lifts), edges, _volumes(supports, edges))
+
+
+def _volumes(supports: Sequence[np.ndarray], edges: np.ndarray) -> np.ndarray:
+    n = len(supports)
+    ends = [s[edges[:, i]] for i, s in enumerate(supports)]
+    vectors = np.array([e[:, 1] - e[:, 0] for e in ends]).reshape(n, len(edges), n)
+    vectors = vectors.transpose(1, 0, 2)
+    return np.rint(np.abs(np.linalg.det(vectors.astype(float)))).astype(np.int64)

@@ -76,6 +76,11 @@ class Target:
         """The exponents of all rows."""
         return StackedExponents.of(self.rows)
 
+    @property
+    def has_constants(self) -> bool:
+        """Whether each polynomial has a constant term."""
+        return all((0,) * self.n in row for row in self.rows)
+
     @cached_property
     def supports(self) -> tuple[np.ndarray, ...]:
         """Exponents of each row together with the origin, each shape ``(terms, n)``.
@@ -122,6 +127,8 @@ class Start:
         complete: whether each isolated solution of the target is the end of as many paths as its
             multiplicity is.
         detail: how the start system came about, for the reader.
+        most: where it is known that the target, if it has so many regular zeros without zero
+            coordinates, has no other zeros.
     """
 
     name: str
@@ -130,6 +137,7 @@ class Start:
     groups: tuple[tuple[int, ...], ...]
     complete: bool = True
     detail: str = ""
+    most: int | None = None
 
     def affine(self, points: np.ndarray) -> np.ndarray:
         """Values of the variables at projective points, shape ``(P, n)``."""

@@ -63,6 +63,9 @@ OPEN, REGULAR, LIMIT, LOST, TOO_LONG = range(5)
 # Largest product of the rounding error of a point and Newton's constant that is lost, and that
 # leaves a point safe enough to start from.
 LOSING, SAFE = 1e-3, 1e-6
+# Rounding errors of the residuals that the error of a point stands for, and second derivatives of
+# equations of the usual degrees, both in parts of their terms.
+RESIDUAL, SECOND = 8.0, 10.0
 
 
 class Batch(NamedTuple):
@@ -173,10 +176,15 @@ def _keep(s, r, f, order):
 
 
 def _keep_safe(s, r, f):
-    """Keep the bases that are known so well that the next arithmetic may start from them."""
+    """Keep the bases that are known so well that the next arithmetic may start from them.
+
+    Newton's constant is at most as large as the inverse Jacobian makes it, of which the error of
+    the point says how large it is; corrections that are rounding errors say nothing of it.
+    """
     half = splat(0.5)
     for lane in range(8):
-        curvature = max(f[8 * CURVATURE + lane], 1.0)
+        inverse = f[8 * KNOWN + lane] / (RESIDUAL * number.EPSILON)
+        curvature = max(f[8 * CURVATURE + lane], SECOND * inverse, 1.0)
         r.measures[lane] = 0.0
         if r.accepted[lane] > 0.5 and f[8 * KNOWN + lane] * curvature <= SAFE:
             r.measures[lane] = 1.0

@@ -22,7 +22,7 @@ from nag.tracking.settings import Settings
 ORDER = 14
 # Digits of numbers of as many words.
 DIGITS = {2: 32, 4: 64}
-MAX_STEPS = 300
+MAX_STEPS, MOST_STEPS = 300, 3000
 MAX_WINDING = 40
 # Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
 # those of the settings.
@@ -66,6 +66,18 @@ class _States:
     errors: np.ndarray
     limits: dict[int, Limit]
     found: dict[int, np.ndarray]
+    most: int = MAX_STEPS
+
+    @classmethod
+    def from_start(cls, starts: np.ndarray, curvature: np.ndarray) -> _States:
+        """Paths at t = 1, at points in words, shape ``(P, N, 2, words)``."""
+        P, N, _, words = starts.shape
+        states = cls.of(np.zeros((P, N)), np.zeros(P, bool), np.zeros((P, N)), np.ones(P))
+        states.where, states.safe, states.ends = starts.copy(), starts.copy(), starts.copy()
+        states.t = np.tile(np.eye(1, words), (P, 1))
+        states.safe_t = states.t.copy()
+        states.curvature, states.most = curvature.copy(), MOST_STEPS
+        return states
 
     @classmethod
     def of(cls, ends: np.ndarray, reached: np.ndarray, safe: np.ndarray, t: np.ndarray) -> _States:
@@ -144,6 +156,27 @@ def follow(
     return _paths(homotopy, states)
 
 
+def follow_whole(
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    curvature: np.ndarray,
+    settings: Settings,
+    threads: int = 1,
+) -> Paths:
+    """Follow paths from t = 1 on, in the arithmetic that their starts are given in.
+
+    Args:
+        starts: points at t = 1 in words, of norms about one, shape ``(P, N, 2, words)``.
+        curvature: estimates of Newton's constant there, shape ``(P,)``.
+
+    Returns:
+        The paths; those whose ends ask for more digits have failed.
+    """
+    states = _States.from_start(starts, curvature)
+    _follow_in(homotopy, states, np.arange(len(starts)), starts.shape[-1], settings, threads)
+    return _paths(homotopy, states)
+
+
 def digits_of_evidence(homotopy: Homotopy, beyond: int) -> int:
     """To how many digits an end must satisfy the equations: so many more than these have.
 
@@ -192,7 +225,7 @@ def _follow_in(
                 verdict = _limit(states, limits, path, found[k], need)
                 if verdict != end_run.LIMIT:
                     states.outcome[path] = end_run.LOST
-                    hopeful = verdict == end_run.OPEN and states.steps[path] < MAX_STEPS
+                    hopeful = verdict == end_run.OPEN and states.steps[path] < states.most
                     (again if hopeful else later).append(path)
             elif outcome == end_run.REGULAR:
                 centre = states.found[path]
@@ -279,7 +312,7 @@ def _run(
             *whole,
             *(a.reshape(-1) for a in (points, safe, safe_t, own_limits, errors)),
             curvature,
-            MAX_STEPS,
+            states.most,
             MAX_WINDING,
             ACCURACY * settings.tolerance,
             CONTRACTION * settings.contraction,

@@ -73,7 +73,8 @@ class Limits:
             winding: the w of the power series in ``t^(1/w)``.
 
         Returns:
-            None where the orders are no rational numbers with a common small denominator.
+            None where the orders are no rational numbers with a common small denominator, or no
+            coordinate of a group is known.
         """
         import flint
 
@@ -101,7 +102,8 @@ class Limits:
         if not np.abs(slopes[known].imag).max(initial=0.0) <= WHOLE:
             return None
         denominator = _denominator(slopes[known].real, winding)
-        if not denominator:
+        groups = self.terms.homotopy.groups
+        if not denominator or not all(known[list(indices)].any() for indices in groups):
             return None
         orders = [NEVER] * N
         leading = [flint.acb(0)] * N

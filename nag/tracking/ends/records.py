@@ -148,7 +148,10 @@ def words(value: Number | complex, count: int, factor: Fraction = Fraction(1)) -
         ]
     if isinstance(value, Irrational):
         value = rounded_fraction(value, 20 * count)
-    return [*_words(Fraction(value) * factor, count), *[0.0] * count]
+    numerator, denominator = value.numerator, value.denominator
+    # A common factor does no harm.
+    real = _split(numerator * factor.numerator, denominator * factor.denominator, count)
+    return [*real, *[0.0] * count]
 
 
 def coefficients(homotopy: Homotopy, count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -1,0 +1,336 @@
+"""A hypersurface by exact algebra: its points are roots of one polynomial, and no path is tracked.
+
+Where exact elimination leaves one equation, irreducible over the rationals, its zero set on a
+generic line is the zeros of a polynomial in one variable, isolated in balls. Irreducibility over
+the complex numbers is Gao's rank (`nag.algebra.absolute_factors`). If there are several factors
+they are conjugate, of equal degree; then roots belong together whose sum moves linearly with the
+line, so that the sum of their second derivatives is zero, which balls of many digits show
+(Sommese, Verschelde & Wampler 2002).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import combinations, combinations_with_replacement, permutations
+from math import comb
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.absolute_factors import most_absolute_factors
+from nag.algebra.factoring import factored
+from nag.algebra.polynomial import Polynomial
+from nag.decomposition.final_checks import MOST_MULTIDEGREES, checked_witness_set
+from nag.decomposition.hypersurface import NEARER
+from nag.decomposition.reduction import Reduction
+from nag.decomposition.splitting import Class
+from nag.witness.close_points import Fine, close_pairs, in_words
+from nag.witness.cutting import Cut
+from nag.witness.exact_points import ExactPoints, of_balls
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.points import Points
+from nag.witness.slices import random_rows
+from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
+
+# Bits of the arithmetic and of the roots behind the point, and digits to which sums of second
+# derivatives must vanish.
+BITS, TOLERANCE, EVIDENCE = 400, 300, 60
+# Sets of points that are looked at for those whose sum is linear.
+MOST_CHOICES = 20_000
+
+
+def is_one_equation(reduction: Reduction) -> bool:
+    """Whether exact linear elimination leaves one exact equation in several unknowns."""
+    equations = reduction.reduced.polynomials
+    return len(equations) == 1 and equations[0].exact and reduction.n > 1
+
+
+def decompose_one_equation(
+    reduction: Reduction, rng: np.random.Generator, tracker: Tracker, scheme: bool, one: bool
+) -> Decomposition | None:
+    """The components of a hypersurface.
+
+    Args:
+        reduction: of the system.
+        scheme: whether multiplicities in the scheme of the equations are wanted.
+        one: whether several components are to be left to others.
+
+    Returns:
+        None where the equation is none, or factors over the rationals, or its degree is too high
+        for this.
+    """
+    reduced = reduction.reduced
+    if not is_one_equation(reduction) or not all(g.exact for g in reduced.nonzero):
+        return None
+    (f,) = reduced.polynomials
+    if [k for _, k in factored(f)] != [1]:
+        return None
+    count = most_absolute_factors(f, rng)
+    if count is None or (one and count > 1):
+        return None
+    n = reduction.n
+    rows = random_rows(rng, n, n, NEARER)[: n - 1]
+    line = _Line.of(f, rows)
+    classes = None if line is None else line.classes(count)
+    if line is None or classes is None:
+        return None
+    components = _components(reduction, line, rows, classes, rng, tracker, scheme)
+    return Decomposition(
+        system=reduction.system,
+        components=tuple(components),
+        paths=PathCounts(),
+        seed=0,
+        settings=str(tracker.settings),
+        order=(0,),
+        complete=all(c.status is Status.IRREDUCIBLE for c in components),
+    )
+
+
+def _components(
+    reduction: Reduction,
+    line: _Line,
+    rows: np.ndarray,
+    classes: Sequence[Sequence[int]],
+    rng: np.random.Generator,
+    tracker: Tracker,
+    scheme: bool,
+) -> list[WitnessSet]:
+    (f,) = reduction.reduced.polynomials
+    key = factored(f)[0][0]
+    if any(key == p for g in reduction.reduced.nonzero for p, _ in factored(g)):
+        return []
+    multidegree = _multidegree(reduction, rng)
+    fibre = Fibre(Cut(reduction.n, 0, (f,)), len(rows), line.points, line.close)
+    points = replace(Points.of([fibre], rows), known=line.exact)
+    # Without groups: what these are asked for is known from the equation.
+    plain = replace(reduction, system=replace(reduction.system, groups=()))
+    result = []
+    for own in classes:
+        found, _ = checked_witness_set(Class(np.array(own)), points, plain, rng, tracker, scheme)
+        if multidegree is not None:
+            found = replace(found, multidegree=multidegree // len(classes))
+        result.append(found)
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class _Line:
+    """The zeros of a polynomial on a line.
+
+    Attributes:
+        f: the polynomial.
+        normal: in which the line moves to one side.
+        direction: of the line, in balls.
+        balls: coordinates of each zero.
+    """
+
+    f: Polynomial
+    normal: np.ndarray
+    direction: list[Any]
+    balls: list[list[Any]]
+
+    @classmethod
+    def of(cls, f: Polynomial, rows: np.ndarray) -> _Line | None:
+        """None where the roots cannot be told apart, or are not as many as the degree."""
+        import flint
+
+        A = rows[:, 1:]
+        direction = np.linalg.svd(A)[2][-1].conj()
+        with flint.ctx.workprec(BITS):
+            images = _parametrised(rows, direction)
+            restricted = flint.acb_poly([])
+            powers = [_powers(image, f.degree) for image in images]
+            for exponents, c in f.terms.items():
+                term = flint.acb_poly([_ball(c)])
+                for own, k in zip(powers, exponents, strict=True):
+                    if k:
+                        term *= own[k]
+                restricted += term
+            try:
+                roots = restricted.roots(tol=flint.arb(2) ** -TOLERANCE)
+            except ValueError:
+                return None
+            if len(roots) != f.degree:
+                return None
+            balls = [[image(root) for image in images] for root in roots]
+        return cls(f, A[-1].conj(), [image[1] for image in images], balls)
+
+    @property
+    def points(self) -> np.ndarray:
+        return np.array([[complex(c) for c in ball] for ball in self.balls])
+
+    @property
+    def exact(self) -> ExactPoints:
+        import flint
+
+        with flint.ctx.workprec(BITS):
+            return of_balls(self.balls)
+
+    @property
+    def close(self) -> dict[int, Fine]:
+        """More digits of the points that are close to others; how close, the points tell."""
+        import flint
+
+        pairs = close_pairs(self.points)
+        with flint.ctx.workprec(BITS):
+            return {i: in_words(self.balls[i], 1.0) for pair in pairs for i in pair}
+
+    def classes(self, count: int) -> list[list[int]] | None:
+        """The points of each of ``count`` conjugate factors; None if that is not seen."""
+        degree = len(self.balls)
+        size, rest = divmod(degree, count)
+        if count == 1:
+            return [list(range(degree))]
+        if rest or comb(degree - 1, size - 1) > MOST_CHOICES:
+            return None
+        bends, found = self._bends(), []
+        left = list(range(degree))
+        while left:
+            first, *others = left
+            own = next(
+                (
+                    [first, *chosen]
+                    for chosen in combinations(others, size - 1)
+                    if _vanishes([bends[i] for i in (first, *chosen)])
+                ),
+                None,
+            )
+            if own is None:
+                return None
+            found.append(own)
+            left = [i for i in left if i not in own]
+        return found
+
+    def _bends(self) -> list[tuple[Any, float]]:
+        """Second derivatives of the roots when the line moves, parallel to itself.
+
+        With the sizes of the sums that they are.
+        """
+        import flint
+
+        n = self.f.n
+        first = [self.f.derivative(i) for i in range(n)]
+        second = [[g.derivative(j) for j in range(n)] for g in first]
+        with flint.ctx.workprec(BITS):
+            v = self.direction
+            w = [flint.acb(complex(x)) for x in self.normal]
+            result = []
+            for x in self.balls:
+                slopes = [_value(g, x) for g in first]
+                along = sum((a * b for a, b in zip(slopes, v, strict=True)), flint.acb(0))
+                across = sum((a * b for a, b in zip(slopes, w, strict=True)), flint.acb(0))
+                way = [b - across / along * a for a, b in zip(v, w, strict=True)]
+                terms = [
+                    _value(second[i][j], x) * way[i] * way[j] / along
+                    for i in range(n)
+                    for j in range(n)
+                ]
+                size = sum(float(abs(term).mid()) for term in terms)
+                result.append((sum(terms, flint.acb(0)), size))
+        return result
+
+
+def _parametrised(rows: np.ndarray, direction: np.ndarray) -> list[Any]:
+    """The coordinates on the line that the rows define, in a parameter along the direction.
+
+    The line is that of the rows themselves: points that are close need all digits of it.
+    """
+    import flint
+
+    n = len(direction)
+    whole = np.vstack([rows[:, 1:], direction.conj()])
+    inverse = flint.acb_mat(n, n, [complex(c) for c in whole.ravel()]).inv()
+    right = flint.acb_mat(n, 2, [c for row in rows[:, 0] for c in (complex(-row), 0)] + [0, 1])
+    points = inverse * right
+    return [flint.acb_poly([points[i, 0], points[i, 1]]) for i in range(n)]
+
+
+def _powers(image: Any, degree: int) -> list[Any]:
+    result = [image**0]
+    for _ in range(degree):
+        result.append(result[-1] * image)
+    return result
+
+
+def _ball(c: Fraction) -> Any:
+    import flint
+
+    return flint.acb(flint.arb(c.numerator) / c.denominator)
+
+
+def _value(f: Polynomial, x: Sequence[Any]) -> Any:
+    import flint
+
+    total = flint.acb(0)
+    for exponents, c in f.terms.items():
+        term = _ball(c)
+        for value, k in zip(x, exponents, strict=True):
+            if k:
+                term *= value**k
+        total += term
+    return total
+
+
+def _vanishes(bends: Sequence[tuple[Any, float]]) -> bool:
+    """Whether a sum of balls is zero to many digits beside its terms."""
+    import flint
+
+    with flint.ctx.workprec(BITS):
+        total = sum((bend for bend, _ in bends[1:]), bends[0][0])
+    size = max(size for _, size in bends)
+    return bool(total.contains(0)) and float(abs(total).upper()) <= 10.0**-EVIDENCE * size
+
+
+def _multidegree(reduction: Reduction, rng: np.random.Generator) -> np.ndarray | None:
+    """Numbers of zeros with groups of variables fixed: degrees on lines of these directions."""
+    groups, d = reduction.system.groups, reduction.n - 1
+    choices = list(combinations_with_replacement(range(len(groups)), d))
+    choices = [c for c in choices if all(c.count(g) <= len(groups[g]) for g in c)]
+    if not groups or len(choices) > MOST_MULTIDEGREES:
+        return None
+    (f,) = reduction.elimination.system.polynomials
+    origin = [Fraction(int(k), 7) for k in rng.integers(-97, 98, reduction.n)]
+    degrees = np.zeros((len(groups),) * d, dtype=int)
+    for choice in choices:
+        fixed = []
+        for g in choice:
+            row = [Fraction(0)] * reduction.n
+            for i in groups[g]:
+                weight = Fraction(int(rng.integers(1, 98)))
+                for exponents, c in reduction.images[i].terms.items():
+                    if any(exponents):
+                        row[exponents.index(1)] += weight * c
+            fixed.append(row)
+        for place in set(permutations(choice)):
+            degrees[place] = _degree_along(f, origin, _common_zero(fixed))
+    return degrees
+
+
+def _common_zero(rows: Sequence[Sequence[Fraction]]) -> list[Fraction] | None:
+    """The direction in which all linear forms vanish; None if there are several."""
+    import flint
+
+    n = len(rows) + 1
+    entries = [flint.fmpq(c.numerator, c.denominator) for row in rows for c in row]
+    reduced, rank = flint.fmpq_mat(len(rows), n, entries).rref()
+    if rank < n - 1:
+        return None
+    pivots = [next(j for j in range(n) if reduced[i, j] != 0) for i in range(rank)]
+    (free,) = set(range(n)) - set(pivots)
+    direction = [Fraction(0)] * n
+    direction[free] = Fraction(1)
+    for i, j in enumerate(pivots):
+        value = -reduced[i, free]
+        direction[j] = Fraction(int(value.p), int(value.q))
+    return direction
+
+
+def _degree_along(
+    f: Polynomial, origin: Sequence[Fraction], direction: Sequence[Fraction] | None
+) -> int:
+    if direction is None:
+        return 0
+    s = Polynomial.variable(1, 0)
+    return f.compose([s * v + p for p, v in zip(origin, direction, strict=True)]).degree

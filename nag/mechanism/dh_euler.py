@@ -1,0 +1,196 @@
+"""A table by Denavit and Hartenberg as bodies with frames: its loop in Euler parameters.
+
+A body lies between two open joints. Its frame is that of the joint before it, after the turn, so
+that the body's constant factor (p, v) of rotation and translation leads to the frame of the next
+joint before its turn. Joint i + 1 turns about the common z axis: with r = conj(a) b for the bodies
+a before and b after it, conj(p) r is a turn about z, two equations linear in r (T25, lemma 2.1).
+The loop closes when the sum of all R(a) v vanishes. The last body is the base, its frame the
+global one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from string import ascii_lowercase
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.given_points import components_through_points
+from nag.mechanism.configuration import arithmetic_of, as_entries
+from nag.mechanism.dh import REAL, DHError, DHLoop, DHModel, dh_model, opened
+from nag.mechanism.formulations import Alternative
+from nag.mechanism.quaternion import (
+    DualQuaternion,
+    Quaternion,
+    conjugate,
+    multiply,
+    norm_squared,
+    rotate,
+    scale,
+    translation,
+)
+from nag.mechanism.row_reduction import independent_polynomials
+from nag.witness.witness import Decomposition, Status
+
+ZERO, ONE = Fraction(0), Fraction(1)
+_IDENTITY: Quaternion = (ONE, ZERO, ZERO, ZERO)
+
+
+@dataclass(frozen=True)
+class DHEulerModel:
+    """All ways to close a table, by the Euler parameters of the bodies between its open joints.
+
+    Attributes:
+        loop: the table.
+        joints: numbers of the open joints, in the order of the loop; body i follows joint i.
+        links: each body's rotation and translation from its joint's frame to the next one's.
+        elimination: from all Euler parameters to the variables of `system`.
+        system: norms, prime components of the joints, and the closure of the loop.
+        symmetries: the sign changes of the bodies' Euler parameters.
+    """
+
+    loop: DHLoop
+    joints: tuple[int, ...]
+    links: tuple[DualQuaternion, ...]
+    elimination: Elimination
+    system: PolynomialSystem
+    symmetries: tuple[SignedPermutation, ...]
+
+    reference = None
+    formulation = "E"
+
+    @property
+    def reason(self) -> str:
+        """One sentence: what was made of the table."""
+        moving = len(self.links) - 1
+        return (
+            f"formulation E: loop of {len(self.loop.rows)} revolute joints by Denavit and "
+            f"Hartenberg's numbers; Euler parameters of {moving} bodies, each in the frame of the "
+            f"joint before it, {2 ** len(self.symmetries)} sign changes of them keep the equations"
+        )
+
+    def is_real(self, point: Sequence[complex]) -> bool:
+        """Whether a solution is a real closing, to within rounding."""
+        bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
+        return all(abs(complex(x).imag) <= bound for x in point)
+
+    def of_half_angles(self, source: DHModel, point: Sequence[Any]) -> tuple[Any, ...]:
+        """The point of `system`, one of an orbit, that a closing in half-angles is.
+
+        Exact for exact points, with square roots where norms are no squares.
+
+        Raises:
+            ZeroDivisionError: at a point of norm zero, which is no closing.
+        """
+        point = as_entries(point)
+        arithmetic = arithmetic_of(point)
+        convert = arithmetic.convert
+        angles = source.turns(point, convert)
+        values: list[Any] = []
+        before: Sequence[Any] = tuple(convert(x) for x in _IDENTITY)
+        for i, number in enumerate(self.joints[:-1]):
+            c, s = angles[self.loop.rows[number].name]
+            rotation = tuple(convert(x) for x in self.links[i - 1][0])
+            turned = multiply(multiply(before, rotation), (c, 0 * c, 0 * c, s))
+            before = scale(turned, convert(ONE) / arithmetic.sqrt(norm_squared(turned)))
+            values += before
+        return tuple(values[k] for k in self.elimination.kept)
+
+
+def dh_euler_model(loop: DHLoop) -> DHEulerModel:
+    """The closure equations of a table in Euler parameters.
+
+    Raises:
+        DHError: if no angle is open.
+    """
+    joints, links = opened(loop)
+    moving = len(links) - 1
+    letters = ascii_lowercase if moving <= 26 else [f"q{i + 1}_" for i in range(moving)]
+    names = tuple(f"{letter}{k}" for letter in letters[:moving] for k in range(4))
+    n = len(names)
+    variables = Polynomial.variables(n)
+    bodies = [tuple(variables[4 * i : 4 * i + 4]) for i in range(moving)]
+    bodies.append(tuple(Polynomial.constant(n, x) for x in _IDENTITY))
+    equations = [norm_squared(a) - 1 for a in bodies[:-1]]
+    for i in range(moving + 1):
+        # The body before the first one is the base, the last.
+        turn = multiply(conjugate(links[i - 1][0]), multiply(conjugate(bodies[i - 1]), bodies[i]))
+        equations += turn[1:3]
+    total: Sequence[Any] = (ZERO,) * 3
+    for body, link in zip(bodies, links, strict=True):
+        moved, size = translation(link)
+        turned = rotate(body, tuple(x / size for x in moved))
+        total = tuple(x + y for x, y in zip(turned, total, strict=True))
+    equations += total
+    full = PolynomialSystem(names, tuple(f for f in equations if f))
+    elimination = eliminate_linear(full, graphs=False)
+    reduced = elimination.system
+    system = replace(reduced, polynomials=tuple(independent_polynomials(reduced.polynomials)))
+    symmetries = []
+    for i in range(moving):
+        signs = tuple(-1 if k // 4 == i else 1 for k in elimination.kept)
+        if -1 in signs:
+            symmetries.append(SignedPermutation.of_signs(signs))
+    return DHEulerModel(loop, joints, tuple(links), elimination, system, tuple(symmetries))
+
+
+# The formulations of a table, by rising number of paths.
+FORMULATIONS = ("H", "E")
+
+
+def table_model(loop: DHLoop, formulation: str) -> DHModel | DHEulerModel:
+    """A table's equations in half-angles or in Euler parameters.
+
+    Raises:
+        DHError: if it has no such formulation, or too few angles are open.
+    """
+    if formulation not in FORMULATIONS:
+        raise DHError(
+            f"formulation {formulation}: a table has formulations {' and '.join(FORMULATIONS)}"
+        )
+    return dh_model(loop) if formulation == "H" else dh_euler_model(loop)
+
+
+def table_alternatives(loop: DHLoop) -> tuple[Alternative, ...]:
+    """A table in all its formulations."""
+    return tuple(
+        Alternative(name, table_model(loop, name))  # type: ignore[arg-type]
+        for name in FORMULATIONS
+    )
+
+
+def euler_closings(
+    source: DHModel, closings: Decomposition, *, threads: int = 1
+) -> tuple[DHEulerModel, Decomposition]:
+    """A table in Euler parameters and its components, from those in half-angles.
+
+    A component in half-angles is an orbit of components there, each a covering of it, which one
+    lifted point of it leads to (as in `nag.mechanism.coordinates`).
+    """
+    target = dh_euler_model(source.loop)
+    starts = []
+    for component in closings.components:
+        point = target.of_half_angles(source, component.points[0])
+        starts.append((component.dimension, np.array(point, dtype=complex)))
+    answer = components_through_points(
+        target.system,
+        starts,
+        seed=closings.seed,
+        threads=threads,
+        settings=closings.settings,
+        symmetries=target.symmetries,
+    )
+    undecided = any(c.status is not Status.IRREDUCIBLE for c in closings.components)
+    return target, replace(
+        answer,
+        paths=closings.paths + answer.paths,
+        complete=closings.complete and answer.complete and not undecided,
+        notes=(*closings.notes, *answer.notes),
+    )

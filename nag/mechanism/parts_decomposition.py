@@ -1,0 +1,123 @@
+"""Components of what parts may be assembled to, found in the coordinates that take fewest paths.
+
+A placed framework has coordinates x and y. Its components are found as sets of complex numbers z
+(`isotropic`), a point of each is carried over, and loops and the trace find its witness points in
+x and y. The reflection of the plane exchanges z and w, so that components are carried over once a
+pair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.symmetry import SignedPermutation
+from nag.decomposition.components import decompose
+from nag.decomposition.given_points import components_through_points
+from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.framework_model import FrameworkModel
+from nag.mechanism.isotropic import conjugates
+from nag.witness.fibres import Tracker
+from nag.witness.membership import Membership, component_fibres, is_member
+from nag.witness.witness import Decomposition, Status, WitnessSet
+
+
+def decompose_parts(
+    parts: AssemblyModel,
+    *,
+    symmetries: Sequence[SignedPermutation],
+    progress: Any = None,
+    **options: Any,
+) -> Decomposition:
+    """The components of `parts.system`, as `nag.decomposition.decompose` gives them.
+
+    What is not complete when it was carried over is found again in the system's own coordinates.
+
+    Args:
+        parts: the model of all assemblies.
+        symmetries: those of `parts`, or none.
+        progress: as for `nag.decompose`.
+        options: seed, threads and settings.
+    """
+    smaller = parts.smaller if isinstance(parts, FrameworkModel) else None
+    known = not symmetries or tuple(symmetries) == tuple(parts.symmetries)
+    tracked = None
+    if smaller is not None and known:
+        found = decompose(smaller.system, progress=progress, **options)
+        carried = _carried(parts, found, symmetries, **options) if found.complete else None
+        if carried is not None:
+            return carried
+        tracked = found.paths.repeatable
+    answer = decompose(parts.system, progress=progress, symmetries=symmetries, **options)
+    return answer if tracked is None else replace(answer, paths=answer.paths + tracked)
+
+
+def _carried(
+    parts: FrameworkModel,
+    found: Decomposition,
+    symmetries: Sequence[SignedPermutation],
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> Decomposition | None:
+    """Components in z as components in x and y; None if they cannot be, or not for certain."""
+    chosen = list(found.components)
+    if symmetries:
+        tracker, rng = Tracker(settings, threads), np.random.default_rng([seed, 17])
+        chosen = _one_of_each_pair(parts, found, rng, tracker)
+    starts = [(c.dimension, _in_the_plane(parts, c.points[0])) for c in chosen]
+    answer = components_through_points(
+        parts.system,
+        starts,
+        seed=seed,
+        threads=threads,
+        settings=settings,
+        symmetries=symmetries,
+    )
+    counted = sum(c.orbit for c in answer.components)
+    if not answer.complete or counted != len(found.components):
+        return None
+    return replace(answer, paths=found.paths + answer.paths)
+
+
+def _in_the_plane(parts: FrameworkModel, z: np.ndarray) -> np.ndarray:
+    w = np.array(conjugates(parts.framework, z))
+    return np.stack([(z + w) / 2, (z - w) / 2j], axis=1).ravel()
+
+
+def _one_of_each_pair(
+    parts: FrameworkModel, found: Decomposition, rng: np.random.Generator, tracker: Tracker
+) -> list[WitnessSet]:
+    """Components of which none is the reflection of another, as far as that can be told."""
+    chosen: list[WitnessSet] = []
+    for component in found.components:
+        image = np.array(conjugates(parts.framework, component.points[0]))
+        alike = [c for c in chosen if _kind(c) == _kind(component)]
+        if not any(_lies_on(c, image, found, rng, tracker) for c in alike):
+            chosen.append(component)
+    return chosen
+
+
+def _kind(component: WitnessSet) -> tuple[int, int, int]:
+    return component.dimension, component.degree, component.multiplicity
+
+
+def _lies_on(
+    component: WitnessSet,
+    point: np.ndarray,
+    found: Decomposition,
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> bool:
+    """Whether the reflection of a point of a component of the same kind lies on a component."""
+    if component.status is not Status.IRREDUCIBLE:
+        return False
+    if component.dimension == 0:
+        others = [c for c in found.components if c.dimension == 0]
+        return min(others, key=lambda c: np.linalg.norm(c.points[0] - point)) is component
+    fibres, rows = component_fibres(found.system, component), component.slice.rows
+    answer, _ = is_member(point, 1e-12, fibres, rows, rng, tracker)
+    return answer is Membership.MEMBER

@@ -1,0 +1,118 @@
+"""Whether parts that are not assembled have a real assembly: what is proved, and what was found.
+
+A side that is longer than a way round it, over other sides, forbids real assemblies; that is exact.
+For a single loop in the plane it is also the only obstacle. Otherwise real assemblies are looked
+for by Newton's method from random real points; where none is found, nothing is proved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from math import sqrt
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.number import Number, square_root
+from nag.mechanism.assembly import AssemblyModel
+from nag.mechanism.framework_model import FrameworkModel, cartesian_system
+from nag.mechanism.linkage import LinkageModel
+from nag.witness.gauss_newton import descend, polish
+
+STARTS = 24
+
+
+@dataclass(frozen=True)
+class Side:
+    """Two places a known distance apart: the ends of a bar, or two pins of a link."""
+
+    ends: tuple[str, str]
+    squared: Number
+    name: str
+
+
+def obstacle(parts: AssemblyModel) -> str:
+    """Why there is no real assembly, by exact lengths; empty if no side is too long.
+
+    >>> import nag
+    >>> obstacle(nag.read_case("cases/planar/four-bar.toml").assembly)
+    ''
+    """
+    import networkx
+
+    sides = list(_sides(parts))
+    graph: networkx.Graph = networkx.Graph()
+    for side in sides:
+        graph.add_edge(*side.ends, side=side, length=sqrt(float(side.squared)))
+    for side in sides:
+        others = graph.copy()
+        others.remove_edge(*side.ends)
+        try:
+            way = networkx.dijkstra_path(others, *side.ends, weight="length")
+        except networkx.NetworkXNoPath:
+            continue
+        along = [others.edges[pair]["side"] for pair in pairwise(way)]
+        reach: Number = sum((square_root(s.squared) for s in along), square_root(0))
+        if square_root(side.squared) > reach:
+            names = list(dict.fromkeys(s.name for s in along))
+            others = " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+            return f"{side.name} is longer than {others} together"
+    return ""
+
+
+def real_assembly(parts: AssemblyModel, seed: int = 0) -> np.ndarray | None:
+    """A real assembly that may move, found by Newton's method; None if none was.
+
+    The Jacobian's rank is not full there, as it is nowhere where assemblies move. In the variables
+    of equations with real coordinates; accurate to rounding.
+    """
+    system, size = parts.system, 1.0
+    if isinstance(parts, FrameworkModel) and parts.coordinates.startswith("z"):
+        system = cartesian_system(parts.framework)
+        squares = [float(s / parts.framework.squared_lengths[0]) for s in _squares(parts)]
+        size = 1 + sqrt(max(squares))
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    nonzero = Evaluator.of(system.nonzero, system.n)
+    rng = np.random.default_rng([seed, 19])
+    for _ in range(STARTS):
+        near = descend(evaluator, size * rng.standard_normal(system.n))
+        if near is None:
+            continue
+        zero = polish(evaluator, near)
+        if zero.converged and zero.corank and (nonzero.residuals(zero.x[None] + 0j) > 1e-8).all():
+            return zero.x
+    return None
+
+
+def real_text(parts: AssemblyModel) -> str:
+    """One clause: whether there are real assemblies that move, and what that rests on."""
+    reason = obstacle(parts)
+    if reason:
+        return f"there is no real one, which is proved: {reason}"
+    if real_assembly(parts) is not None:
+        return "a real one was found"
+    return f"no real one was found from {STARTS} starting points, which proves nothing"
+
+
+def _squares(parts: FrameworkModel) -> tuple[Number, ...]:
+    return parts.framework.squared_lengths
+
+
+def _sides(parts: AssemblyModel) -> Iterator[Side]:
+    if isinstance(parts, FrameworkModel):
+        for bar, squared in zip(parts.framework.bars, _squares(parts), strict=True):
+            yield Side(bar, squared, f"bar {'-'.join(bar)}")
+    if isinstance(parts, LinkageModel):
+        seen: set[frozenset[str]] = set()
+        for link in parts.linkage.links:
+            for j, second in enumerate(link.pins):
+                for i, first in enumerate(link.pins[:j]):
+                    # Links that share two pins are one side here.
+                    if frozenset((first, second)) in seen:
+                        continue
+                    seen.add(frozenset((first, second)))
+                    gaps = (p - q for p, q in zip(link.shape[i], link.shape[j], strict=True))
+                    squared = sum((x * x for x in gaps), square_root(0))
+                    yield Side((first, second), squared, f"link {link.name}")

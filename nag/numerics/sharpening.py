@@ -1,0 +1,156 @@
+"""Newton's method for the equations that deflation leaves, in as many digits as asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+
+import flint
+
+from nag.numerics.descent import Descent, Point, Round, descend
+from nag.numerics.digits import log_norm, middle, working
+from nag.numerics.exact_system import ExactSystem
+from nag.numerics.power_series import SeriesRing
+
+# Digits in which singular points are judged. What vanishes there stays below 10^ZERO, relative to
+# coefficients of one; Newton's method has arrived when its step is below 10^ARRIVED.
+DIGITS, ZERO, ARRIVED = 150, -100.0, -125.0
+NEWTON_STEPS = 24
+# Inverse blocks with larger entries (decimal logarithm) are rounding, or the zero is not regular.
+LARGEST_INVERSE = 70.0
+# What rounding adds to a value (decimal logarithm): Newton's step cannot become smaller than this
+# times the inverse.
+ROUNDING = 10.0
+# A step below this share of the digits leaves a point that more digits can go on from.
+NEARLY = 0.4
+
+
+def sharpen(
+    system: ExactSystem, x: Sequence[flint.acb], rounds: Sequence[Round], digits: int = DIGITS
+) -> tuple[Point, Descent] | None:
+    """The zero of the rounds' equations next to ``x``, by Newton's method; None if not found.
+
+    It starts in `DIGITS` digits, and doubles them until they are as many as asked for.
+    """
+    one = _sharpened if len(rounds) > 1 else _sharpened_block
+    found: tuple[Point, Descent] | None = None
+    point = list(x)
+    for stage in _stages(digits):
+        with working(stage):
+            found = one(system, point, rounds, stage, stage == digits)
+        if found is None:
+            return None
+        point = found[0]
+    return found
+
+
+def _stages(digits: int) -> list[int]:
+    stages = [digits]
+    while stages[0] > DIGITS:
+        stages.insert(0, max(DIGITS, stages[0] // 2))
+    return stages
+
+
+def _sharpened(
+    system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int, last_stage: bool
+) -> tuple[Point, Descent] | None:
+    last, point = inf, x
+    # The steps converge quadratically with series of order one in the last round, and cubically,
+    # but at the price of longer series, with order two.
+    order = 2 if len(point) - len(rounds[0].columns) < 3 else 1
+    for step in range(NEWTON_STEPS):
+        found = descend(system, digits, point, rounds, order)
+        if found is None or found.inverse > LARGEST_INVERSE:
+            return None
+        size = log_norm(found.displacement)
+        arrived = max(ARRIVED + DIGITS, ROUNDING + found.inverse) - digits
+        if size > -0.3 or (step > 3 and size > last - 1.0 and size > arrived):
+            return None
+        point = [middle(a + b) for a, b in zip(point, found.displacement, strict=True)]
+        if size < (arrived if last_stage else max(arrived, -NEARLY * digits)):
+            return point, found
+        last = size
+    return None
+
+
+def _sharpened_block(
+    system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int, last_stage: bool
+) -> tuple[Point, Descent] | None:
+    """The zero of a regular block of the equations, by values and slopes alone.
+
+    Beyond `DIGITS` the slopes are those at ``x``, in half the digits, and the steps as long as
+    these allow.
+    """
+    (this,) = rounds
+    values = system.values_at(digits)
+    others = [i for i in range(len(system.rows)) if i not in this.rows]
+    last, point, inverse, size = inf, x, None, -inf
+    for step in range(NEWTON_STEPS):
+        at = values.values(point)
+        if inverse is None or digits <= DIGITS:
+            inverse = _inverse_block(system, point, this, min(digits, max(DIGITS, digits // 2)))
+            if inverse is None:
+                return None
+            size = log_norm(inverse.entries()) if this.columns else -inf
+            if size > LARGEST_INVERSE:
+                return None
+        displacement = [flint.acb(0)] * len(point)
+        if this.columns:
+            column = flint.acb_mat(len(this.rows), 1, [at[i] for i in this.rows])
+            for j, c in zip(this.columns, (inverse * column).mid().entries(), strict=True):
+                displacement[j] = -c
+        moved = log_norm(displacement)
+        arrived = max(ARRIVED + DIGITS, ROUNDING + size) - digits
+        if moved > -0.3 or (step > 3 and moved > last - 1.0 and moved > arrived):
+            return None
+        point = [middle(a + b) for a, b in zip(point, displacement, strict=True)]
+        if moved < (arrived if last_stage else max(arrived, -NEARLY * digits)):
+            at = values.values(point)
+            rest = [at[i] for i in others]
+            ring = SeriesRing(len(point) - len(this.columns), 0)
+            remaining = [{0: c} if c else {} for c in rest]
+            return point, Descent(displacement, ring, remaining, log_norm(rest), size)
+        last = moved
+    return None
+
+
+def predicted(
+    system: ExactSystem, point: Point, rounds: Sequence[Round], along: Sequence[flint.acb]
+) -> Point | None:
+    """The point moved along the smooth set that the rounds leave, to first order at least.
+
+    Args:
+        along: displacements of the variables that the rounds do not determine.
+    """
+    first = rounds[0]
+    if len(rounds) > 1 or not first.columns:
+        step = descend(system, DIGITS, point, rounds, 2, along)
+        if step is None:
+            return None
+        return [middle(a + b) for a, b in zip(point, step.displacement, strict=True)]
+    slopes = system.values_at(DIGITS).jacobian(point)
+    free = [j for j in range(len(point)) if j not in first.columns]
+    right = [sum(slopes[i][j] * v for j, v in zip(free, along, strict=True)) for i in first.rows]
+    block = flint.acb_mat([[slopes[i][j] for j in first.columns] for i in first.rows])
+    try:
+        change = block.solve(flint.acb_mat(len(right), 1, right)).mid().entries()
+    except ZeroDivisionError:
+        return None
+    moved = list(point)
+    for j, v in zip(free, along, strict=True):
+        moved[j] = middle(moved[j] + v)
+    for j, c in zip(first.columns, change, strict=True):
+        moved[j] = middle(moved[j] - c)
+    return moved
+
+
+def _inverse_block(
+    system: ExactSystem, point: Point, this: Round, digits: int
+) -> flint.acb_mat | None:
+    with working(digits):
+        slopes = system.values_at(digits).jacobian(point)
+        block = [[slopes[i][j] for j in this.columns] for i in this.rows]
+        try:
+            return flint.acb_mat(block).inv().mid() if block else flint.acb_mat(0, 0)
+        except ZeroDivisionError:
+            return None

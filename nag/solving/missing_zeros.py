@@ -1,0 +1,92 @@
+"""Zeros that no path has reached: of extreme sizes, or where paths were lost."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.solving.counted import Verdict, doubtful, verdict
+from nag.solving.judged_ends import IsolatedZero, JudgedEnds, enlarged
+from nag.solving.square_problem import SquareProblem
+from nag.solving.start.target import Start
+from nag.solving.tropical_zeros import tropical_zeros
+from nag.tracking.paths import Paths, PathStatus
+
+# Digits in which these zeros are known.
+DIGITS = 150
+# They are looked for beside so many paths: cells take time as well.
+MOST_PATHS = 2000
+# Lost paths at whose last points zeros are looked for, and how near to one these are at best.
+MOST_LOST, NEAR = 16, 1e-6
+# Errors of known points, in those estimated, in which another zero may not lie.
+SAFETY = 1e3
+# Distance of zeros that are known to 100 digits, and are two.
+TWO = Fraction(1, 10**80)
+# Binary logarithm of a size at which a zero may look infinite to the least evidence: some 1e8.
+EXTREME = 26.0
+
+
+def with_missing_zeros(
+    problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds, rng: np.random.Generator
+) -> JudgedEnds:
+    """The ends with zeros that no path has reached, if any are missing."""
+    number = len(doubtful(paths))
+    if problem.added or problem.squared or not 0 < number <= MOST_PATHS:
+        return ends
+    if verdict(ends) is Verdict.MISSING:
+        found = _at_lost_paths(problem, begin, paths, ends, rng)
+        ends = enlarged(problem, ends, found) if found else ends
+    if verdict(ends) not in (Verdict.UNKNOWN, Verdict.MISSING):
+        return ends
+    # Where nothing says that zeros are missing, they are not looked for among ordinary ones.
+    least = 0.0 if verdict(ends) is Verdict.MISSING else EXTREME
+    far = tropical_zeros(problem.equations, *_known(problem, ends), rng, least)
+    zeros = [_isolated(z.point, z.end, z.residual) for z in far]
+    return enlarged(problem, ends, zeros) if zeros else ends
+
+
+def _known(problem: SquareProblem, ends: JudgedEnds) -> tuple[np.ndarray, np.ndarray]:
+    """The zeros that were found, shape ``(k, n)``, and how far they are from the exact ones."""
+    points = np.array([z.point for z in ends.isolated]).reshape(-1, problem.system.n)
+    accuracy = np.array([z.accuracy for z in ends.isolated])
+    # Errors of projective points are relative to all coordinates together.
+    sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
+    return points, SAFETY * accuracy * sizes**2
+
+
+def _at_lost_paths(
+    problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds, rng: np.random.Generator
+) -> list[IsolatedZero]:
+    """Zeros for which singular ends, and the last points of lost paths, stand, if not found."""
+    lost = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)
+    infinite = paths.points[lost][:, list(begin.homotopy.infinity)] == 0
+    lost = lost[~infinite.any(axis=1)][:MOST_LOST]
+    known, errors = _known(problem, ends)
+    evaluator = Evaluator.of(problem.equations, problem.system.n)
+    exact: list[list[Fraction]] = []
+    found = []
+    for x in begin.affine(paths.points[lost]):
+        if not np.abs(x).max() < 2.0**EXTREME:
+            continue
+        end = analyse(problem.equations, x, NEAR, rng)
+        nearby = end.nearby if end.place is Place.CLUSTER else (end,)
+        for zero in nearby:
+            digits = [Fraction(part) for pair in zero.digits for part in pair]
+            if zero.place is not Place.ISOLATED or any(_same(digits, e) for e in exact):
+                continue
+            exact.append(digits)
+            if (np.abs(known - zero.point).max(axis=1, initial=0.0) > errors).all():
+                residual = float(evaluator.residuals(zero.point[None]).max())
+                found.append(_isolated(zero.point, zero, residual))
+    return found
+
+
+def _same(x: list[Fraction], y: list[Fraction]) -> bool:
+    return all(abs(a - b) <= TWO for a, b in zip(x, y, strict=True))
+
+
+def _isolated(point: np.ndarray, end: SingularEnd, residual: float) -> IsolatedZero:
+    return IsolatedZero(point, end.multiplicity, residual, end.accuracy, end.condition, DIGITS)

@@ -1,0 +1,213 @@
+"""Points nearer to each other than paths in doubles can tell: known to more digits.
+
+Two sheets of a set that come near to each other everywhere, as conjugate parallel lines do, have
+points that doubles may not distinguish, and their paths jump from one to the other. Such points are
+kept as sums of doubles, and tracked in as many digits as their distance asks for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from nag.numerics.coincidence import neighbours
+from nag.witness.slices import padded
+
+if TYPE_CHECKING:
+    from nag.algebra.polynomial import Polynomial
+
+# Points are close whose distance, relative to their size, is less than this: corrections that need
+# not contract any more may be as large as a hundredth of it.
+CLOSE = 1e-4
+# Sums of so many doubles, and the digits that they hold.
+WORDS, DIGITS = 4, 62
+# Newton's method for close points: corrections, and the part of the distance to the next point
+# that it may move a point by.
+STEPS, BASIN = 14, 0.1
+# Digits behind the point to which Newton's constant is probed: beyond all distances of points that
+# can be tracked, before what is left of their digits.
+OFF = 32
+
+
+@dataclass(frozen=True, eq=False)
+class Fine:
+    """A point in many digits.
+
+    Attributes:
+        words: real and imaginary parts of the affine coordinates, those that deflation added
+            included, as sums of doubles, the largest first, shape ``(n + aux, 2, WORDS)``.
+        curvature: Newton's constant, as of the inverse distance to the next point.
+    """
+
+    words: np.ndarray
+    curvature: float
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Fine):
+            return NotImplemented
+        return self.curvature == other.curvature and np.array_equal(self.words, other.words)
+
+    def first(self, count: int) -> Fine:
+        """The first coordinates only."""
+        return Fine(self.words[:count], self.curvature)
+
+    @property
+    def rounded(self) -> np.ndarray:
+        """The point in doubles."""
+        return self.words[:, 0, 0] + 1j * self.words[:, 1, 0]
+
+    def balls(self) -> list[Any]:
+        """The coordinates in FLINT's ``acb``; the working precision must hold the words."""
+        import flint
+
+        return [
+            flint.acb(*(sum(map(flint.arb, part.tolist()), flint.arb(0)) for part in parts))
+            for parts in self.words
+        ]
+
+    @property
+    def homogeneous(self) -> np.ndarray:
+        """With a first coordinate one, over a power of two that leaves a size of about one."""
+        one = np.zeros((1, 2, WORDS))
+        one[0, 0, 0] = 1.0
+        words = np.concatenate([one, self.words])
+        return np.ldexp(words, -int(np.frexp(np.linalg.norm(words[:, :, 0]))[1]))
+
+
+def in_words(values: Sequence[Any], curvature: float) -> Fine:
+    """A point from FLINT's ``acb`` coordinates."""
+    words = np.zeros((len(values), 2, WORDS))
+    for j, z in enumerate(values):
+        for k, rest in enumerate((z.real.mid(), z.imag.mid())):
+            for i in range(WORDS):
+                words[j, k, i] = float(rest)
+                rest = (rest - words[j, k, i]).mid()
+    return Fine(words, curvature)
+
+
+def affine_fine(centre: np.ndarray, curvature: float) -> Fine:
+    """The affine point of homogeneous coordinates in words, shape ``(N, 2, words)``."""
+    import flint
+
+    with flint.ctx.workdps(2 * DIGITS):
+        first, *others = Fine(centre, curvature).balls()
+        return in_words([z / first for z in others], curvature)
+
+
+def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> Fine:
+    """A zero of a square system on a slice with Newton's constant there, relative to its size.
+
+    Two of Newton's corrections from a point that is a little off: their quotient over the first.
+    """
+    import flint
+
+    from nag.numerics.ball_polynomials import BallPolynomials
+
+    exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
+    size, most = 1 + float(np.linalg.norm(point.rounded)), 1.0
+    with flint.ctx.workdps(3 * DIGITS):
+        centre, off = point.balls(), flint.arb(10) ** -OFF * size
+        for turn in (1, 2):
+            way = np.exp(1j * np.arange(1, len(centre) + 1) ** 2 * turn)
+            x = [z + flint.acb(complex(v)) * off for z, v in zip(centre, way, strict=True)]
+            lengths = []
+            for _ in range(2):
+                try:
+                    step = exact.jacobian(x).mid().solve(exact(x).mid())
+                except ZeroDivisionError:
+                    return Fine(point.words, np.inf)
+                x = [_middle(z - step[i, 0]) for i, z in enumerate(x)]
+                lengths.append(float(max(abs(step[i, 0]) for i in range(len(x))).mid()) / size)
+            most = max(most, lengths[1] / lengths[0] ** 2)
+    return Fine(point.words, most)
+
+
+def with_roots(point: Fine, f: Polynomial) -> list[Fine]:
+    """A point with each root of ``u^m = f`` there, for f of degree m, as a further coordinate."""
+    import flint
+
+    from nag.numerics.digits import number
+
+    with flint.ctx.workdps(2 * DIGITS):
+        x, m = point.balls(), f.degree
+        root = f(x[: f.n], number).root(m)
+        turns = [flint.acb(flint.fmpq(2 * k, m)).exp_pi_i() for k in range(m)]
+        return [in_words([*x, root * turn], point.curvature) for turn in turns]
+
+
+def zero_from(
+    polynomials: Sequence[Polynomial], rows: np.ndarray, start: Fine, digits: int
+) -> tuple[list[Any], float] | None:
+    """The zero of a square system on a slice near a point, by Newton's method in many digits.
+
+    The caller sets the working precision to some more than ``digits``.
+
+    Returns:
+        The coordinates in ``acb`` without radii, and an estimate of their errors, to be below
+        ``10 ** -digits`` relative to the point; None if Newton's method does not converge at
+        once to a zero that is far nearer than the next one.
+    """
+    import flint
+
+    from nag.numerics.ball_polynomials import BallPolynomials
+
+    exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(start.words)))
+    x = [_middle(z) for z in start.balls()]
+    size = 1 + max((float(abs(z)) for z in x), default=0.0)
+    moved, last = 0.0, None
+    for _ in range(STEPS):
+        try:
+            step = exact.jacobian(x).mid().solve(exact(x).mid())
+        except ZeroDivisionError:
+            return None
+        x = [_middle(z - step[i, 0]) for i, z in enumerate(x)]
+        length = max((abs(step[i, 0]).upper() for i in range(len(x))), default=flint.arb(0))
+        moved += float(length)
+        done = length < flint.arb(10) ** -digits * size
+        contracts = last is None or length < last / 4
+        if not moved * start.curvature <= BASIN * size or not (contracts or done):
+            return None
+        if done and last is not None:
+            return x, float(length)
+        last = length
+    return None
+
+
+def _middle(z: Any) -> Any:
+    import flint
+
+    return flint.acb(z.real.mid(), z.imag.mid())
+
+
+def close_pairs(x: np.ndarray) -> list[tuple[int, int]]:
+    """Pairs of points, shape ``(P, n)``, that are close."""
+    if len(x) < 2 or not x.shape[1]:
+        return []
+    widths = CLOSE * (1 + np.linalg.norm(x, axis=1))
+    weights = np.exp(1j * np.arange(1, x.shape[1] + 1) ** 2)
+    found = []
+    for i, j in neighbours((x @ weights).real, np.sqrt(x.shape[1]) * widths):
+        near = np.linalg.norm(x[i] - x[j], axis=1) <= np.maximum(widths[i], widths[j])
+        found += list(zip(i[near].tolist(), j[near].tolist(), strict=True))
+    return found
+
+
+def distance(x: np.ndarray, fine: Fine | None, y: np.ndarray, other: Fine | None) -> float:
+    """The distance of two points in all digits that are known, without added unknowns.
+
+    Doubles that are near to each other have an exact difference.
+    """
+    n = len(x)
+    if fine is None or other is None:
+        return float(np.linalg.norm(x - y))
+    parts = fine.words[:n, :, 0] - other.words[:n, :, 0]
+    parts = parts + (fine.words[:n, :, 1:] - other.words[:n, :, 1:]).sum(axis=-1)
+    return float(np.linalg.norm(parts))
+
+
+def chosen(fine: Mapping[int, Fine], indices: Sequence[int]) -> dict[int, Fine]:
+    """What is known of some points, by their places among these."""
+    return {k: fine[int(i)] for k, i in enumerate(indices) if int(i) in fine}

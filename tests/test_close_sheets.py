@@ -1,0 +1,157 @@
+"""Components that come near to each other everywhere are told apart, as far as digits go."""
+
+from __future__ import annotations
+
+import flint
+import numpy as np
+import pytest
+
+import nag
+from nag.decomposition import decompose, witness_at
+from nag.files.export import read_decomposition, write_decomposition
+from nag.witness.close_points import Fine, distance, in_words, rated
+from nag.witness.membership import UndecidedError
+from nag.witness.slices import random_rows, to_slice
+from nag.witness.witness import WitnessSet
+
+# Pairs of conjugate components at a distance of 10^-k, and the degree of each.
+LINE = "(x + 2*y - 1)^2 - 2/10^{}"
+PAIRS = {
+    "lines": ([LINE], 1),
+    "circles": (["(x^2 + y^2 - 1)^2 - 2/10^{}"], 2),
+    "circles on a sphere": (["x^2 + y^2 + z^2 - 1", LINE], 2),
+    "quartics": (["x*y - z^2 + 1 + x", "(x + 2*y - 1 + z^2)^2 - 2/10^{}"], 4),
+    "curves in space": (["x^2 + y^2 - 1 + w", "x*z - w^2 + 1", LINE], 4),
+}
+
+
+def pair(name: str, k: int, seed: int = 0) -> tuple[WitnessSet, ...]:
+    texts, degree = PAIRS[name]
+    answer = nag.decompose([text.format(2 * k) for text in texts], seed=seed)
+    assert answer.complete
+    assert [(c.dimension, c.degree) for c in answer.components] == [(1, degree)] * 2
+    return answer.components
+
+
+def sheet(x: np.ndarray, k: int) -> np.ndarray:
+    """On which of the lines of `LINE` points are: -1 or 1, as far as doubles show."""
+    return (x[:, 0] + 2 * x[:, 1] - 1) * 10.0**k / 2**0.5
+
+
+EASIER = [(name, k) for name in PAIRS for k in (4, 6, 8, 10, 12, 15)]
+HARDER = [(name, k) for name in PAIRS for k in (20, 25) if name != "quartics"]
+
+
+@pytest.mark.parametrize(("name", "k"), EASIER + HARDER)
+def test_conjugate_sheets_are_two_components(name: str, k: int) -> None:
+    for component in pair(name, k):
+        assert component.accuracy < 1e-15
+        assert (component.digits >= 32).all()
+
+
+def test_loops_do_not_jump_between_sheets() -> None:
+    # Sixteen points: too many to look for linear traces among all subsets.
+    texts = ["x^2 + y^2 + z^2 - 1", "(x^4 + y*z - 1/2)^2 - 2/10^16"]
+    answer = nag.decompose(texts)
+    assert answer.complete
+    assert [(c.dimension, c.degree) for c in answer.components] == [(1, 8)] * 2
+
+
+@pytest.mark.parametrize("k", [6, 8, 10])
+@pytest.mark.parametrize("name", ["lines", "circles on a sphere"])
+def test_a_component_is_sampled_on_its_own_sheet(name: str, k: int) -> None:
+    means = []
+    for component in pair(name, k):
+        own = sheet(component.sample(0, 4), k)
+        rows = random_rows(np.random.default_rng(5), 1, component.points.shape[1])
+        moved = witness_at(component.system, component, to_slice(rows))
+        assert np.allclose(sheet(moved.points, k), own[0], atol=1e-3)
+        assert np.allclose(own, own[0], atol=1e-3)
+        means.append(own[0].real)
+    assert np.allclose(sorted(means), [-1, 1], atol=1e-3)
+
+
+def test_a_point_is_on_the_sheet_it_is_nearest_to_or_cannot_be_told() -> None:
+    first, second = pair("circles on a sphere", 6)
+    x = first.sample(0, 1)[0]
+    assert first.contains(x) and not second.contains(x)
+    # A rounded point does not say on which of two sheets it is that are nearer to each other.
+    first, second = pair("circles on a sphere", 20)
+    x = first.sample(0, 1)[0]
+    for component in (first, second):
+        with pytest.raises(UndecidedError):
+            component.contains(x)
+        assert not component.contains(x + 1e-3)
+
+
+def test_points_where_sheets_cross_are_on_both() -> None:
+    answer = nag.decompose(["(x^3 + x - y)^2 - 2*x^2/10^12"])
+    assert len(answer.components) == 2
+    for component in answer.components:
+        assert component.contains([0, 0])
+        assert not component.contains([1, 2])
+
+
+@pytest.mark.parametrize("k", [8, 15, 25])
+def test_close_points_lie_within_their_radii(k: int) -> None:
+    found = []
+    for component in pair("lines", k):
+        ((a, b),), (c,) = component.slice.A, component.slice.b
+        (point,), (radii,) = component.points, component.radii
+        with flint.ctx.workdps(80):
+            a, b, c = (flint.acb(complex(v)) for v in (a, b, c))
+            offsets = [sign * flint.arb(2).sqrt() / flint.arb(10) ** k for sign in (1, -1)]
+            # x + 2 y = 1 + offset and a x + b y = c.
+            zeros = [
+                ((b * (1 + e) - 2 * c) / (b - 2 * a), (c - a * (1 + e)) / (b - 2 * a))
+                for e in offsets
+            ]
+            errors = [
+                [
+                    float(abs(z - flint.acb(complex(x))).mid())
+                    for z, x in zip(zero, point, strict=True)
+                ]
+                for zero in zeros
+            ]
+            (fine,) = component.fibres[0].fine.values()
+            apart = [
+                max(float(abs(z - x).mid()) for z, x in zip(zero, fine.balls(), strict=True))
+                for zero in zeros
+            ]
+        own = int(np.argmin(apart))
+        found.append(own)
+        # The point's digits are those of one line, and far from the other.
+        assert apart[own] < 1e-50 and apart[1 - own] > 10.0 ** -(k + 1)
+        assert (np.array(errors[own]) <= radii).all()
+    assert sorted(found) == [0, 1]
+
+
+def test_an_export_keeps_the_digits_of_close_points(tmp_path) -> None:
+    texts, _ = PAIRS["circles on a sphere"]
+    answer = decompose(nag.system([text.format(20) for text in texts]))
+    write_decomposition(answer, tmp_path / "close.json")
+    again = read_decomposition(tmp_path / "close.json")
+    assert again == answer
+    for before, after in zip(answer.components, again.components, strict=True):
+        assert after.fibres[0].fine and after.fibres == before.fibres
+        own, read = (sheet(c.sample(1, 3), 10) for c in (before, after))
+        assert np.array_equal(own, read) and np.allclose(np.abs(own), 1, atol=1e-3)
+
+
+def test_newtons_constant_is_the_inverse_distance_of_two_zeros() -> None:
+    for k in (3, 10, 20):
+        f = nag.system(f"x^2 - 1/10^{2 * k}", "x").polynomials
+        with flint.ctx.workdps(100):
+            point = in_words([flint.acb(1) / flint.arb(10) ** k], 1.0)
+        found = rated(f, np.zeros((0, 2), dtype=complex), point).curvature
+        assert 0.3 < found / (0.5 * 10.0**k) < 3
+
+
+def test_distances_of_close_points_are_those_of_all_digits() -> None:
+    with flint.ctx.workdps(100):
+        x, y = (
+            in_words([flint.acb(1) / 3 + e, flint.acb(2)], 1.0) for e in (0, flint.arb("3e-30"))
+        )
+    assert isinstance(x, Fine) and np.array_equal(x.rounded, y.rounded)
+    assert distance(x.rounded, None, y.rounded, None) == 0
+    assert abs(distance(x.rounded, x, y.rounded, y) - 3e-30) < 1e-40

@@ -1,0 +1,29 @@
+"""Paths whose errors grow on the way to a singular end go on from where Newton converges."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nag.decomposition.reduction import Reduction
+from nag.decomposition.superset import Ambient, intersection_order, witness_superset
+from nag.files.cases import read_case
+from nag.files.problem import system_of
+from nag.witness.fibres import Tracker
+from nag.witness.slices import random_rows
+
+SPATIAL = Path(__file__).parent.parent / "cases" / "spatial"
+
+
+@pytest.mark.parametrize("seed", [0, 3])
+def test_ends_that_ask_for_more_digits_are_reached_at_the_first_attempt(seed: int) -> None:
+    reduction = Reduction.of(system_of(read_case(SPATIAL / "spherical-pair-6r.toml"), None))
+    reduced, rng = reduction.reduced, np.random.default_rng(seed)
+    equations = [reduced.polynomials[i] for i in intersection_order(reduced.polynomials)]
+    flag = random_rows(rng, reduced.n, reduced.n, 0.3)
+    found = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, Tracker())
+    assert found.counts.failed == 0
+    assert found.notes == ()
+    assert {d: sum(map(len, f)) for d, f in found.fibres.items() if f} == {1: 16}

@@ -1,0 +1,57 @@
+"""Single loops of the zoo have the same components in half-angles and in Euler parameters."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+from linkages import CASES
+
+from nag.decomposition import decompose
+from nag.files.cases import read_case
+from nag.mechanism.coordinates import euler_decomposition
+from nag.mechanism.model import model
+from nag.witness.witness import Decomposition
+
+# Those that Euler parameters decompose within two seconds. Tables are in
+# tests/test_table_formulations.py.
+LOOPS = [
+    "bennett",
+    "spatial/assembled-4r",
+    "spatial/assembled-5r",
+    "spatial/delassus-rprp",
+    "spatial/rccc",
+    "spatial/rssr",
+]
+
+
+def kinds(answer: Decomposition) -> Counter:
+    assert answer.complete
+    counts: Counter = Counter()
+    for c in answer.components:
+        counts[c.dimension, c.degree, c.multiplicity] += c.orbit
+    return counts
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_half_angles_and_euler_parameters_agree(name: str) -> None:
+    mechanism = read_case(CASES / f"{name}.toml").mechanism
+    joint, euler = model(mechanism, "H"), model(mechanism, "E")
+    _, carried = euler_decomposition(joint, decompose(joint.system))
+    assert kinds(carried) == kinds(decompose(euler.system, symmetries=euler.symmetries))
+
+
+def test_a_folding_sarrus_linkage_moves_in_one_and_in_two_ways_at_once() -> None:
+    mechanism = read_case(CASES / "spatial" / "sarrus-kinematotropic.toml").mechanism
+    joint = model(mechanism)
+    answer = decompose(joint.system)
+    surface, curve = answer.components
+    assert answer.complete and (surface.dimension, curve.dimension) == (2, 1)
+    # Base hinges turn twice as often as the curve has points over them, knees four times.
+    degrees = {"A2": 4, "A3": 2, "B3": 2, "B2": 4, "A1": 2, "B1": 2}
+    expected = [degrees[name.removeprefix("x_")] for name in joint.system.variables]
+    assert curve.multidegree.tolist() == expected
+    # On the surface the knees keep their angles, half a turn off the reference.
+    kept = [i for i, name in enumerate(joint.system.variables) if name in ("x_A2", "x_B2")]
+    moved = surface.sample(0, 3)[:, kept]
+    assert abs(moved - moved[0]).max() < 1e-12

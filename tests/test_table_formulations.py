@@ -1,0 +1,115 @@
+"""A table in half-angles and in Euler parameters: the same closings, each exactly carried over."""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+
+import pytest
+from linkages import CASES
+
+from nag.algebra.number import is_zero
+from nag.cli import main
+from nag.decomposition import decompose
+from nag.files.cases import read_case
+from nag.files.dh_case import in_formulation
+from nag.mechanism.dh import DHModel
+from nag.mechanism.dh_euler import dh_euler_model, euler_closings
+from nag.witness.witness import Decomposition
+
+# Those that Euler parameters decompose within a second; tests/many_seeds.py has the others.
+TABLES = [
+    "spatial/bennett-isogram-equilateral",
+    "spatial/planar-four-bar",
+    "spherical/flat-foldable-vertex",
+    "spherical/four-bar",
+    "spherical/four-bar-equal",
+    "spherical/four-bar-equal-opposite",
+    "spherical/four-bar-kite",
+    "spherical/hooke-joint",
+    "spherical/orthogonal-four-bar",
+    "spherical/triangle",
+]
+
+
+def table(name: str) -> DHModel:
+    made = read_case(CASES / f"{name}.toml").assembly
+    assert isinstance(made, DHModel)
+    return made
+
+
+def kinds(answer: Decomposition) -> Counter:
+    assert answer.complete
+    counts: Counter = Counter()
+    for c in answer.components:
+        counts[c.dimension, c.degree, c.multiplicity] += c.orbit
+    return counts
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_both_formulations_have_the_same_components_in_euler_parameters(name: str) -> None:
+    made = table(name)
+    target, carried = euler_closings(made, decompose(made.system))
+    direct = decompose(target.system, symmetries=target.symmetries)
+    assert kinds(carried) == kinds(direct)
+
+
+@pytest.mark.parametrize("name", ["spatial/goldberg-5r", "spatial/general-6r", "spatial/sarrus"])
+def test_closings_in_half_angles_satisfy_the_equations_in_euler_parameters(name: str) -> None:
+    made = table(name)
+    target = dh_euler_model(made.loop)
+    for component in decompose(made.system).components:
+        for x in component.points[:4]:
+            point = target.of_half_angles(made, x)
+            values = [f(point) for f in target.system.polynomials]
+            assert max(map(abs, values)) < 1e-8 * max(1, *map(abs, point)) ** 2
+
+
+def test_an_exact_closing_is_an_exact_one_in_euler_parameters() -> None:
+    made = table("spatial/bennett")
+    target = dh_euler_model(made.loop)
+    closing = (Fraction(0), Fraction(-150, 101))
+    (f,) = made.system.polynomials
+    assert f(closing) == 0
+    point = target.of_half_angles(made, closing)
+    assert all(is_zero(g(point)) for g in target.system.polynomials)
+
+
+def test_a_known_answer_is_that_of_its_own_formulation() -> None:
+    case = read_case(CASES / "spatial" / "bennett.toml")
+    assert in_formulation(case, "H") is case
+    other = in_formulation(case, "E")
+    assert case.truth and other.truth == ()
+    assert other.system.n == 8 and len(other.symmetries) == 3
+
+
+def test_a_closing_has_the_same_mobility_in_both_formulations(capsys) -> None:
+    case = str(CASES / "spatial" / "bennett.toml")
+    at = "x_J1 = 0, x_J2 = -150/101"
+    assert main(["mobility", case, "--at", at, "--check", "--local", "--quiet"]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "formulation E, 10 equations in 8 unknowns, agrees: local dimension 1" in text
+
+
+def test_a_table_is_decomposed_in_the_coordinates_that_were_asked_for(capsys) -> None:
+    case = str(CASES / "spherical" / "triangle.toml")
+    for options in (["--formulation", "E"], ["--coordinates", "euler"]):
+        assert main(["decompose", case, *options, "--quiet"]) == 0
+        text = capsys.readouterr().out
+        assert "8 components of dimension 0" in text and "2 closings" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["decompose", "--formulation", "S"], "a table has formulations H and E"),
+        (["decompose", "--coordinates", "joint", "--formulation", "E"], "use --formulation H"),
+        (["decompose", "--modes", "all"], "--modes is for assembled mechanisms"),
+        (["mobility", "--check"], "give --at"),
+    ],
+)
+def test_what_a_table_has_not_is_refused_with_one_line(arguments, text: str, capsys) -> None:
+    command, *options = arguments
+    assert main([command, str(CASES / "spherical" / "triangle.toml"), *options]) == 2
+    lines = capsys.readouterr().err.strip().splitlines()
+    assert len(lines) == 1 and text in lines[0]
