@@ -15,6 +15,7 @@ from functools import cache
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
+from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
@@ -226,6 +227,8 @@ def _run(
     else:
         with ThreadPoolExecutor(batches) as pool:
             list(pool.map(batch, range(batches)))
+    # A step takes two values, and the Taylor coefficients of each order.
+    evaluations.count(raw.steps.sum() * (2 + settings.order))
     return raw
 
 

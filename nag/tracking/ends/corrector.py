@@ -8,6 +8,7 @@ from nag.tracking.ends.lane_scalars import (
     BASE,
     CONTRACTION,
     CURVATURE,
+    EVALUATED,
     EXCESS,
     FIRST,
     IDLE,
@@ -28,14 +29,14 @@ MOST_CORRECTIONS = 12
 STAGNANT = 1e2
 
 
-def _weigh(s, r, floor):
+def weigh(s, r, floor):
     """Sizes of the coordinates by which columns are scaled."""
     for j in range(s.N):
         size = z.largest(z.magnitude(z.read(r.slots, j)), floor)
         store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
 
 
-def _linearize(s, r, floor, rough):
+def linearize(s, r, floor, rough):
     """The factorised Jacobian at the points, Newton's correction and its measures."""
     products(s, r, s.products)
     values(s, r)
@@ -61,9 +62,12 @@ def correct(s, r, f, b):
     nothing = z.exact(splat(0.0), splat(0.0))
     floor = select_less(load(f, BASE), half, splat(FLOOR), splat(0.0))
     rough = select_less(load(f, BASE), half, splat(DOUBLES / number.EPSILON), splat(0.0))
-    _weigh(s, r, floor)
+    weigh(s, r, floor)
     for k in range(MOST_CORRECTIONS):
-        _linearize(s, r, floor, rough)
+        linearize(s, r, floor, rough)
+        for lane in range(8):
+            if f[8 * SETTLED + lane] < 0.5:
+                f[8 * EVALUATED + lane] += 1.0
         settled = load(f, SETTLED)
         for j in range(s.N):
             x = z.read(r.slots, j)
@@ -78,10 +82,11 @@ def correct(s, r, f, b):
                     busy += 1
         if busy == 0:
             break
-    _weigh(s, r, floor)
-    _linearize(s, r, floor, rough)
+    weigh(s, r, floor)
+    linearize(s, r, floor, rough)
     for lane in range(8):
         excess = r.measures[8 + lane]
+        f[8 * EVALUATED + lane] += 1.0
         f[8 * EXCESS + lane] = max(1.0, excess)
         f[8 * KNOWN + lane] = r.measures[16 + lane] * f[8 * EXCESS + lane]
         if not excess <= STAGNANT or not r.measures[24 + lane] < 0.5:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from nag.tracking import evaluations
 from nag.tracking.ends import records
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.settings import Settings
@@ -43,18 +44,20 @@ def run(
     batches = max(1, min(threads, len(chosen) // 8))
     limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
 
-    def part(first: int) -> None:
+    def part(first: int) -> int:
         own = chosen[first::batches]
         batch = _batch(homotopy, states, own, words, settings)
         compiled(system, records.room(homotopy, words, ORDER), batch)
         _keep(states, own, batch)
         limits[first::batches] = batch.limits.reshape(len(own), *limits.shape[1:])
+        return int(batch.evaluations.sum())
 
     if batches == 1:
-        part(0)
+        spent = part(0)
     else:
         with ThreadPoolExecutor(batches) as pool:
-            list(pool.map(part, range(batches)))
+            spent = sum(pool.map(part, range(batches)))
+    evaluations.count(spent)
     return limits
 
 
@@ -65,7 +68,7 @@ def _batch(
     from nag.tracking.ends.end_run import Batch
 
     count, N = len(own), homotopy.N
-    outcome, winding, steps = (np.zeros(count, dtype=np.int64) for _ in range(3))
+    outcome, winding, steps, spent = (np.zeros(count, dtype=np.int64) for _ in range(4))
     return Batch(
         count,
         ORDER,
@@ -78,6 +81,7 @@ def _batch(
         outcome,
         winding,
         steps,
+        spent,
         states.where[own].ravel(),
         states.safe[own].ravel(),
         states.safe_t[own].ravel(),
