@@ -27,10 +27,10 @@ track.NONZERO         1e3      A coordinate over the error of a regular end that
                                digits.
 straight_run          1e-9     Newton corrections in doubles that need not contract any more.
 .ROUNDING
-straight_run          12       Steps behind the safe point before a path that does not get on goes
+straight_run          24       Steps behind the safe point before a path that does not get on goes
 .PATIENCE                      to more digits.
 ends.follow.KNOWN *   1e3      A coordinate over its rounding error that is not zero.
-ends.follow.TAIL      1e-11    Last terms of a path's power series that is taken to converge, for
+ends.runs.TAIL        1e-11    Last terms of a path's power series that is taken to converge, for
                                the winding number in question.
 ends.follow           16       Digits to which the exact equations' terms of least order must cancel
 .LEAST_EVIDENCE *              at a limit, so that coefficients that doubles rounded would show.
