@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.number import decimal_digits
+from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limit, Limits
 from nag.tracking.ends.runs import MAX_STEPS, MOST_STEPS, ORDER, run
@@ -206,7 +207,7 @@ def _follow_in(
         states.safe_t = np.pad(states.safe_t, room[2:])
         # The next arithmetic starts from what is known well.
         states.where, states.t = states.safe.copy(), states.safe_t.copy()
-    terms = Terms(homotopy)
+    terms, fine = Terms(homotopy), Terms(homotopy)
     limits = Limits(terms, words, ORDER)
     need = 10.0 ** -digits_of_evidence(homotopy, settings.evidence)
     later: list[int] = []
@@ -233,7 +234,7 @@ def _follow_in(
                     # Newton's method converged, but not to a regular zero: go on without it.
                     states.straight[path] = 0
                     again.append(path)
-                elif _ambiguous(homotopy, states, path, need):
+                elif _ambiguous(homotopy, states, path, need, fine):
                     states.ends[path], states.tried[path] = centre, 0
                     later.append(path)
                 else:
@@ -244,10 +245,12 @@ def _follow_in(
     return np.array(sorted(later), dtype=np.int64)
 
 
-def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float) -> bool:
-    """Whether a regular end is at infinity to fewer digits than are needed."""
+def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, fine: Terms) -> bool:
+    """Whether a regular end is at infinity to fewer digits than are needed, or only seems to be."""
     far = [j for j in homotopy.infinity if not states.known(path)[j]]
-    return bool(far) and float(KNOWN * states.errors[path][far].max()) > need
+    if not far or float(KNOWN * states.errors[path][far].max()) > need:
+        return bool(far)
+    return not at_infinity(fine, states.found[path], far)
 
 
 def _limit(states: States, limits: Limits, path: int, found: np.ndarray, need: float) -> int:
