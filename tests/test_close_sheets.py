@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import nag
+from nag.bench.atlas.curves import close_skew_lines
 from nag.decomposition import decompose, witness_at
 from nag.files.export import read_decomposition, write_decomposition
 from nag.witness.close_points import Fine, distance, in_words, rated
@@ -90,6 +91,15 @@ def test_points_where_sheets_cross_are_on_both() -> None:
     for component in answer.components:
         assert component.contains([0, 0])
         assert not component.contains([1, 2])
+
+
+@pytest.mark.parametrize(("k", "seed"), [(20, 2), (25, 2), (20, 0)])
+def test_a_point_between_two_sheets_of_one_set_is_on_the_set(k: int, seed: int) -> None:
+    # Where skew lines pass each other, the first equations have points that are to be left out.
+    problem = close_skew_lines(k, np.random.default_rng([seed, 20]))
+    answer = decompose(problem.system, seed=seed)
+    assert answer.complete
+    assert [(c.dimension, c.degree) for c in answer.components] == [(1, 1)] * 2
 
 
 @pytest.mark.parametrize("k", [8, 15, 25])

@@ -12,7 +12,7 @@ from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
-from nag.witness.close_points import DIGITS, Fine
+from nag.witness.close_points import DIGITS, Fine, distance
 from nag.witness.cutting import ON, Cut, Equations
 from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres, move
 from nag.witness.slices import padded, rows_through, unit_complex
@@ -82,16 +82,19 @@ def _at_end(
 ) -> Membership:
     """Whether a point that is off by so much may be an end to which other zeros are close.
 
-    Undecided where the next zero is no further away than what the point is off by can make out.
+    Undecided where the next zero is no further away than what the point is off by can make out,
+    unless that is an end as well: then the point is on the set at one or the other.
     """
     end = ends.fine[i]
     # The slice through a point beside the set meets it so much further off at most.
     reach = SPREAD * error / _angle(fibre.cut, rows, end)
-    distance = float(np.linalg.norm(ends.points[i, : fibre.cut.n] - point))
-    if distance > reach:
+    if np.linalg.norm(ends.points[i, : fibre.cut.n] - point) > reach:
         return Membership.FOREIGN
     apart = (1 + float(np.linalg.norm(point))) / end.curvature
-    return Membership.MEMBER if apart > SPREAD * reach else Membership.UNDECIDED
+    x = ends.points[:, : fibre.cut.n]
+    others = [distance(x[i], end, x[j], ends.fine[j]) for j in ends.fine if j != i]
+    sure = apart > SPREAD * reach or min(others, default=np.inf) < SPREAD * apart
+    return Membership.MEMBER if sure else Membership.UNDECIDED
 
 
 def _angle(cut: Cut, rows: np.ndarray, end: Fine) -> float:
