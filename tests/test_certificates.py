@@ -19,8 +19,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
-from nag.files.certificate_export import schema
 from nag.files.export import write_decomposition
+from nag.files.schemas import schema
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.mechanism.model import model
 from nag.numerics.box_relations import overlaps, real_zeros
@@ -159,11 +159,39 @@ def test_zeros_nearer_than_doubles_see_are_not_proved_from_doubles() -> None:
     assert not boxes_of(equations, NO_SLICE, points, np.full(2, 1e-9)).proved.any()
 
 
+def test_each_zero_of_more_equations_is_proved_by_those_that_are_independent_there() -> None:
+    # At one zero the first equation is singular, at the other the second.
+    equations = [(x - 1) ** 2 * (x - 3), (x - 3) ** 2 * (x - 1), y - 2]
+    points = np.array([[1, 2], [3, 2]], dtype=complex)
+    found = certify_points(equations, NO_SLICE, points, np.full(2, 1e-16), np.zeros(2, dtype=bool))
+    assert found.proofs == (Proof.SIMPLE, Proof.SIMPLE)
+    assert np.isinf(found.digits).all()
+
+
+def test_what_more_equations_do_at_irrational_zeros_is_evidence() -> None:
+    equations = [x**2 - 2, y**2 - 3, x**2 + y**2 - 5]
+    points = np.sqrt([[2.0, 3.0]]).astype(complex)
+    found = certify_points(equations, NO_SLICE, points, np.full(1, 1e-16), np.zeros(1, dtype=bool))
+    assert found.proofs == (Proof.PART,)
+    assert 140 < found.digits[0] < 160
+
+
+def test_multiple_zeros_are_proved_real_where_they_are() -> None:
+    equations = [(x - y) ** 2 + (x**2 + y**2 - 4) * x, x**2 + y**2 - 4]
+    certificate = certify_solutions(solve(PolynomialSystem(("x", "y"), equations)))
+    assert set(certificate.points.proofs) == {Proof.DEFLATED}
+    assert certificate.real.tolist() == [True, True]
+    imaginary = [(x - 2 * y) ** 2, x**2 + y**2 + 4]
+    certificate = certify_solutions(solve(PolynomialSystem(("x", "y"), imaginary)))
+    assert certificate.real.tolist() == [False, False]
+    assert certificate.not_real.tolist() == [True, True]
+
+
 def test_a_zero_of_some_equations_only_is_refuted() -> None:
     equations = [x**2 - 1, y**2 - 1, x + y - 2 + (x - 1) * Fraction(1, 10**9)]
     points = np.array([[1, 1], [-1, 1]], dtype=complex)
     found = certify_points(equations, NO_SLICE, points, np.full(2, 1e-16), np.zeros(2, dtype=bool))
-    assert found.proofs == (Proof.PART, Proof.NONE)
+    assert found.proofs == (Proof.SIMPLE, Proof.NONE)
     assert found.refuted == (1,)
 
 
@@ -259,8 +287,8 @@ def test_the_command_certifies_exports_of_both_kinds(tmp_path: Path, capsys) -> 
         target = tmp_path / f"certificate-{export.name}"
         assert main(["certify", str(export), "--json", str(target)]) == 0
         assert line in capsys.readouterr().out
-        jsonschema.validate(json.loads(target.read_text()), schema())
-    jsonschema.Draft202012Validator.check_schema(schema())
+        jsonschema.validate(json.loads(target.read_text()), schema("nag-certificate"))
+    jsonschema.Draft202012Validator.check_schema(schema("nag-certificate"))
 
 
 def test_a_point_that_is_no_solution_makes_the_certificate_incomplete(tmp_path, capsys) -> None:

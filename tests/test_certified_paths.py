@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -17,8 +18,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
-from nag.files.certificate_export import schema
 from nag.files.export import write_decomposition
+from nag.files.schemas import schema
 from nag.files.solutions_export import write_solutions
 from nag.numerics.disc_series import series_product, values_along
 from nag.numerics.discs import DiscPolynomials, Discs
@@ -32,7 +33,6 @@ from nag.tracking.settings import Settings
 from nag.tracking.track import track
 from nag.witness.certified_loops import prove_monodromy
 from nag.witness.moving import witness_at
-from nag.witness.witness import WitnessSet
 
 CASES = Path(__file__).parents[1] / "cases"
 x, y = Polynomial.variables(2)
@@ -165,7 +165,14 @@ def test_points_of_two_curves_are_never_connected() -> None:
     for f in (first, second):
         single = PolynomialSystem(("x", "y"), (f,))
         points.append(witness_at(single, decompose(single).components[0], cut).points)
-    both = WitnessSet(cut, np.vstack(points), 1, curves[0].status, 0.0, 1e-15, 1, system=system)
+    together = np.vstack(points)
+    both = replace(
+        curves[0],
+        points=together,
+        radii=np.full(together.shape, 1e-15),
+        digits=np.full(len(together), 16),
+        fibres=(),
+    )
     proved = prove_monodromy(system, both, np.random.default_rng(0), most=4)
     assert not proved.connected
     assert len(proved.permutations) == 4
@@ -186,7 +193,7 @@ def test_the_command_proves_paths_of_exports_of_both_kinds(tmp_path: Path, capsy
         target = tmp_path / f"certificate-{export.name}"
         assert main(["certify", str(export), "--paths", "--json", str(target)]) == 0
         assert line in capsys.readouterr().out
-        jsonschema.validate(json.loads(target.read_text()), schema())
+        jsonschema.validate(json.loads(target.read_text()), schema("nag-certificate"))
 
 
 @pytest.mark.parametrize("command", ["solve", "decompose"])

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+import re
+from fractions import Fraction
 from pathlib import Path
 
 import flint
 import numpy as np
 import pytest
 
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.families import FAMILIES
 from nag.bench.reference import Reference
 from nag.decomposition import decompose
 from nag.files.cases import read_case
+from nag.files.certificate_export import solutions_document
 from nag.numerics.certified_points import CertifiedPoints
 from nag.numerics.singular_point import analyse
 from nag.solving.certificate import certify_solutions
+from nag.solving.shown import number_text
 from nag.solving.solve import solve
 from nag.witness.certificate import certify_decomposition
+from nag.witness.sampling import sample
 
 CASES = Path(__file__).parents[1] / "cases"
 FAMILY = {f.name: f for f in FAMILIES}
@@ -67,6 +73,69 @@ def test_solutions_are_as_accurate_as_they_say(name: str, value: int | None) -> 
     claimed = np.array([s.accuracy for s in result.solutions])
     assert (errors(reference, result.points) <= claimed).all()
     assert within(reference, certify_solutions(result).points)
+
+
+def last_place(text: str) -> float:
+    """One unit of the last digit of a decimal number."""
+    digits, _, exponent = text.lower().partition("e")
+    return 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
+
+
+SHOWN = [("sizes", 12), ("sizes", 4), ("far", 8), ("far-beside", 12), ("cluster-3", 8)]
+
+
+@pytest.mark.parametrize(("name", "value"), SHOWN, ids=str)
+def test_each_digit_of_a_coordinate_that_is_printed_is_right(name: str, value: int) -> None:
+    system = family_system(name, value)
+    result = solve(system)
+    reference = Reference.of(system, result.points, np.zeros((0, 1 + system.n), dtype=complex))
+    for solution, exact in zip(result.solutions, reference.high, strict=True):
+        error = solution.accuracy * (1 + np.linalg.norm(exact))
+        for z, known in zip(solution.point, exact, strict=True):
+            text = number_text(z, solution)
+            parts = re.findall(r"[+-]?[0-9.]+(?:e[+-]?[0-9]+)?(?=i?)", text)
+            for part, right in zip(parts, (known.real, known.imag), strict=False):
+                room = error if part == "0" else 1.0001 * last_place(part)
+                assert abs(float(part) - right) <= room
+
+
+def test_small_coordinates_beside_large_ones_are_printed() -> None:
+    x, y = Polynomial.variables(2)
+    big = 10**12
+    equations = ((x - big) * (x - 2 * big), 10**6 * y**2 - 1 + (x - big) * (y - 1))
+    result = solve(PolynomialSystem(("x", "y"), equations))
+    shown = {number_text(s.point[1], s) for s in result.solutions}
+    assert shown == {"0.001", "-0.001", "-1e+06", "1"}
+
+
+def test_sampled_points_are_as_near_to_the_curve_as_they_say() -> None:
+    system = read_case(CASES / "rhombus.toml").system
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    for component in decompose(system).components:
+        found = sample(system, component, 6, seed=1)
+        for point in found.points:
+            # Across the curve: what lies beside the point is the nearest of its points, or near it.
+            tangent = np.linalg.svd(evaluator.jacobian(point))[2][-component.dimension :]
+            rows = np.hstack([-tangent @ point[:, None], tangent])
+            reference = Reference.of(system, point[None], rows)
+            assert errors(reference, point[None])[0] <= found.accuracy
+
+
+@pytest.mark.parametrize("gap", [Fraction(1, 10**7), Fraction(1, 10**9)])
+def test_zeros_beyond_doubles_are_written_to_digits_that_are_right(gap: Fraction) -> None:
+    x, y = Polynomial.variables(2)
+    system = PolynomialSystem(("x", "y"), (x**2 - 2 * x + 1 - 2 * gap**2, y**2 - x - 2))
+    document = solutions_document(certify_solutions(solve(system)))
+    points = [p["decimals"] for p in document["points"] if "decimals" in p]
+    assert points
+    with flint.ctx.workdps(120):
+        off = flint.arb(2).sqrt() * flint.arb(flint.fmpq(gap.numerator, gap.denominator))
+        for (x_text, _), (y_text, _) in points:
+            first = min((1 + off, 1 - off), key=lambda z, t=x_text: abs(flint.arb(t) - z))
+            for text, exact in ((x_text, first), (y_text.lstrip("-"), (first + 2).sqrt())):
+                assert len(text) > 20
+                places = len(text.partition(".")[2])
+                assert abs(flint.arb(text) - exact) <= flint.arb(10) ** -places
 
 
 DECOMPOSED = [

@@ -50,6 +50,8 @@ def test_there_is_no_reference_of_repeated_or_multiple_zeros(points: list) -> No
 def test_balls_reach_their_digits_and_doubles_theirs() -> None:
     curves = sharpening(SYSTEM, Reference.of(SYSTEM, ROOTS, NONE))
     assert curves["double"][-1].largest < 1e-15
+    assert curves["double-double"][-1].largest < 1e-30
+    assert curves["quad-double"][-1].largest < 1e-61
     assert curves["balls of 50 digits"][-1].largest < 1e-48
     assert curves["balls of 100 digits"][-1].largest < 1e-98
 
@@ -57,6 +59,7 @@ def test_balls_reach_their_digits_and_doubles_theirs() -> None:
 def test_a_chart_reads_back_and_is_compared() -> None:
     chart = chart_of(Subject("roots", SYSTEM, False, ((0, 1, 4),)), seeds=1, peers=False)
     assert (chart.expected, chart.certified) == (4, 4)
+    assert chart.proved_paths == chart.paths
     again = read_charts(json.loads(json.dumps(document([chart]))))
     assert document(again) == document([chart])
     assert ratios(again)[1][:2] == ["roots", "100%"]

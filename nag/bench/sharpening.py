@@ -16,13 +16,16 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import middle
 from nag.numerics.krawczyk import FineBox
 from nag.tracking.compiled import compile_rows
+from nag.tracking.ends.newton_steps import newton_steps
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
 
-# Relative error of the points that it begins at.
-ROUGH = 1e-4
+# Errors of the points that it begins at: relative to their sizes, and to the way to the next zero.
+ROUGH, PART = 1e-4, 1e-2
 # Digits of balls, and points that are sharpened in them: each is one by itself.
-DIGITS = (32, 50, 100)
+DIGITS = (50, 100)
+# Doubles in a number, and what numbers of so many are called.
+WORDS = {2: "double-double", 4: "quad-double"}
 MOST_IN_BALLS = 16
 MOST_STEPS = 24
 # Seconds for which a curve's point is repeated; the fastest run counts.
@@ -47,19 +50,30 @@ def sharpening(
     shape = reference.high.shape
     noise = rng.standard_normal(shape) + 1j * rng.standard_normal(shape)
     sizes = np.maximum(np.abs(reference.high), 1e-3)
-    rough = reference.high + ROUGH * sizes * noise
+    rough = reference.high + np.minimum(ROUGH * sizes, PART * _apart(reference)) * noise
     curves = {
         "double": _curve(_in_doubles(system, rough), reference, len(rough), 5),
         "double, residuals in double-double": _curve(
             _with_exact_residuals(system, rough), reference, len(rough), 5
         ),
     }
+    for words, name in WORDS.items():
+        curves[name] = _word_curve(system, reference, rough, words)
     count = min(MOST_IN_BALLS, len(rough))
     exact = BallPolynomials.of(system.polynomials, np.zeros((0, 1 + system.n)))
     for digits in DIGITS:
         name = f"balls of {digits} digits"
         curves[name] = _ball_curve(exact, reference, rough[:count], digits)
     return curves
+
+
+def _apart(reference: Reference) -> np.ndarray:
+    """Distances of the zeros from the nearest others, shape ``(k, 1)``."""
+    high, low = reference.high, reference.low
+    off = (high[:, None] - high) + (low[:, None] - low)
+    distances = np.abs(off).max(axis=2, initial=0.0)
+    np.fill_diagonal(distances, np.inf)
+    return distances.min(axis=1, keepdims=True, initial=np.inf)
 
 
 def _curve(
@@ -105,6 +119,34 @@ def _with_exact_residuals(
         return x[:, 1:] / x[:, :1]
 
     return work
+
+
+def _word_curve(
+    system: PolynomialSystem, reference: Reference, rough: np.ndarray, words: int
+) -> list[Sharpened]:
+    """Newton's method in sums of doubles, as ends of paths are sharpened by."""
+    rows = compile_rows(system.polynomials)
+    homotopy = Homotopy(rows, np.zeros((0, rows.N), dtype=complex))
+    start = np.hstack([np.ones((len(rough), 1)), rough])
+    newton_steps(homotopy, start[:1], words, 1)
+    found = []
+    for steps in range(1, 6 + words // 2):
+        best, begun = np.inf, time.process_time()
+        while time.process_time() - begun < RUNS:
+            begin = time.process_time()
+            points = newton_steps(homotopy, start, words, steps)
+            best = min(best, time.process_time() - begin)
+        errors = [_error(_affine(p), box) for p, box in zip(points, reference.boxes, strict=True)]
+        found.append(Sharpened(steps, best / len(rough), max(errors), float(np.median(errors))))
+    return found
+
+
+def _affine(point: np.ndarray) -> list[flint.acb]:
+    """Affine coordinates of a point in sums of doubles."""
+    with flint.ctx.workdps(200):
+        parts = [[sum(map(flint.arb, part)) for part in z] for z in point.tolist()]
+        first, *others = [flint.acb(*z) for z in parts]
+        return [z / first for z in others]
 
 
 def _ball_curve(

@@ -15,11 +15,13 @@ from nag.bench.reference import Found, Reference, ReferenceError, compared, join
 from nag.bench.sharpening import Sharpened, sharpening
 from nag.decomposition import decompose
 from nag.solving.solve import solve
+from nag.tracking.ends import end_run
+from nag.tracking.evaluations import counted
 from nag.tracking.settings import NAMED, Settings
 from nag.witness.witness import Decomposition
 
 FORMAT = "nag-speed-accuracy"
-VERSION = 1
+VERSION = 2
 ORDERS = (3, 4, 6, 8)
 TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
 DIGITS = (16, 32, 64)
@@ -46,8 +48,8 @@ class Point:
 
     Attributes:
         name: which one of its curve.
-        seconds: processor time, median over seeds; steps: of all paths together, median, 0 where
-            they are not counted.
+        seconds: processor time, median over seeds; evaluations: of the system, see
+            `nag.tracking.evaluations`, median, 0 where they are not counted.
         share: of the solutions, or components, that are right, mean over seeds.
         false: points that are none, or are found twice, over all seeds.
         largest, median: relative errors of the solutions found.
@@ -55,7 +57,7 @@ class Point:
 
     name: str
     seconds: float
-    steps: int
+    evaluations: int
     share: float
     false: int
     largest: float
@@ -83,6 +85,9 @@ class Chart:
     Attributes:
         what: ``"solutions"`` or ``"components"``; expected: their number.
         certification: processor seconds of proving all of them; certified: how many were.
+        path_proof: processor seconds of proving that no path jumped, or that loops connect the
+            points of components; proved_paths: for how many paths, or components, that was proved,
+            out of ``paths``.
         sharpened: errors after each Newton step, by arithmetic.
     """
 
@@ -93,6 +98,9 @@ class Chart:
     curves: tuple[Curve, ...]
     certified: int
     certification: float
+    path_proof: float
+    proved_paths: int
+    paths: int
     sharpened: dict[str, tuple[Sharpened, ...]]
 
 
@@ -149,20 +157,21 @@ def _reference(subject: Subject) -> Reference:
 
 def _solutions(subject: Subject, seeds: int, progress: Callable[[str], None] | None) -> Chart:
     from nag.solving.certificate import certify_solutions
+    from nag.solving.certified_paths import prove_paths
 
     system, reference = subject.system, _reference(subject)
 
     def measured(seed: int, settings: Settings | str) -> tuple[float, int, Found]:
-        begin = time.process_time()
-        found = solve(system, seed=seed, settings=settings)
-        seconds = time.process_time() - begin
-        return seconds, found.paths.steps, compared(reference, found.points)
+        with counted() as spent:
+            seconds, found = _timed(lambda: solve(system, seed=seed, settings=settings))
+        return seconds, spent.number, compared(reference, found.points)
 
     curves = _curves(measured, seeds, progress)
     found = solve(system)
     seconds, certificate = min(
         (_timed(lambda: certify_solutions(found)) for _ in range(3)), key=lambda pair: pair[0]
     )
+    path_proof, paths = _timed(lambda: prove_paths(found))
     sharpened = {k: tuple(v) for k, v in sharpening(system, reference).items()}
     return Chart(
         subject.name,
@@ -172,6 +181,9 @@ def _solutions(subject: Subject, seeds: int, progress: Callable[[str], None] | N
         tuple(curves),
         certificate.simple,
         seconds,
+        path_proof,
+        len(paths.reached) - paths.lost,
+        len(paths.reached),
         sharpened,
     )
 
@@ -184,18 +196,19 @@ def _timed(work: Callable[[], Any]) -> tuple[float, Any]:
 
 def _components(subject: Subject, seeds: int, progress: Callable[[str], None] | None) -> Chart:
     from nag.witness.certificate import certify_decomposition
+    from nag.witness.certified_loops import prove_all
 
     wanted = sorted(subject.degrees)
 
     def measured(seed: int, settings: Settings | str) -> tuple[float, int, Found]:
-        begin = time.process_time()
-        found = decompose(subject.system, seed=seed, settings=settings)
-        seconds = time.process_time() - begin
-        return seconds, 0, _agreement(subject.system, found, wanted)
+        with counted() as spent:
+            seconds, found = _timed(lambda: decompose(subject.system, seed=seed, settings=settings))
+        return seconds, spent.number, _agreement(subject.system, found, wanted)
 
     curves = _curves(measured, seeds, progress)
     found = decompose(subject.system)
     seconds, certificate = _timed(lambda: certify_decomposition(found))
+    path_proof, loops = _timed(lambda: prove_all(found))
     return Chart(
         subject.name,
         "components",
@@ -204,6 +217,9 @@ def _components(subject: Subject, seeds: int, progress: Callable[[str], None] | 
         tuple(curves),
         sum(c.all_proved for c in certificate.components),
         seconds,
+        path_proof,
+        sum(m.connected for m in loops),
+        len(loops),
         {},
     )
 
@@ -237,6 +253,9 @@ def _curves(
     seeds: int,
     progress: Callable[[str], None] | None,
 ) -> list[Curve]:
+    # What is loaded, or compiled, on first use is no part of anyone's time.
+    for kernel in end_run.KERNELS.values():
+        kernel.prepare()
     measured(0, "default")
     curves = []
     for kind, label, several in settings_of_curves():
@@ -246,9 +265,9 @@ def _curves(
         for name, settings in several:
             runs = [measured(seed, settings) for seed in range(seeds)]
             seconds = float(np.median([r[0] for r in runs]))
-            steps = int(np.median([r[1] for r in runs]))
+            evaluations = int(np.median([r[1] for r in runs]))
             found = joined([r[2] for r in runs])
-            points.append(Point(name, seconds, steps, **asdict(found)))
+            points.append(Point(name, seconds, evaluations, **asdict(found)))
         curves.append(Curve(kind, label, tuple(points)))
     return curves
 
@@ -325,5 +344,6 @@ def ratios(charts: Sequence[Chart], accuracy: float = 1e-12) -> list[list[str]]:
             good = p.share == 1 and p.largest <= accuracy and mine.largest <= accuracy
             ratio = f"{p.seconds / mine.seconds:.1f}"
             told = ratio if good and mine.share == 1 else f"({ratio})"
-            lines.append([*head, p.name, f"{p.share:.0%}", f"{p.largest:.1e}", told])
+            error = f"{p.largest:.1e}" if p.share else "-"
+            lines.append([*head, p.name, f"{p.share:.0%}", error, told])
     return lines

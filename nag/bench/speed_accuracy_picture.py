@@ -29,9 +29,9 @@ def draw_case(chart: Chart, path: str) -> None:
     from matplotlib.figure import Figure
 
     with rc_context(STYLE | {"font.size": 8}):
-        figure = Figure(figsize=(8.4, 6.4))
+        figure = Figure(figsize=(8.4, 6.6))
         top, bottom = figure.subplots(2, 2)
-        figure.subplots_adjust(0.085, 0.235, 0.985, 0.915, 0.24, 0.42)
+        figure.subplots_adjust(0.085, 0.255, 0.985, 0.92, 0.24, 0.4)
         noun = f"{chart.expected} {chart.what}"
         title = f"{chart.case}: {noun}, {chart.seeds} seeds, one thread"
         figure.suptitle(title, fontsize=10, weight="bold", y=0.975)
@@ -41,14 +41,15 @@ def draw_case(chart: Chart, path: str) -> None:
             if curve.points:
                 handles[_label(curve)] = _error(top[0], curve, style, "seconds")
                 _share(top[1], curve, style)
-                if curve.kind != "peer" and curve.points[0].steps:
-                    _error(bottom[0], curve, style, "steps")
+                if curve.kind != "peer" and curve.points[0].evaluations:
+                    _error(bottom[0], curve, style, "evaluations")
+        _certification(top[0], chart)
         _axes(top[0], "processor time [s]", "relative error", "error: largest (filled), median")
         _axes(top[1], "processor time [s]", f"share of {chart.what} [%]", "found right")
         top[1].set_yscale("linear")
         top[1].set_ylim(-4, 106)
         if bottom[0].lines:
-            _axes(bottom[0], "steps of all paths", "relative error", "error against work")
+            _axes(bottom[0], "evaluations of the system", "relative error", "error against work")
         else:
             bottom[0].axis("off")
         for axes in (top[0], bottom[0]):
@@ -56,7 +57,6 @@ def draw_case(chart: Chart, path: str) -> None:
             low, high = axes.get_ylim()
             axes.set_ylim(min(low, FLOOR), max(high, 1e-11))
         arithmetic = _sharpening(bottom[1], chart)
-        _certification(top[0], chart)
         figure.legend(
             handles.values(), handles.keys(), loc="lower left", bbox_to_anchor=(0.06, 0.005),
             ncols=2, fontsize=7, frameon=False,
@@ -65,7 +65,6 @@ def draw_case(chart: Chart, path: str) -> None:
             figure.legend(
                 arithmetic.values(), arithmetic.keys(), loc="lower right",
                 bbox_to_anchor=(0.99, 0.005), fontsize=7, frameon=False,
-                title="Newton's method in", title_fontsize=7,
             )  # fmt: skip
         save(figure, path)
 
@@ -115,19 +114,25 @@ def _axes(axes: Any, across: str, up: str, title: str) -> None:
         from matplotlib.ticker import LogLocator
 
         axes.xaxis.set_minor_locator(LogLocator(subs=(2.0, 3.0, 5.0)))
-        axes.xaxis.set_minor_formatter("{x:.3g}")
+        axes.xaxis.set_minor_formatter(lambda x, _: f"{x:,.0f}" if x >= 1000 else f"{x:.3g}")
         axes.tick_params(axis="x", which="minor", labelsize=6.5, labelrotation=30)
 
 
 def _certification(axes: Any, chart: Chart) -> None:
-    """The time of proving all solutions, as a line across."""
-    if chart.certification > 0:
-        axes.axvline(chart.certification, color="#444444", linewidth=0.8, linestyle=(0, (1, 1)))
-        axes.annotate(
-            f"proof of {chart.certified}", (chart.certification, 1), xytext=(2, -2),
-            xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=6.5,
-            rotation=90, va="top", color="#444444",
-        )  # fmt: skip
+    """The times of proving all solutions, and all paths, as lines across."""
+    noun = "paths" if chart.what == "solutions" else "loops"
+    for seconds, side, text in (
+        (chart.certification, "left", f"proof of {chart.certified} {chart.what}"),
+        (chart.path_proof, "right", f"proof of {noun}, {chart.proved_paths} of {chart.paths}"),
+    ):
+        if seconds > 0:
+            axes.axvline(seconds, color="#444444", linewidth=0.8, linestyle=(0, (1, 1)))
+            axes.annotate(
+                text, (seconds, 1), xytext=(2 if side == "left" else -2, -2), va="top", ha=side,
+                xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=6.5,
+                rotation=90,
+                color="#444444",
+            )  # fmt: skip
 
 
 def _sharpening(axes: Any, chart: Chart) -> dict[str, Any]:
@@ -141,7 +146,7 @@ def _sharpening(axes: Any, chart: Chart) -> dict[str, Any]:
         style = {"color": COLOURS[k], "marker": MARKS[k], "markersize": 4, "linewidth": 0.9}
         (handles[name],) = axes.plot(x, y, **style)
     _axes(axes, "processor time for one solution [µs]", "largest relative error",
-          "Newton steps from errors of 1e-4, one after the other")  # fmt: skip
+          "Newton's method step by step, from errors of 1e-4")  # fmt: skip
     return handles
 
 
@@ -167,10 +172,14 @@ def draw_all(charts: Sequence[Chart], path: str) -> None:
                 face = style["color"] if full else "none"
                 axes.plot(point.seconds, i, linestyle="", markerfacecolor=face, **style)
                 shown.setdefault(name, Line2D([], [], linestyle="", **style))
-            if chart.certification > 0:
-                style = {"color": "#444444", "marker": "|", "markersize": 9}
-                axes.plot(chart.certification, i, linestyle="", **style)
-                shown.setdefault("nag certify", Line2D([], [], linestyle="", **style))
+            for name, seconds, mark in (
+                ("nag certify", chart.certification, "|"),
+                ("nag certify --paths", chart.path_proof, "x"),
+            ):
+                if seconds > 0:
+                    style = {"color": "#444444", "marker": mark, "markersize": 7}
+                    axes.plot(seconds, i, linestyle="", **style)
+                    shown.setdefault(name, Line2D([], [], linestyle="", **style))
         axes.set_xscale("log")
         axes.set_yticks(range(len(charts)), [chart.case for chart in charts])
         axes.set_ylim(len(charts) - 0.5, -0.5)

@@ -18,6 +18,7 @@ FOLDERS = (Path("cases"), Path("cases/benchmarks"), Path("cases/hard"))
 # A system of the atlas: eight pairs of solutions at distances of 1e-8.
 CLUSTER = "cluster"
 NAMES = (
+    "katsura-6",
     "katsura-8",
     "cyclic-6",
     "noon-5",
@@ -25,6 +26,7 @@ NAMES = (
     "stewart-gough",
     "chemequ",
     "bennett",
+    "rhombus",
     "bricard-cube",
     CLUSTER,
 )

@@ -5,15 +5,16 @@ The format is ``nag-certificate``, version 1; its JSON Schema is in ``schema/`` 
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Sequence
-from importlib import resources
 from typing import Any
+
+import flint
 
 from nag.files.json_text import lay_out, pairs, real_or_null, system_document
 from nag.files.written_file import write_target
 from nag.numerics.certified_points import CertifiedPoints
+from nag.numerics.krawczyk import BITS, FineBox
 from nag.solving.certificate import SolutionsCertificate
 from nag.solving.certified_paths import ProvedPaths
 from nag.witness.certificate import DecompositionCertificate
@@ -21,14 +22,8 @@ from nag.witness.certified_loops import ProvedMonodromy
 
 FORMAT = "nag-certificate"
 VERSION = 1
-# Decimal digits of the centres of boxes for which doubles do not suffice.
+# Most decimal digits of a zero for which doubles do not suffice.
 DIGITS = 60
-
-
-def schema() -> dict[str, Any]:
-    """The JSON Schema of the format."""
-    name = f"{FORMAT}-{VERSION}.json"
-    return json.loads((resources.files("nag.files") / "schema" / name).read_text("utf-8"))
 
 
 def _points(points: CertifiedPoints) -> list[dict[str, Any]]:
@@ -45,12 +40,18 @@ def _points(points: CertifiedPoints) -> list[dict[str, Any]]:
                 "digits": real_or_null(float(points.digits[i])),
             }
         if i in boxes.fine:
-            document["decimals"] = [
-                [z.real.str(DIGITS, radius=False), z.imag.str(DIGITS, radius=False)]
-                for z in boxes.fine[i].centre
-            ]
+            document["decimals"] = _decimals(boxes.fine[i])
         documents.append(document)
     return documents
+
+
+def _decimals(box: FineBox) -> list[list[str]]:
+    """Real and imaginary parts of the zero in a box, to the digits that the box leaves."""
+    with flint.ctx.workprec(BITS[-1]):
+        return [
+            [flint.arb(part.mid(), r).str(DIGITS, radius=False) for part in (z.real, z.imag)]
+            for z, r in zip(box.centre, box.inner, strict=True)
+        ]
 
 
 def _reality(certificate: SolutionsCertificate) -> list[bool | None]:

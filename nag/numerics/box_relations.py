@@ -82,10 +82,16 @@ def real_zeros(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
     real = boxes.proved & ((2 * imaginary + boxes.inner) * UP < boxes.outer).all(axis=1)
     complex_ = boxes.proved & (imaginary > boxes.inner * UP).any(axis=1)
     for i in boxes.fine:
+        box = boxes.fine[i]
+        real[i] = holds_conjugate(box)
         with flint.ctx.workprec(1024):
-            box = boxes.fine[i]
             off = [abs(z.imag) for z in box.centre]
-            triples = zip(off, box.inner, box.outer, strict=True)
-            real[i] = all(2 * d + r < s for d, r, s in triples)
             complex_[i] = any(d > r for d, r in zip(off, box.inner, strict=True))
     return real, complex_
+
+
+def holds_conjugate(box: FineBox) -> bool:
+    """Whether a box holds the conjugate of its zero as well."""
+    with flint.ctx.workprec(1024):
+        triples = zip(box.centre, box.inner, box.outer, strict=True)
+        return all(2 * abs(z.imag) + r < s for z, r, s in triples)

@@ -9,7 +9,7 @@ singular, the zero of deflated equations is proved in the same way.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
 
@@ -25,10 +25,15 @@ from nag.numerics.deflated_system import deflated_zero, vanishing_digits
 from nag.numerics.digits import middle, number
 from nag.numerics.discs import UP
 from nag.numerics.krawczyk import BITS, Boxes, FineBox, box_about, boxes_of, enter_box
+from nag.numerics.rational_point import rational_point
 from nag.numerics.singular_point import Place, analyse
 
 # Zeros further from a point than its accuracy, times this, or this much, are not meant by it.
 SLACK, NEAR = 1e3, 1e-6
+# Gradients below this, relative to their terms, count as what they are.
+FLAT = 1e-8
+# Digits of a proved zero that is tested for being rational.
+DIGITS = 150
 # Digits to which the equations that were not needed for a proof must vanish.
 EVIDENCE = 60.0
 
@@ -59,6 +64,7 @@ class CertifiedPoints:
         boxes: of the zeros; proved where the proof is not `NONE`.
         digits: to which equations that were not needed vanish, shape ``(P,)``; infinite where
             there are none.
+        real: which zeros are proved to be real though they are singular, shape ``(P,)``.
         refuted: indices of points next to a zero of as many equations as unknowns that is proved
             to be none of all of them.
     """
@@ -67,6 +73,7 @@ class CertifiedPoints:
     proofs: tuple[Proof, ...]
     boxes: Boxes
     digits: np.ndarray
+    real: np.ndarray
     refuted: tuple[int, ...]
 
     def having(self, *proofs: Proof) -> np.ndarray:
@@ -102,33 +109,60 @@ def certify_points(
     """
     equations = [f for f in polynomials if f]
     P, n = points.shape
-    reach = np.maximum(NEAR, SLACK * np.nan_to_num(accuracy, nan=0.0))
     blank = np.full((P, n), np.inf)
     boxes = Boxes(points.copy(), blank, blank.copy(), np.zeros(P, dtype=bool), {})
-    proofs, digits = [Proof.NONE] * P, np.full(P, np.inf)
-    refuted: list[int] = []
+    found = CertifiedPoints(points, (), boxes, np.full(P, np.inf), np.zeros(P, dtype=bool), ())
+    proofs, refuted = [Proof.NONE] * P, set()
+    reach = np.maximum(NEAR, SLACK * np.nan_to_num(accuracy, nan=0.0))
     tested = np.flatnonzero(~singular & np.isfinite(points).all(axis=1))
     if len(equations) + len(slices) == n:
         _enter(boxes, tested, boxes_of(equations, slices, points[tested], reach[tested]))
         for i in np.flatnonzero(boxes.proved).tolist():
             proofs[i] = Proof.SIMPLE
-    elif len(equations) + len(slices) > n and len(tested):
-        rows = independent_equations(equations, slices, points[tested[0]])
-        square = [equations[i] for i in rows]
-        _enter(boxes, tested, boxes_of(square, slices, points[tested], reach[tested]))
-        others = [f for i, f in enumerate(equations) if i not in set(rows)]
-        for i in np.flatnonzero(boxes.proved).tolist():
-            digits[i], zero = _others(square, others, slices, points[i])
-            if not zero:
-                refuted.append(i)
-            if digits[i] >= EVIDENCE:
-                proofs[i] = Proof.PART
-            else:
-                boxes.proved[i] = False
+    elif len(equations) + len(slices) > n:
+        refuted = _overdetermined(equations, slices, found, proofs, tested, reach)
     for i in np.flatnonzero(~boxes.proved).tolist():
         if i not in refuted:
-            _singular(equations, slices, boxes, proofs, digits, i, float(accuracy[i]))
-    return CertifiedPoints(points, tuple(proofs), boxes, digits, tuple(refuted))
+            _singular(equations, slices, found, proofs, i, float(accuracy[i]))
+    return replace(found, proofs=tuple(proofs), refuted=tuple(sorted(refuted)))
+
+
+def _overdetermined(
+    equations: Sequence[Polynomial],
+    slices: np.ndarray,
+    found: CertifiedPoints,
+    proofs: list[Proof],
+    tested: np.ndarray,
+    reach: np.ndarray,
+) -> set[int]:
+    """Prove zeros of as many equations as unknowns, and look at the others there.
+
+    Returns:
+        Indices of points next to zeros that are proved to be no zeros of all equations.
+    """
+    boxes, points, refuted, left = found.boxes, found.points, set(), tested
+    seen: set[tuple[int, ...]] = set()
+    while len(left):
+        # Another point may need other equations.
+        rows = independent_equations(equations, slices, points[left[0]])
+        if tuple(rows) in seen:
+            left = left[1:]
+            continue
+        seen.add(tuple(rows))
+        square = [equations[i] for i in rows]
+        others = [f for i, f in enumerate(equations) if i not in set(rows)]
+        _enter(boxes, left, boxes_of(square, slices, points[left], reach[left]))
+        for i in left[boxes.proved[left]].tolist():
+            vanishing, exact = _others(square, others, slices, points[i])
+            found.digits[i] = np.inf if exact else vanishing
+            if not vanishing:
+                refuted.add(i)
+            proofs[i] = Proof.SIMPLE if exact else Proof.PART
+            boxes.proved[i] = exact or vanishing >= EVIDENCE
+            if not boxes.proved[i]:
+                proofs[i] = Proof.NONE
+        left = np.array([i for i in left[1:] if not boxes.proved[i] and i not in refuted], int)
+    return refuted
 
 
 def distinct_simple(groups: Sequence[CertifiedPoints]) -> int:
@@ -185,9 +219,11 @@ def independent_equations(
     equations: Sequence[Polynomial], slices: np.ndarray, point: np.ndarray
 ) -> list[int]:
     """Equations that determine the point on the slice, as many as are needed."""
-    jacobian = Evaluator.of(equations, len(point)).jacobian(point)
-    sizes = np.linalg.norm(jacobian, axis=1)
-    jacobian /= np.where(sizes > 0, sizes, 1.0)[:, None]
+    evaluator = Evaluator.of(equations, len(point))
+    jacobian = evaluator.jacobian(point)
+    # A gradient that is rounding beside its terms is not scaled up.
+    terms = evaluator.sizes(point[None])[0] / max(1.0, float(np.abs(point).max(initial=0.0)))
+    jacobian /= np.maximum(np.linalg.norm(jacobian, axis=1), FLAT * terms)[:, None]
     if len(slices):
         q, _ = np.linalg.qr(slices[:, 1:].conj().T)
         jacobian = jacobian - (jacobian @ q) @ q.conj().T
@@ -201,27 +237,37 @@ def _others(
     slices: np.ndarray,
     point: np.ndarray,
 ) -> tuple[float, bool]:
-    """Digits to which other equations vanish at a proved zero, and whether they may be zero."""
+    """Digits to which other equations vanish at a proved zero, and whether that is exact.
+
+    No digits where one of them is proved not to vanish. A rational zero is tested exactly.
+    """
     start = [flint.acb(complex(z)) for z in point]
     box = box_about(BallPolynomials.of(square, slices), start, (BITS[-1],))
     if box is None:
-        return 0.0, True
+        return EVIDENCE / 2, False
     rest = BallPolynomials.of(others, np.zeros((0, 1 + len(point)), dtype=complex))
-    found = vanishing_digits(rest, box)
-    return found, found > 0
+    digits = vanishing_digits(rest, box)
+    if len(slices) or not digits:
+        return digits, False
+    with flint.ctx.workprec(BITS[-1]):
+        exact = rational_point(box.centre, DIGITS)
+        if exact is None or any(f(exact) for f in [*square, *others]):
+            return digits, False
+        off = [abs(z - number(q)) for z, q in zip(box.centre, exact, strict=True)]
+        return digits, all(d < r for d, r in zip(off, box.outer, strict=True))
 
 
 def _singular(
     equations: Sequence[Polynomial],
     slices: np.ndarray,
-    boxes: Boxes,
+    result: CertifiedPoints,
     proofs: list[Proof],
-    digits: np.ndarray,
     i: int,
     accuracy: float,
 ) -> None:
     """What is proved of a point that may be singular; enters it at place ``i``."""
     rng = np.random.default_rng(0)
+    boxes = result.boxes
     point = boxes.centres[i]
     if not np.isfinite(point).all():
         return
@@ -234,12 +280,13 @@ def _singular(
         if any(values):
             return
         enter_box(boxes, i, _rational_box(end.rational))
-        proofs[i], digits[i] = Proof.EXACT, np.inf
+        proofs[i], result.digits[i], result.real[i] = Proof.EXACT, np.inf, True
         return
     found = deflated_zero(equations, slices, end.digits, rng)
     if found is None or found.vanishing < EVIDENCE:
         return
-    proofs[i], digits[i] = Proof.DEFLATED, found.vanishing if found.left else np.inf
+    proofs[i], result.real[i] = Proof.DEFLATED, found.real
+    result.digits[i] = found.vanishing if found.left else np.inf
     box, n = found.box, len(point)
     # Of the deflated equations the zero is the only one in its box, of the given ones it need not.
     enter_box(boxes, i, FineBox(box.centre[:n], (flint.arb(0),) * n, box.inner[:n]))

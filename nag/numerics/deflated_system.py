@@ -20,12 +20,15 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.box_relations import holds_conjugate
 from nag.numerics.digits import log_norm, middle
 from nag.numerics.krawczyk import BITS, FineBox, box_about
 from nag.numerics.pivots import pivots
 
 # Digits in which ranks are taken, and below which an entry is zero (decimal logarithm).
 DIGITS, ZERO = 150, -50.0
+# Digits of the arithmetic, more than which nothing is said to vanish to.
+MOST_DIGITS = 154.0
 MOST_UNKNOWNS = 64
 
 
@@ -38,12 +41,14 @@ class DeflatedZero:
         rounds: how often the equations were deflated.
         left: number of equations that were not needed for the proof.
         vanishing: decimal digits to which these vanish there.
+        real: whether it is proved to be real.
     """
 
     box: FineBox
     rounds: int
     left: int
     vanishing: float
+    real: bool
 
 
 def deflated_zero(
@@ -68,7 +73,7 @@ def deflated_zero(
             entries = [[middle(z) for z in row] for row in system.jacobian(point).tolist()]
             chosen, columns = pivots(lambda _, m=entries: m, len(point), 0, ZERO)
             if len(columns) == len(point):
-                return _proved(system, point, chosen, rounds)
+                return _proved(system, point, chosen, rounds, not len(slices))
             found = _deflated(equations, rows, entries, point, chosen, rng)
             if found is None:
                 return None
@@ -96,9 +101,10 @@ def _deflated(
     blank = np.zeros((len(slices), n), dtype=complex)
     rows = [np.hstack([slices, blank])]
     rows.append(np.hstack([blank[:, :1], blank, slices[:, 1:]]))
-    conditions = rng.integers(-9, 10, (n - len(chosen), n)) + 1j * rng.integers(
-        -9, 10, (n - len(chosen), n)
-    )
+    # Without slices the deflated equations are real, and so is the zero in a box that holds its
+    # conjugate.
+    parts = rng.integers(-9, 10, (2, n - len(chosen), n))
+    conditions = parts[0] + (1j * parts[1] if len(slices) else 0j)
     one = np.zeros((len(conditions), 1 + n), dtype=complex)
     one[:1, 0] = -1.0
     rows.append(np.hstack([one, conditions]))
@@ -113,15 +119,24 @@ def _deflated(
 
 
 def _proved(
-    system: BallPolynomials, point: list[flint.acb], chosen: Sequence[int], rounds: int
+    system: BallPolynomials,
+    point: list[flint.acb],
+    chosen: Sequence[int],
+    rounds: int,
+    of_real: bool,
 ) -> DeflatedZero | None:
-    """Krawczyk's test for the chosen rows, and the values of the others in the box."""
+    """Krawczyk's test for the chosen rows, and the values of the others in the box.
+
+    Args:
+        of_real: whether all coefficients are real.
+    """
     square = system.rows_of(chosen)
     box = box_about(square, point, (BITS[-1],))
     if box is None:
         return None
     rest = [i for i in range(len(system.rows)) if i not in set(chosen)]
-    return DeflatedZero(box, rounds, len(rest), vanishing_digits(system.rows_of(rest), box))
+    vanishing = vanishing_digits(system.rows_of(rest), box)
+    return DeflatedZero(box, rounds, len(rest), vanishing, of_real and holds_conjugate(box))
 
 
 def vanishing_digits(system: BallPolynomials, box: FineBox) -> float:
@@ -134,4 +149,4 @@ def vanishing_digits(system: BallPolynomials, box: FineBox) -> float:
         values = system(x).entries()
         if not all(z.contains(0) for z in values):
             return 0.0
-        return max(0.0, -log_norm(flint.acb(z.abs_upper()) for z in values))
+        return min(MOST_DIGITS, max(0.0, -log_norm(flint.acb(z.abs_upper()) for z in values)))

@@ -67,14 +67,6 @@ def series_sum(a: Discs, b: Discs) -> Discs:
     return Discs(mid, (a.rad + b.rad + magnitude(mid) * 2.0**-51) * UP + LEAST)
 
 
-def shortened(a: Discs, length: int) -> Discs:
-    """The same series by fewer coefficients, the last of which takes in the others."""
-    rest = (magnitude(a.mid) + a.rad)[..., length:].sum(axis=-1)
-    rad = a.rad[..., :length].copy()
-    rad[..., -1] = (rad[..., -1] + rest) * UP
-    return Discs(a.mid[..., :length], rad)
-
-
 def values_along(system: DiscPolynomials, x: Discs) -> Discs:
     """Values on series of boxes, shape ``(P, n, length)``: shape ``(P, rows, length)``."""
     return _weighted(system.values, _monomials(system, x))

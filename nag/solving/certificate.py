@@ -91,6 +91,7 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
     points = proved(result.solutions)
     same, unknown = overlaps(points.boxes)
     real, not_real = real_zeros(points.boxes)
+    real |= points.real
     bound, name = bound_of_zeros(system)
     return SolutionsCertificate(
         result=result,

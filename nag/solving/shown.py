@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 # Longer lists are left to the export.
 MOST_ROWS = 40
+# Most digits of a coordinate.
+SHOWN = 6
 
 
 def answer_text(result: SolveResult) -> str:
@@ -59,12 +61,23 @@ def solution_rows(result: SolveResult, most: int, columns: int) -> list[list[str
 
 
 def number_text(z: complex, solution: Solution) -> str:
-    """A coordinate to six digits; parts below the point's accuracy are left out."""
-    floor = max(1e-12, 1e2 * solution.accuracy) * (1 + float(abs(solution.point).max()))
-    real = 0.0 if abs(z.real) < floor else float(z.real)
-    if solution.real or abs(z.imag) < floor:
-        return f"{real:.6g}"
-    return f"{real:.6g}{z.imag:+.6g}i"
+    """A coordinate to as many digits, up to six, as the point's accuracy leaves it.
+
+    Parts that are no larger than the error that they may have are left out.
+    """
+    error = solution.accuracy * (1 + float(np.linalg.norm(solution.point)))
+    real = _digits_text(float(z.real), error)
+    if solution.real or abs(z.imag) <= error:
+        return real
+    return f"{real}{_digits_text(float(z.imag), error, '+')}i"
+
+
+def _digits_text(value: float, error: float, sign: str = "") -> str:
+    """A number that may be off by ``error``, to at most six digits."""
+    if abs(value) <= error < np.inf:
+        return "0"
+    known = SHOWN if error == 0 else int(np.clip(np.log10(abs(value) / (2 * error)), 1, SHOWN))
+    return format(value, f"{sign}.{known}g")
 
 
 def _point_text(solution: Solution) -> str:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from nag.tracking import evaluations
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy, norms
 
@@ -83,6 +84,7 @@ def refine(
             result, P, iterations, before, smallest, error, size, further, int(twice)
         )
         newton_lanes(system(fixed), work(fixed, 1), low_parts(fixed), batch)
+        evaluations.count(P * (iterations + 1 + int(twice)))
     # A matrix that is singular in double precision leaves NaN.
     before, smallest = (np.where(np.isfinite(v), v, 0.0) for v in (before, smallest))
     if not np.isfinite(result).all():

@@ -15,6 +15,7 @@ from functools import cache
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
+from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
@@ -140,19 +141,17 @@ def _attempt(
         return paths
     if most is not None and _all_are_found(homotopy, paths, most):
         return _to_infinity(homotopy, paths, doubtful)
-    from nag.tracking.ends.follow import follow
+    from nag.tracking.ends.follow import Unfinished, follow
 
     reached = raw.reason[doubtful] == Reason.NONE
-    new = follow(
-        homotopy,
+    unfinished = Unfinished(
         raw.points[doubtful],
         reached,
         regular[doubtful],
         raw.safe[doubtful],
         raw.safe_t[doubtful],
-        settings,
-        threads,
     )
+    new = follow(homotopy, unfinished, settings, threads)
     if not endgame:
         new = without(new, new.where(PathStatus.SINGULAR))
     return merged(paths, new, doubtful)
@@ -228,6 +227,8 @@ def _run(
     else:
         with ThreadPoolExecutor(batches) as pool:
             list(pool.map(batch, range(batches)))
+    # A step takes two values, and the Taylor coefficients of each order.
+    evaluations.count(raw.steps.sum() * (2 + settings.order))
     return raw
 
 

@@ -169,7 +169,7 @@ FAMILIES: tuple[Family, ...] = (
     ),
     Family(
         "bricard", "Bricard's cube violated: mobility 1, then 0", "digits; 0 as it should be",
-        linkages.bricard_violated, (0, 2, 4, 6, 8), "decompose",
+        linkages.bricard_violated, (0, 2, 4, 6, 8, 12, 20, 30), "decompose",
     ),
     Family(
         "kite", "a kite near a rhombus", "digits of the difference; 0 the rhombus",
@@ -185,7 +185,7 @@ FAMILIES: tuple[Family, ...] = (
     ),
     Family(
         "lengths", "a parallelogram's lengths at 10^k", "k",
-        linkages.parallelogram, (1, 2, 4, 6, -2, -4, -8), "decompose",
+        linkages.parallelogram, (1, 2, 4, 6, 8, -2, -4, -8), "decompose",
     ),
     Family(
         "moved", "cases in other coordinates", "case", moved_case,

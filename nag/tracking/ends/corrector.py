@@ -8,6 +8,7 @@ from nag.tracking.ends.lane_scalars import (
     BASE,
     CONTRACTION,
     CURVATURE,
+    EVALUATED,
     EXCESS,
     FIRST,
     IDLE,
@@ -20,28 +21,29 @@ from nag.tracking.ends.linear_algebra import equilibrate, factorize, newton_corr
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
 
-# Relative size of coordinates that doubles do not know.
-FLOOR = 1e-9
+# Relative size of coordinates that doubles do not know, and the rounding errors that they make of
+# a point, both with room to spare.
+FLOOR, DOUBLES = 1e-9, 1e-13
 MOST_CORRECTIONS = 12
 # Corrections of so many rounding errors may be nothing else.
 STAGNANT = 1e2
 
 
-def _weigh(s, r, floor):
+def weigh(s, r, floor):
     """Sizes of the coordinates by which columns are scaled."""
     for j in range(s.N):
         size = z.largest(z.magnitude(z.read(r.slots, j)), floor)
         store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
 
 
-def _linearize(s, r, floor):
+def linearize(s, r, floor, rough):
     """The factorised Jacobian at the points, Newton's correction and its measures."""
     products(s, r, s.products)
     values(s, r)
     jacobian(s, r)
     equilibrate(s, r)
     factorize(s, r)
-    newton_correction(s, r, floor)
+    newton_correction(s, r, floor, rough)
 
 
 def correct(s, r, f, b):
@@ -54,13 +56,18 @@ def correct(s, r, f, b):
         f[8 * SETTLED + lane] = 0.0 if f[8 * MODE + lane] > IDLE else 2.0
     lay_patches(s, r)
     factors_at(s, r)
-    # Small coordinates are not known at points that come from doubles.
+    # Small coordinates are not known at points that come from doubles, and what vanishes along a
+    # path is as large there as their rounding errors are.
     half = splat(0.5)
     nothing = z.exact(splat(0.0), splat(0.0))
     floor = select_less(load(f, BASE), half, splat(FLOOR), splat(0.0))
-    _weigh(s, r, floor)
+    rough = select_less(load(f, BASE), half, splat(DOUBLES / number.EPSILON), splat(0.0))
+    weigh(s, r, floor)
     for k in range(MOST_CORRECTIONS):
-        _linearize(s, r, floor)
+        linearize(s, r, floor, rough)
+        for lane in range(8):
+            if f[8 * SETTLED + lane] < 0.5:
+                f[8 * EVALUATED + lane] += 1.0
         settled = load(f, SETTLED)
         for j in range(s.N):
             x = z.read(r.slots, j)
@@ -75,10 +82,11 @@ def correct(s, r, f, b):
                     busy += 1
         if busy == 0:
             break
-    _weigh(s, r, floor)
-    _linearize(s, r, floor)
+    weigh(s, r, floor)
+    linearize(s, r, floor, rough)
     for lane in range(8):
         excess = r.measures[8 + lane]
+        f[8 * EVALUATED + lane] += 1.0
         f[8 * EXCESS + lane] = max(1.0, excess)
         f[8 * KNOWN + lane] = r.measures[16 + lane] * f[8 * EXCESS + lane]
         if not excess <= STAGNANT or not r.measures[24 + lane] < 0.5:

@@ -31,6 +31,7 @@ from nag.tracking.ends.lane_scalars import (
     BASE,
     CONTRACTION,
     CURVATURE,
+    EVALUATED,
     EXCESS,
     FINISH,
     IDLE,
@@ -74,8 +75,9 @@ class Batch(NamedTuple):
     ``t``, shape (count, words). ``ends``: points at which to try Newton's method at t = 0 first,
     like ``starts``, if ``tried`` is 0; ``straight``: 0 where not to try it later. ``latest``:
     largest t at which a limit is taken for one.
-    ``outcome, winding, steps``: one for each path. ``points``: like ``starts``, the end, or where
-    the path is, at ``t``; ``safe, safe_t``: likewise the last point that is known well.
+    ``outcome, winding, steps, evaluations``: one for each path. ``points``: like ``starts``, the
+    end, or where the path is, at ``t``; ``safe, safe_t``: likewise the last point that is known
+    well.
     ``limits``: of those that have one, see `extrapolate`, shape (count, N, 4, 2, words).
     ``errors``: rounding errors of the coordinates, shape (count, N). ``curvature``: estimate of
     Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
@@ -94,6 +96,7 @@ class Batch(NamedTuple):
     outcome: Wholes
     winding: Wholes
     steps: Wholes
+    evaluations: Wholes
     points: Reals
     safe: Reals
     safe_t: Reals
@@ -120,7 +123,7 @@ def _set_time(r, lane, t, path, zero):
 
 def _fill(s, r, f, lane, path, b):
     """Put a path into a lane."""
-    for k in range(19):
+    for k in range(20):
         f[8 * k + lane] = 0.0
     f[8 * PATH + lane] = path
     f[8 * TRIED + lane] = 1e-2
@@ -199,6 +202,7 @@ def _close(s, r, f, lane, b, outcome, data):
     b.outcome[path] = outcome
     b.winding[path] = int(f[8 * WINDING + lane])
     b.steps[path] += int(f[8 * TAKEN + lane])
+    b.evaluations[path] += int(f[8 * EVALUATED + lane])
     b.curvature[path] = f[8 * CURVATURE + lane]
     numbers = 2 * number.WORDS * s.N
     if outcome == REGULAR or f[8 * BASE + lane] > 0.5:
@@ -341,6 +345,8 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
                 stepping += 1
         if stepping > 0:
             _expand(s, r, b.order)
+            for lane in range(8):
+                f[8 * EVALUATED + lane] += r.accepted[lane] * b.order
             _keep(s, r, f, b.order)
             _best_winding(s, r, b)
             extrapolate(s, r, b.order, load(r.measures, 1))

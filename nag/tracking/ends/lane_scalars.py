@@ -23,4 +23,5 @@ IDLE, STEP, FINISH = 0.0, 1.0, 2.0
     WANTED,
     EXCESS,
     SAVED,
-) = range(19)
+    EVALUATED,
+) = range(20)

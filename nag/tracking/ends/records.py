@@ -118,7 +118,7 @@ class Room(NamedTuple):
 
 
 # Numbers of the rows of the lanes' scalars, and of inverses of whole numbers.
-SCALARS = 19
+SCALARS = 20
 MOST_INVERSES = 32
 
 

@@ -1,0 +1,75 @@
+"""So many steps of Newton's method in 32 or 64 digits, to measure what a step brings and takes."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from nag.machine_code.kernel import Kernel
+from nag.machine_code.lanes import splat
+from nag.machine_code.records import Reals
+from nag.tracking.ends import records
+from nag.tracking.ends.corrector import linearize, weigh
+from nag.tracking.ends.evaluation import factors_at, lay_patches
+from nag.tracking.ends.records import Equations, Room
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.numbers import complex_numbers as z
+from nag.tracking.numbers import double_double, quad_double
+from nag.tracking.numbers import double_double as number
+
+
+class Steps(NamedTuple):
+    """Points in homogeneous coordinates, shape (count, N, 2, words), which are moved."""
+
+    count: int
+    steps: int
+    points: Reals
+
+
+def newton_batch(s: Equations, r: Room, b: Steps) -> None:
+    """Newton's method at t = 0, eight points at a time."""
+    size = 2 * number.WORDS * s.N
+    floor = splat(0.0)
+    for first in range(0, b.count, 8):
+        for lane in range(8):
+            path = min(first + lane, b.count - 1)
+            for k in range(number.WORDS):
+                r.t[8 * k + lane] = 0.0
+            for k in range(size):
+                r.slots[8 * k + lane] = b.points[size * path + k]
+        lay_patches(s, r)
+        factors_at(s, r)
+        for _ in range(b.steps):
+            weigh(s, r, floor)
+            linearize(s, r, floor, splat(0.0))
+            for j in range(s.N):
+                z.write(r.slots, j, z.add(z.read(r.slots, j), z.read(r.right, j)))
+        for lane in range(min(8, b.count - first)):
+            for k in range(size):
+                b.points[size * (first + lane) + k] = r.slots[8 * k + lane]
+
+
+KERNELS = {
+    arithmetic.WORDS: Kernel(newton_batch, "tracking", {"number": arithmetic})
+    for arithmetic in (double_double, quad_double)
+}
+
+
+def newton_steps(homotopy: Homotopy, points: np.ndarray, words: int, steps: int) -> np.ndarray:
+    """Points after so many steps at t = 0.
+
+    Args:
+        points: homogeneous, shape ``(P, N)``.
+        words: doubles in a number, 2 or 4.
+
+    Returns:
+        Real and imaginary parts as sums of doubles, shape ``(P, N, 2, words)``.
+    """
+    result = np.zeros((*points.shape, 2, words))
+    result[..., 0, 0], result[..., 1, 0] = points.real, points.imag
+    if len(points):
+        batch = Steps(len(points), steps, result.reshape(-1))
+        system = records.equations(homotopy, words, 1)
+        KERNELS[words](system, records.room(homotopy, words, 1), batch)
+    return result
