@@ -103,8 +103,9 @@ def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:
     """A component in the coordinates that linear equations leave: the ranks drop where they did."""
     cut = component.slice
     rows = orthonormal_rows(reduction.frame.pulled_back(cut.A, cut.b))
-    points = component.points[:, reduction.kept]
-    return replace(component, slice=Slice(rows[:, 1:], -rows[:, 0]), points=points)
+    points, radii = component.points[:, reduction.kept], component.radii[:, reduction.kept]
+    here = Slice(rows[:, 1:], -rows[:, 0])
+    return replace(component, slice=here, points=points, radii=radii, multidegree=None, fibres=())
 
 
 def _null_space_system(
