@@ -30,8 +30,10 @@ def judged(point: Known, seed: int) -> tuple[LocalDimension, float]:
     changed = point.changed(rng)
     at = np.array(changed.point, dtype=complex)
     beside = Zero([], at, 0).beside(error, rng)
+    # It is off by that much relative to its largest coordinate: more, relative to the others.
+    accuracy = error * max(1.0, float(np.abs(at).max()))
     begin = time.process_time()
-    found = local_dimension(changed.system, beside, accuracy=error, seed=seed)
+    found = local_dimension(changed.system, beside, accuracy=accuracy, seed=seed)
     return found, time.process_time() - begin
 
 

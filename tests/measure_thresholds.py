@@ -147,7 +147,7 @@ def watched(measured: Measured) -> ExitStack:
     for owner, name, note in [
         (tracking, "refine", refined),
         (tracking, "_attempt", judged),
-        (follow._States, "known", known),
+        (follow.States, "known", known),
         (limits.Limits, "of", initial_forms),
         (limits, "_denominator", denominator),
         (judged_ends, "_residuals", values),

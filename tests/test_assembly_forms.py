@@ -20,7 +20,6 @@ from nag.mechanism.framework import (
     Framework,
     FrameworkError,
     framework_of_graph,
-    henneberg_order,
     placed_framework,
 )
 from nag.mechanism.framework_model import framework_model
@@ -50,6 +49,29 @@ a = "3/5"
 alpha_half_tangent = "1/3"
 {3}
 """
+
+
+def henneberg_order(framework: Framework) -> list[str] | None:
+    """The points in an order in which each has just two bars to earlier ones, or None.
+
+    The first two are joined by a bar. Such a graph of n points has 2^(n - 2) realisations in the
+    plane for general lengths (Henneberg's first construction).
+    """
+    neighbours = {
+        p: {q for bar in framework.bars if p in bar for q in bar} - {p} for p in framework.points
+    }
+    removed: list[str] = []
+    left = set(framework.points)
+    while len(left) > 2:
+        last = next(
+            (p for p in framework.points if p in left and len(neighbours[p] & left) == 2), None
+        )
+        if last is None:
+            return None
+        removed.append(last)
+        left.discard(last)
+    first = [p for p in framework.points if p in left]
+    return [*first, *reversed(removed)] if first[1] in neighbours[first[0]] else None
 
 
 def read(tmp_path: Path, text: str) -> Case:

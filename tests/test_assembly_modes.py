@@ -1,5 +1,6 @@
 """Assembly modes: their classes, and Bricard's mechanism in all of them."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations, product
 
@@ -13,10 +14,20 @@ from nag.mechanism.assembly_modes import all_modes
 from nag.mechanism.axes import cross, difference, dot
 from nag.mechanism.loops import loop_structure
 from nag.mechanism.mode_classes import carries_modes, flips, mode_classes
-from nag.mechanism.mode_decomposition import apart, decompose_modes, degree_counts
+from nag.mechanism.mode_decomposition import apart, decompose_modes
 from nag.mechanism.model import model
+from nag.witness.witness import WitnessSet
 
 BRICARD = case("bricard-cube")
+
+
+def degree_counts(components: Sequence[WitnessSet]) -> dict[tuple[int, int], int]:
+    """How many components there are of each dimension and degree."""
+    counts: dict[tuple[int, int], int] = {}
+    for component in components:
+        key = component.dimension, component.degree
+        counts[key] = counts.get(key, 0) + component.orbit
+    return counts
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ from linkages import CASES, case
 
 import nag
 from nag.cli import main
-from nag.cli.witness_input import schema
+from nag.files.schemas import schema
 from nag.mechanism.bonds import BondError, Bonds, bonds
 
 

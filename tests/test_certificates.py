@@ -19,8 +19,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
-from nag.files.certificate_export import schema
 from nag.files.export import write_decomposition
+from nag.files.schemas import schema
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.mechanism.model import model
 from nag.numerics.box_relations import overlaps, real_zeros
@@ -287,8 +287,8 @@ def test_the_command_certifies_exports_of_both_kinds(tmp_path: Path, capsys) -> 
         target = tmp_path / f"certificate-{export.name}"
         assert main(["certify", str(export), "--json", str(target)]) == 0
         assert line in capsys.readouterr().out
-        jsonschema.validate(json.loads(target.read_text()), schema())
-    jsonschema.Draft202012Validator.check_schema(schema())
+        jsonschema.validate(json.loads(target.read_text()), schema("nag-certificate"))
+    jsonschema.Draft202012Validator.check_schema(schema("nag-certificate"))
 
 
 def test_a_point_that_is_no_solution_makes_the_certificate_incomplete(tmp_path, capsys) -> None:

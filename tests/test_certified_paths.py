@@ -18,8 +18,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
-from nag.files.certificate_export import schema
 from nag.files.export import write_decomposition
+from nag.files.schemas import schema
 from nag.files.solutions_export import write_solutions
 from nag.numerics.disc_series import series_product, values_along
 from nag.numerics.discs import DiscPolynomials, Discs
@@ -193,7 +193,7 @@ def test_the_command_proves_paths_of_exports_of_both_kinds(tmp_path: Path, capsy
         target = tmp_path / f"certificate-{export.name}"
         assert main(["certify", str(export), "--paths", "--json", str(target)]) == 0
         assert line in capsys.readouterr().out
-        jsonschema.validate(json.loads(target.read_text()), schema())
+        jsonschema.validate(json.loads(target.read_text()), schema("nag-certificate"))
 
 
 @pytest.mark.parametrize("command", ["solve", "decompose"])

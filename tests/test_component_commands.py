@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from nag.cli import main
-from nag.cli.witness_input import schema
 from nag.files.export import read_export
+from nag.files.schemas import schema
 
 CASES = Path(__file__).parent.parent / "cases"
 

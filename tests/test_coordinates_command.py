@@ -9,7 +9,7 @@ from linkages import CASES
 
 from nag.cli import main
 from nag.files.export import read_decomposition
-from nag.files.modes_export import schema
+from nag.files.schemas import schema
 
 BENNETT = str(CASES / "bennett.toml")
 
@@ -35,8 +35,8 @@ def test_all_modes_are_counted_and_exported(tmp_path, capsys):
     assert "16 combinations of the assembly modes of 4 joints, in 2 classes" in text
     assert "in all modes together 16 components of dimension 1, degree 8" in text
     content = json.loads(file.read_text("utf-8"))
-    jsonschema.validate(content, schema())
-    jsonschema.Draft202012Validator.check_schema(schema())
+    jsonschema.validate(content, schema("nag-modes"))
+    jsonschema.Draft202012Validator.check_schema(schema("nag-modes"))
     assert [len(c["modes"]) for c in content["classes"]] == [8, 8]
     degrees = [c["degree"] for c in content["classes"][0]["decomposition"]["components"]]
     assert (degrees, content["classes"][1]["decomposition"]["components"]) == ([8], [])

@@ -72,3 +72,10 @@ def test_what_must_not_vanish_is_left_out() -> None:
     assert found.notes == [] and sizes(found) == {1: 2}
     x = points(found, common)
     assert np.abs(x[:, 0] + x[:, 1] - 3).max() < 1e-12
+
+
+def test_what_lies_beside_the_excluded_is_kept() -> None:
+    # On the plane x = y what must not vanish has the value 10^-10.
+    second = "x^2 + y^2 + z^2 - 1 - (x - y)*(x + y - 3)"
+    found, _ = met(SPHERE, second, nonzero=("x - y + 1/10^10",))
+    assert found.notes == [] and sizes(found) == {1: 4}

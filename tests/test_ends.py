@@ -10,7 +10,7 @@ import pytest
 
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
-from nag.tracking.ends.follow import digits_of_evidence, follow
+from nag.tracking.ends.follow import Unfinished, digits_of_evidence, follow
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limits
 from nag.tracking.ends.terms import Terms
@@ -37,7 +37,8 @@ def followed(polynomials: list[Polynomial], settings: Settings | None = None) ->
     homotopy, starts = homotopy_of(polynomials)
     reached = np.zeros(len(starts), dtype=bool)
     ones = np.ones(len(starts))
-    return follow(homotopy, starts, reached, reached, starts, ones, settings or Settings())
+    unfinished = Unfinished(starts, reached, reached, starts, ones)
+    return follow(homotopy, unfinished, settings or Settings())
 
 
 def test_regular_ends_are_balls_that_hold_the_zeros() -> None:

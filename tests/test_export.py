@@ -6,7 +6,6 @@ import json
 import math
 from dataclasses import fields, replace
 from fractions import Fraction
-from importlib import resources
 
 import jsonschema
 import numpy as np
@@ -25,16 +24,15 @@ from nag.files.export import (
     export_text,
     read_decomposition,
     read_export,
-    schema,
     write_decomposition,
 )
+from nag.files.schemas import schema
 from nag.files.written_file import TargetError, check_target, write_target
 from nag.witness.moving import witness_at
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
-VALIDATOR = jsonschema.Draft202012Validator(schema())
-OLD = resources.files("nag.files") / "schema" / "nag-decomposition-1.json"
-OLD_VALIDATOR = jsonschema.Draft202012Validator(json.loads(OLD.read_text("utf-8")))
+VALIDATOR = jsonschema.Draft202012Validator(schema("nag-decomposition", 2))
+OLD_VALIDATOR = jsonschema.Draft202012Validator(schema("nag-decomposition", 1))
 
 doubles = st.floats(allow_nan=False, allow_infinity=False)
 names = st.lists(

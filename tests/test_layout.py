@@ -58,13 +58,6 @@ def test_packages_import_only_what_is_before_them(package: str) -> None:
 
 # Lines of a file, lines of a function with its docstring, arguments of a function without self.
 MOST_LINES, MOST_FUNCTION_LINES, MOST_ARGUMENTS = 400, 60, 7
-# What is larger still, with its size: each entry may only shrink, and goes when it fits.
-LARGER = {
-    "tracking/ends/follow.py: arguments of follow": 8,
-    "tracking/ends/follow.py: lines of _run": 65,
-    "tracking/newton_kernel.py: lines of newton_batch": 71,
-    "tracking/taylor.py: arguments of _block": 9,
-}
 
 
 @cache
@@ -85,12 +78,4 @@ def sizes() -> list[tuple[str, int, int]]:
 
 
 def test_files_and_functions_are_of_a_size_to_be_read() -> None:
-    grown = [
-        f"{what}: {size}" for what, size, most in sizes() if size > max(most, LARGER.get(what, 0))
-    ]
-    assert grown == []
-
-
-def test_what_was_too_large_and_fits_now_is_no_longer_excepted() -> None:
-    too_large = {what for what, size, most in sizes() if size > most}
-    assert sorted(set(LARGER) - too_large) == []
+    assert [f"{what}: {size}" for what, size, most in sizes() if size > most] == []

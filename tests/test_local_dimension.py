@@ -17,7 +17,7 @@ from singular_zeros import polynomials
 import nag
 from nag.algebra.expression import parse_number
 from nag.cli import main
-from nag.cli.witness_input import schema
+from nag.files.schemas import schema
 from nag.numerics.local_dimension import NoSolution
 from nag.numerics.singular_point import Place, analyse
 

@@ -18,6 +18,7 @@ from nag.decomposition.isolated import counted
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.solving.tropical_zeros import tropical_zeros
+from nag.witness.cutting import sharpen
 
 # One zero has sizes 10^140.70725, 10^107.55269 and 10^126.77312 (roots of its eliminants).
 FAR = (
@@ -119,3 +120,10 @@ def test_residuals_and_jacobians_far_out_are_those_of_scaled_equations() -> None
     size = np.abs(near).max()
     expected = [6 / 5 * (near[0] / size) ** 2, 0.0]
     assert evaluator.balanced_jacobian(near * far)[0] == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_point_beyond_the_powers_of_doubles_is_not_sharpened_but_not_an_error() -> None:
+    evaluator = Evaluator.of(nag.system(["x^4 - y", "y^3 - x"]).polynomials, 2)
+    far = np.array([1e120 + 0j, 1e130])
+    with np.errstate(all="ignore"):
+        assert not sharpen(evaluator, np.zeros((0, 3)), far).converged

@@ -16,8 +16,8 @@ from singular_zeros import polynomials
 import nag
 from nag.algebra.expression import parse_number
 from nag.cli import main
-from nag.cli.witness_input import schema
 from nag.decomposition.singular_locus import SingularLocus, singular_locus
+from nag.files.schemas import schema
 from nag.numerics.tangent_cone import tangent_cone
 
 

@@ -13,13 +13,13 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.files.json_values import ExportError
+from nag.files.schemas import schema
 from nag.files.solutions_export import (
     FORMAT,
     VERSION,
     document,
     export_text,
     read_solutions,
-    schema,
     write_solutions,
 )
 from nag.solving.solutions import SolveResult
@@ -41,9 +41,9 @@ def result() -> SolveResult:
 
 
 def test_the_schema_is_a_schema_of_what_is_written(result: SolveResult) -> None:
-    jsonschema.Draft202012Validator.check_schema(schema())
+    jsonschema.Draft202012Validator.check_schema(schema("nag-solutions"))
     value = document(result, "title", "file.toml")
-    jsonschema.validate(value, schema())
+    jsonschema.validate(value, schema("nag-solutions"))
     assert (value["format"], value["version"]) == (FORMAT, VERSION)
     assert [s["multiplicity"] for s in value["solutions"]].count(4) == 1
 
@@ -99,7 +99,7 @@ def test_the_command_prints_a_table_and_writes_the_same_bytes_for_any_number_of_
     assert "6 isolated solutions" in out
     assert "solved exactly" in out
     value = json.loads(texts[0])
-    jsonschema.validate(value, schema())
+    jsonschema.validate(value, schema("nag-solutions"))
     points = np.array(value["solutions"][0]["point"]).view(float)
     assert points.shape == (2, 2)
 

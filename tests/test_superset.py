@@ -11,7 +11,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
-from nag.decomposition.superset import Ambient, witness_superset
+from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Tracker
@@ -84,3 +84,10 @@ def test_an_isolated_end_of_a_deflated_surface_may_lie_on_a_curve(seed: int) -> 
     assert answer.complete
     found = Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components)
     assert found == {(2, 2, 2): 1, (1, 3, 1): 1, (1, 1, 3): 1}
+
+
+def test_equations_are_met_in_an_order_that_brings_in_few_variables_at_a_time() -> None:
+    circles = ("a^2 + b^2 - 1", "c^2 + d^2 - 1", "e^2 + f^2 - 1")
+    products = ("a*c + b*d - 2", "c*e + d*f - 2", "a*e + b*f - 3")
+    equations = polynomials("a b c d e f", *circles, *products, "a + e")
+    assert intersection_order(equations) == [6, 0, 2, 5, 1, 3, 4]

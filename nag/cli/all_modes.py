@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import UsageError
+from nag.cli.running import seconds, writing_json
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 def run_all_modes(
     arguments: argparse.Namespace,
     case: Case,
-    started: float,
     progress: Callable[[str, int, int], None],
 ) -> tuple[list[str], bool]:
     """Decompose one combination of each class; returns the lines to print and whether all is known.
@@ -25,7 +24,6 @@ def run_all_modes(
         UsageError: for bad input, or an export that cannot be written.
     """
     from nag.files.modes_export import write_modes
-    from nag.files.written_file import TargetError
     from nag.mechanism.mode_decomposition import decompose_modes
     from nag.mechanism.model import ModelError
     from nag.report.modes import modes_lines
@@ -42,10 +40,8 @@ def run_all_modes(
         )
     except ModelError as error:
         raise UsageError(f"{arguments.case}: {error}") from None
-    lines = modes_lines(answer, case.title, time.perf_counter() - started)
+    lines = modes_lines(answer, case.title, seconds(arguments))
     if arguments.json is not None:
-        try:
+        with writing_json(lines):
             write_modes(answer, arguments.json, case)
-        except TargetError as error:
-            raise UsageError(f"--json: {error}", lines) from None
     return lines, answer.complete

@@ -172,15 +172,3 @@ def only_assembled(file: str, case: Case, option: str) -> UsageError:
     if case.assembly is not None:
         what = f'is of kind "{case.kind}", whose parts are not assembled'
     return UsageError(f"{file}: {what}; {option} is for assembled mechanisms")
-
-
-def check_json(target: str, case: str = "") -> None:
-    """Refuse, before any work is done, a file that the answer could not be written to."""
-    from nag.files.written_file import TargetError, check_target
-
-    try:
-        check_target(target)
-    except TargetError as error:
-        raise UsageError(f"--json: {error}") from None
-    if os.path.exists(target) and os.path.exists(case) and os.path.samefile(target, case):
-        raise UsageError(f"--json: {target}: is the case file; name another file")

@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 
 from nag.cli import bench_decompose, bench_models
-from nag.cli.arguments import UsageError, check_json, whole
+from nag.cli.arguments import UsageError, whole
+from nag.cli.running import writing_json
 
 FOLDER = Path("cases") / "benchmarks"
 # Another program is given up after so many seconds.
@@ -94,8 +95,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: if a benchmark cannot be read, or the table cannot be written.
     """
-    if options.json is not None:
-        check_json(options.json)
     if options.what == "models":
         return bench_models.run(options)
     if options.folder is None:
@@ -107,7 +106,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.bench.peers import installed, run_peer
     from nag.bench.table import table
     from nag.files.cases import CaseError, read_case
-    from nag.files.written_file import TargetError, write_target
+    from nag.files.written_file import write_target
     from nag.mechanism.model import ModelError, model
     from nag.solving.start.target import StartError
 
@@ -138,8 +137,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         documents = {
             name: {p: peer.document() for p, peer in found.items()} for name, found in peers.items()
         }
-        try:
+        with writing_json():
             write_target(options.json, as_json(rows, rate, documents))
-        except TargetError as error:
-            raise UsageError(f"--json: {error}") from None
     return table(rows, peers, programs, rate), all(row.right for row in rows)

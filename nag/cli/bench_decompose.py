@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import UsageError
+from nag.cli.running import writing_json
 
 if TYPE_CHECKING:
     from nag.bench.decomposition import Decomposed, PeerDecomposed
@@ -67,12 +68,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         raise UsageError("--chart: is drawn with --growth; ask for that as well")
     if options.chart is not None and importlib.util.find_spec("matplotlib") is None:
         raise UsageError('--chart: matplotlib is missing; install it with pip install "nag[plot]"')
-    for name in ("json", "chart"):
-        if getattr(options, name) is not None:
-            try:
-                check_target(getattr(options, name))
-            except TargetError as error:
-                raise UsageError(f"--{name}: {error}") from None
+    if options.chart is not None:
+        try:
+            check_target(options.chart)
+        except TargetError as error:
+            raise UsageError(f"--chart: {error}") from None
 
     from nag.bench.decomposition import as_json, growth, growth_chart
     from nag.bench.table import decomposition_table, growth_table
@@ -90,10 +90,8 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         rows, peers = _cases(options)
         lines = decomposition_table(rows, peers)
     if options.json is not None:
-        try:
+        with writing_json():
             write_target(options.json, as_json(rows, peers))
-        except TargetError as error:
-            raise UsageError(f"--json: {error}") from None
     return lines, all(row.right for row in rows)
 
 

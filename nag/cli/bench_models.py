@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from nag.cli.arguments import UsageError
+from nag.cli.running import writing_json
 
 FOLDER = Path("cases")
 # A formulation is given up after so many seconds.
@@ -44,7 +45,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.bench.table import models_table
     from nag.files.cases import CaseError, read_case
     from nag.files.dh_case import is_table
-    from nag.files.written_file import TargetError, write_target
+    from nag.files.written_file import write_target
     from nag.mechanism.model import ModelError
 
     rows = []
@@ -68,8 +69,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             raise UsageError(f"{path}: {error}") from None
     if options.json is not None:
         text = json.dumps({"format": "nag-bench-models", "rows": [r.document() for r in rows]})
-        try:
+        with writing_json():
             write_target(options.json, text + "\n")
-        except TargetError as error:
-            raise UsageError(f"--json: {error}") from None
     return models_table(rows), all(r.complete for r in rows if r.paths is not None)

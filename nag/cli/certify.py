@@ -7,7 +7,8 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import UsageError, check_json
+from nag.cli.arguments import UsageError
+from nag.cli.running import writing_json
 
 if TYPE_CHECKING:
     from nag.solving.certificate import SolutionsCertificate
@@ -54,18 +55,13 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         UsageError: if the export cannot be read, or the certificate cannot be written.
     """
     from nag.files.certificate_export import write_certificate
-    from nag.files.written_file import TargetError
     from nag.report.table import labelled, printable, system_line
 
-    if options.json is not None:
-        check_json(options.json, options.export)
     found, title = _read(options.export)
     proved = certified(found, options.paths)
     if options.json is not None:
-        try:
+        with writing_json():
             write_certificate(proved.certificate, options.json, proved.paths)
-        except TargetError as error:
-            raise UsageError(f"--json: {error}") from None
     rows = [("system", system_line(found.system)), *proved.rows]
     return [printable(title), "", *labelled(rows)], proved.all_proved
 

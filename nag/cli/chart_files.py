@@ -6,7 +6,8 @@ import argparse
 import importlib.util
 from collections.abc import Callable
 
-from nag.cli.arguments import UsageError, check_json
+from nag.cli.arguments import UsageError
+from nag.cli.running import writing_json
 
 KINDS = (".svg", ".png", ".pdf")
 
@@ -19,8 +20,6 @@ def check_targets(options: argparse.Namespace) -> None:
     """
     from nag.files.written_file import TargetError, check_target
 
-    if options.json is not None:
-        check_json(options.json)
     for path in options.picture or ():
         if not path.endswith(KINDS):
             raise UsageError(f"--picture: {path}: name a file that ends in {', '.join(KINDS)}")
@@ -39,14 +38,11 @@ def write_text(path: str | None, text: str) -> None:
     Raises:
         UsageError: if it cannot be written.
     """
-    from nag.files.written_file import TargetError, write_target
+    from nag.files.written_file import write_target
 
-    if path is None:
-        return
-    try:
-        write_target(path, text)
-    except TargetError as error:
-        raise UsageError(f"--json: {error}") from None
+    if path is not None:
+        with writing_json():
+            write_target(path, text)
 
 
 def write_picture(path: str, draw: Callable[[str], None]) -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
+from nag.cli.running import run_row
 
 if TYPE_CHECKING:
     from nag.check.statement import Statement, Verdict
@@ -32,7 +32,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """
     from nag.cli.progress import compilation_notice, progress_line
 
-    started = time.perf_counter()
     if options.all == (options.case is not None):
         raise UsageError("give either a case file or --all, and not both")
     if options.all and options.set:
@@ -50,9 +49,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
     lines = [line for title, pairs in decided for line in section(title, pairs)]
     pairs = [pair for _, rows in decided for pair in rows]
-    seconds = time.perf_counter() - started
-    run_text = f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"
-    lines += labelled([("answer", summary(pairs)), ("run", run_text)])
+    lines += labelled([("answer", summary(pairs)), run_row(options)])
     return lines, all(settled(*pair) for pair in pairs)
 
 

@@ -32,6 +32,7 @@ from nag.cli import (
     solve,
 )
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
+from nag.cli.running import begin
 
 FROM_COMPONENTS = (
     "The components are those of an export of `nag decompose --json`, or of a case, which is "
@@ -198,6 +199,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         except SystemExit:  # after --help or --version
             _print()
             return COMPLETE
+        begin(arguments)
         lines, complete = arguments.module.run(arguments)
         _print(lines)
         return COMPLETE if complete else INCOMPLETE

@@ -4,27 +4,26 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import (
     UsageError,
     add_case,
     add_running,
-    check_json,
     only_assembled,
     read_problem,
     whole,
 )
 from nag.cli.certify import add_certify, certified
+from nag.cli.running import seconds
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
 
 if TYPE_CHECKING:
-    from nag.decomposition.superset import Progress
     from nag.files.cases import Case
     from nag.files.export import Origin
     from nag.mechanism.model import Model
+    from nag.witness.fibres import Progress
     from nag.witness.witness import Decomposition
 
 MOST_STARTS = 10**6
@@ -88,11 +87,8 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     """
     if arguments.sweep is not None:
         return run_sweep(arguments)
-    started = time.perf_counter()
     if arguments.starts is not None and arguments.method != "sampling":
         raise UsageError("--starts: is for --method sampling")
-    if arguments.json is not None:
-        check_json(arguments.json, arguments.case)
     case, model = read_problem(arguments)
     model = _in_coordinates(arguments, case, model)
 
@@ -109,7 +105,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         if arguments.modes == "all":
             from nag.cli.all_modes import run_all_modes
 
-            return run_all_modes(arguments, case, started, progress)
+            return run_all_modes(arguments, case, progress)
         case, model, decomposition = _decomposed(arguments, case, model, progress)
         if arguments.expand:
             decomposition = expanded(decomposition)
@@ -121,8 +117,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
 
     decomposition = accounted(decomposition, points)
     failure = _unwritten(decomposition, arguments.json, origin(case, model))
-    seconds = time.perf_counter() - started
-    lines = answer_lines(decomposition, case, model, points, seconds)
+    lines = answer_lines(decomposition, case, model, points, seconds(arguments))
     if failure is not None:
         raise UsageError(failure, lines)
     if not (arguments.certify or arguments.certify_paths):

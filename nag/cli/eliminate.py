@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_running, check_json, read_problem
+from nag.cli.arguments import UsageError, add_running, read_problem, whole
+from nag.cli.running import seconds
 from nag.cli.witness_input import (
     add_input,
     component_number,
@@ -31,12 +31,7 @@ MOST_DEGREE = 100
 
 
 def _degree(text: str) -> int:
-    digits = text.strip()
-    if not (digits.isascii() and digits.isdigit() and 0 < len(digits) < 10):
-        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a whole number from 1 up")
-    if not 1 <= int(digits) <= MOST_DEGREE:
-        raise argparse.ArgumentTypeError(f"{digits} is not between 1 and {MOST_DEGREE}")
-    return int(digits)
+    return whole(text, 1, MOST_DEGREE)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -80,9 +75,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """
     from nag.cli.progress import compilation_notice, progress_line
 
-    started = time.perf_counter()
-    if options.json is not None:
-        check_json(options.json, options.case)
     if options.at is not None and options.component is not None:
         raise UsageError("--at: --component names a component already; give one of the two")
     with compilation_notice(sys.stderr, options.quiet):
@@ -100,7 +92,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     complete = not found.note and not tail
     if options.json is not None:
         write_document(_document(found, origin, options, complete), options.json)
-    return _lines(found, origin["title"], top, tail, options, started), complete
+    return _lines(found, origin["title"], top, tail, options), complete
 
 
 def _lines(
@@ -109,7 +101,6 @@ def _lines(
     top: list[tuple[str, str]],
     tail: list[tuple[str, str]],
     options: argparse.Namespace,
-    started: float,
 ) -> list[str]:
     from nag.report.elimination import elimination_lines, essential_text, image_text
     from nag.report.table import labelled, printable
@@ -130,7 +121,7 @@ def _lines(
             "run",
             f"seed {options.seed}, settings {options.settings}, "
             + (f"coefficients recognised in {found.digits} digits, " if found.digits else "")
-            + f"{time.perf_counter() - started:.1f} s",
+            + f"{seconds(options):.1f} s",
         ),
     ]
     width = max(len(label) for label, _ in head + tail)

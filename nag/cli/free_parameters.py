@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from pathlib import Path
 
 from nag.cli.arguments import UsageError
+from nag.cli.running import run_row
 from nag.cli.witness_input import is_export, write_document
 
 FORMAT = "nag-singular-parameters"
 
 
-def run(options: argparse.Namespace, started: float) -> tuple[list[str], bool]:
+def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """Solve for parameters as well; returns the lines to print and whether all is known.
 
     Raises:
@@ -65,8 +65,7 @@ def run(options: argparse.Namespace, started: float) -> tuple[list[str], bool]:
         write_document(document, options.json)
     rows = [("singular", text) for text in found.texts()] or [("singular", "for no parameters")]
     rows += [("open", note) for note in found.notes]
-    seconds = time.perf_counter() - started
     rows.append(("paths", paths_text(found.paths)))
-    rows.append(("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"))
+    rows.append(run_row(options))
     body = labelled([(label, printable(text)) for label, text in rows])
     return [printable(title), "", *body], found.complete

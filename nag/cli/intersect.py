@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_running, check_json
+from nag.cli.arguments import UsageError, add_running
+from nag.cli.running import run_row
 from nag.cli.witness_input import (
     add_input,
     component_number,
@@ -47,9 +47,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """
     from nag.cli.progress import compilation_notice, progress_line
 
-    started = time.perf_counter()
-    if options.json is not None:
-        check_json(options.json, options.case)
     with compilation_notice(sys.stderr, options.quiet):
         from nag.decomposition.intersection import IntersectionError, intersect_components
 
@@ -71,8 +68,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if options.json is not None:
         document = head(found, FORMAT, options) | _document(options, pair, result, complete)
         write_document(document, options.json)
-    seconds = time.perf_counter() - started
-    top, tail = _rows(options, pair, result, complete, seconds)
+    top, tail = _rows(options, pair, result, complete)
     return _lines(found.title, top, result, tail), complete
 
 
@@ -107,7 +103,6 @@ def _rows(
     pair: Sequence[WitnessSet],
     result: Decomposition,
     complete: bool,
-    seconds: float,
 ) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     """What is written above the table, and below it."""
     from nag.report.table import paths_line, remarks, title_line
@@ -124,7 +119,7 @@ def _rows(
     tail += [("open", f"component {number} is undecided") for number in undecided]
     tail += [
         ("paths", paths_line(result)),
-        ("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"),
+        run_row(options),
     ]
     return top, tail
 

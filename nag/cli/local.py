@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_case, add_running, check_json, read_problem
-from nag.cli.witness_input import Points, point_at, write_document
+from nag.cli.arguments import UsageError, add_case, add_running, read_problem
+from nag.cli.running import seconds
+from nag.cli.witness_input import Points, add_point, named_point, point_at, write_document
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -27,15 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag local`` has besides those of every command that runs a case."""
     add_case(parser)
     add_running(parser)
-    parser.add_argument(
-        "point",
-        metavar="POINT",
-        nargs="?",
-        help="name of a point of the case; of a mechanism, 'reference' (default: all points)",
-    )
-    parser.add_argument(
-        "--at", metavar="VALUES", help="the point itself: 'x = 1/2, y = sqrt(3)/2', all variables"
-    )
+    add_point(parser, " (default: all points)")
     parser.add_argument(
         "--check",
         action="store_true",
@@ -49,9 +41,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    started = time.perf_counter()
-    if options.json is not None:
-        check_json(options.json, options.case)
     case, model = read_problem(options)
     from nag.files.problem import system_of
     from nag.report.local import local_rows
@@ -72,8 +61,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         lines += ["", *labelled([(label, printable(text)) for label, text in rows], 10)]
     if options.json is not None:
         write_document(_document(found, chosen, system, case, options, complete), options.json)
-    seconds = time.perf_counter() - started
-    run_line = ("run", f"seed {options.seed}, {seconds:.1f} s")
+    run_line = ("run", f"seed {options.seed}, {seconds(options):.1f} s")
     return [*lines, "", *labelled([run_line], 10)], complete
 
 
@@ -85,7 +73,6 @@ def chosen_points(
     Raises:
         UsageError: if there are none, or the asked one does not exist.
     """
-    from nag.algebra.tokens import nearest, quote
     from nag.files.problem import points_of, system_of
 
     if options.at is not None:
@@ -95,16 +82,9 @@ def chosen_points(
     points: Points = dict(points_of(case, model))
     if model is not None:
         points = {"reference": tuple(model.reference)}
-    if not points:
-        raise UsageError(f"{options.case}: has no named points; use --at")
-    if options.point is None:
+    if options.point is None and points:
         return points
-    if options.point not in points:
-        raise UsageError(
-            f"{options.case}: has no point {quote(options.point)}"
-            f"{nearest(options.point, points)}; it has {', '.join(map(quote, points))}"
-        )
-    return {options.point: points[options.point]}
+    return {options.point: named_point(options.case, options.point, points)}
 
 
 def judged(

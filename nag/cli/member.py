@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_running, check_json
+from nag.cli.arguments import UsageError, add_running
+from nag.cli.running import run_row
 from nag.cli.witness_input import (
     Given,
     Points,
     add_input,
+    add_point,
     doubts,
     given,
     head,
     like,
+    named_point,
     point_at,
     write_document,
 )
@@ -33,15 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments that ``nag member`` has besides those of every command that runs a case."""
     add_input(parser)
     add_running(parser)
-    parser.add_argument(
-        "point",
-        metavar="POINT",
-        nargs="?",
-        help="name of a point of the case; of a mechanism, 'reference'",
-    )
-    parser.add_argument(
-        "--at", metavar="VALUES", help="the point itself: 'x = 1/2, y = sqrt(3)/2', all variables"
-    )
+    add_point(parser)
 
 
 def run(options: argparse.Namespace) -> tuple[list[str], bool]:
@@ -56,9 +50,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.algebra.number import is_zero, number_text
     from nag.cli.progress import compilation_notice
 
-    started = time.perf_counter()
-    if options.json is not None:
-        check_json(options.json, options.case)
     if (options.point is None) == (options.at is None):
         raise UsageError("give either the name of a point of the case or --at, and not both")
     with compilation_notice(sys.stderr, options.quiet):
@@ -100,25 +91,15 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             ],
         }
         write_document(document, options.json)
-    seconds = time.perf_counter() - started
-    return _lines(options, found, texts, exact, residual, answers, seconds), complete
+    return _lines(options, found, texts, exact, residual, answers), complete
 
 
 def _point(
     options: argparse.Namespace, variables: Sequence[str], points: Points
 ) -> tuple[Number, ...]:
-    from nag.algebra.tokens import nearest, quote
-
     if options.at is not None:
         return point_at(options.at, variables)
-    if not points:
-        raise UsageError(f"{options.case}: has no named points; use --at")
-    if options.point not in points:
-        raise UsageError(
-            f"{options.case}: has no point {quote(options.point)}"
-            f"{nearest(options.point, points)}; it has {', '.join(map(quote, points))}"
-        )
-    return points[options.point]
+    return named_point(options.case, options.point, points)
 
 
 def _lines(
@@ -128,7 +109,6 @@ def _lines(
     exact: bool,
     residual: float,
     answers: tuple[Any, ...],
-    seconds: float,
 ) -> list[str]:
     from nag.report.table import align, labelled, magnitude, printable
     from nag.witness.membership import Membership
@@ -165,7 +145,7 @@ def _lines(
     if undecided:
         numbers = ", ".join(str(i + 1) for i in undecided)
         tail.append(("open", f"membership could not be decided for component {numbers}"))
-    tail.append(("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"))
+    tail.append(run_row(options))
     top = [("point", printable(point)), ("equations", equations), ("answer", text)]
     width = max(len(label) for label, _ in top + tail)
     return [

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
@@ -13,10 +12,10 @@ from nag.cli.arguments import (
     UsageError,
     add_case,
     add_running,
-    check_json,
     read_case_file,
     read_problem,
 )
+from nag.cli.running import run_row
 from nag.cli.witness_input import point_at, write_document
 
 if TYPE_CHECKING:
@@ -63,9 +62,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    started = time.perf_counter()
-    if options.json is not None:
-        check_json(options.json, options.case)
     case, made = _mechanism(options)
     variables = _variables(case, made)
     at = None if options.at is None else point_at(options.at, variables)
@@ -91,8 +87,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if options.json is not None:
         point = at or _reference(case, made)
         write_document(_document(case, options, point, report, compared, complete), options.json)
-    seconds = time.perf_counter() - started
-    rows.append(("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"))
+    rows.append(run_row(options))
     body = labelled([(label, printable(text)) for label, text in rows])
     return [printable(case.title), "", *body], complete
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import add_running, check_json
+from nag.cli.arguments import add_running, whole
+from nag.cli.running import run_row
 from nag.cli.witness_input import (
     Given,
     add_input,
@@ -31,12 +31,7 @@ MOST_ROWS, MOST_COLUMNS = 20, 4
 
 
 def _count(text: str) -> int:
-    digits = text.strip()
-    if not (digits.isascii() and digits.isdigit() and len(digits) < 10):
-        raise argparse.ArgumentTypeError(f"{text[:30]!r} is not a whole number from 1 up")
-    if not 1 <= int(digits) <= MOST_SAMPLES:
-        raise argparse.ArgumentTypeError(f"{digits} is not between 1 and {MOST_SAMPLES}")
-    return int(digits)
+    return whole(text, 1, MOST_SAMPLES)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -63,9 +58,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """
     from nag.cli.progress import compilation_notice
 
-    started = time.perf_counter()
-    if options.json is not None:
-        check_json(options.json, options.case)
     with compilation_notice(sys.stderr, options.quiet):
         from nag.witness.sampling import SamplingError, sample
 
@@ -98,8 +90,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             "points": pairs(samples.points),
         }
         write_document(document, options.json)
-    seconds = time.perf_counter() - started
-    return _lines(options, found, component, samples, doubt, seconds), complete
+    return _lines(options, found, component, samples, doubt), complete
 
 
 def _lines(
@@ -108,7 +99,6 @@ def _lines(
     component: WitnessSet,
     samples: Samples,
     doubt: str,
-    seconds: float,
 ) -> list[str]:
     from nag.report.table import align, labelled, magnitude, printable
 
@@ -124,7 +114,7 @@ def _lines(
         ("residual", f"{magnitude(samples.residual)}, accuracy {magnitude(samples.accuracy)}"),
         *([("open", doubt)] if doubt else []),
         *doubts(found),
-        ("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"),
+        run_row(options),
     ]
     if len(samples.points) > MOST_ROWS:
         tail.insert(0, ("points", f"{len(samples.points)}, the first {MOST_ROWS} are shown"))

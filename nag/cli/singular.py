@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from typing import TYPE_CHECKING, Any
 
 from nag.cli import free_parameters
-from nag.cli.arguments import add_running, check_json
+from nag.cli.arguments import add_running
+from nag.cli.running import run_row
 from nag.cli.witness_input import (
     Given,
     add_input,
@@ -51,11 +51,8 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    started = time.perf_counter()
-    if options.json is not None:
-        check_json(options.json, options.case)
     if options.free is not None:
-        return free_parameters.run(options, started)
+        return free_parameters.run(options)
     from nag.cli.progress import compilation_notice
 
     with compilation_notice(sys.stderr, options.quiet):
@@ -74,7 +71,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     complete = locus.complete and found.decomposition.complete
     if options.json is not None:
         write_document(_document(found, locus, options, complete), options.json)
-    return _lines(found, locus, options, time.perf_counter() - started), complete
+    return _lines(found, locus, options), complete
 
 
 def _document(
@@ -92,9 +89,7 @@ def _document(
     }
 
 
-def _lines(
-    found: Given, locus: SingularLocus, options: argparse.Namespace, seconds: float
-) -> list[str]:
+def _lines(found: Given, locus: SingularLocus, options: argparse.Namespace) -> list[str]:
     from nag.report.singular import answer_rows, set_lines
     from nag.report.table import labelled, paths_text, printable
 
@@ -102,7 +97,7 @@ def _lines(
     top = answer_rows(locus, decomposition)
     tail = [("open", note) for note in locus.notes] + doubts(found)
     tail.append(("paths", paths_text(locus.paths)))
-    tail.append(("run", f"seed {options.seed}, settings {options.settings}, {seconds:.1f} s"))
+    tail.append(run_row(options))
     width = max(len(label) for label, _ in top + tail)
     lines = [printable(found.title), "", *labelled(top, width), ""]
     for one in locus.sets:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-import time
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import UsageError, add_case, add_running, check_json, read_problem
+from nag.cli.arguments import UsageError, add_case, add_running, read_problem
 from nag.cli.certify import add_certify, certified
+from nag.cli.running import seconds, writing_json
 
 if TYPE_CHECKING:
     from nag.algebra.system import PolynomialSystem
@@ -42,14 +42,10 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """
     from nag.cli.progress import compilation_notice, progress_line
     from nag.files.problem import system_of
-    from nag.files.written_file import TargetError
     from nag.report.solutions import solution_lines
     from nag.report.table import labelled
     from nag.solving.start.target import StartError
 
-    started = time.perf_counter()
-    if options.json is not None:
-        check_json(options.json, options.case)
     case, model = read_problem(options)
     system = system_of(case, model)
     try:
@@ -71,12 +67,9 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if options.json is not None:
         from nag.files.solutions_export import write_solutions
 
-        try:
+        with writing_json():
             write_solutions(result, options.json, case.title, os.path.basename(options.case))
-        except TargetError as error:
-            raise UsageError(f"--json: {error}") from None
-    seconds = time.perf_counter() - started
-    lines = solution_lines(result, case, model, seconds)
+    lines = solution_lines(result, case, model, seconds(options))
     if not (options.certify or options.certify_paths):
         return lines, result.complete
     proved = certified(result, options.certify_paths)

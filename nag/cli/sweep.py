@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-import time
 from dataclasses import dataclass
 from fractions import Fraction
 
 from nag.cli.arguments import UsageError, read_problem
+from nag.cli.running import seconds
 
 MOST_VALUES = 1000
 _NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
@@ -63,7 +63,6 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         if given:
             raise UsageError(f"--sweep: prints a table; leave out {option}")
     asked: Sweep = arguments.sweep
-    started = time.perf_counter()
     settings = list(arguments.set)
     if any(name == asked.name for name, _ in settings):
         raise UsageError(f"--sweep: {asked.name} is set by --set as well; leave one of them out")
@@ -91,6 +90,5 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
             threads=arguments.threads,
             settings=arguments.settings,
         )
-    seconds = time.perf_counter() - started
     complete = all(each.decomposition.complete for each in swept)
-    return sweep_lines(case.title, asked.name, swept, seconds), complete
+    return sweep_lines(case.title, asked.name, swept, seconds(arguments)), complete

@@ -6,7 +6,6 @@ Components are numbered from 1 in the order of the export; of an orbit, each one
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_formulation, read_problem
+from nag.cli.running import writing_json
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -128,6 +128,37 @@ def component_of(found: Given, number: int, option: str) -> WitnessSet:
     return components[number - 1]
 
 
+def add_point(parser: argparse.ArgumentParser, otherwise: str = "") -> None:
+    """The arguments for a point: its name, or its coordinates."""
+    parser.add_argument(
+        "point",
+        metavar="POINT",
+        nargs="?",
+        help=f"name of a point of the case; of a mechanism, 'reference'{otherwise}",
+    )
+    parser.add_argument(
+        "--at", metavar="VALUES", help="the point itself: 'x = 1/2, y = sqrt(3)/2', all variables"
+    )
+
+
+def named_point(file: str, name: str, points: Points) -> tuple[Number, ...]:
+    """The point of a case that has a name.
+
+    Raises:
+        UsageError: if there is none.
+    """
+    from nag.algebra.tokens import nearest, quote
+
+    if not points:
+        raise UsageError(f"{file}: has no named points; use --at")
+    if name not in points:
+        raise UsageError(
+            f"{file}: has no point {quote(name)}{nearest(name, points)}; it has "
+            f"{', '.join(map(quote, points))}"
+        )
+    return points[name]
+
+
 def point_at(text: str, variables: Sequence[str]) -> tuple[Number, ...]:
     """The point that ``"x = 0, y = 1/2"`` spells, exact.
 
@@ -182,13 +213,6 @@ def head(found: Given, kind: str, options: argparse.Namespace) -> dict[str, Any]
     }
 
 
-def schema(kind: str) -> dict[str, Any]:
-    """The JSON Schema of ``"nag-membership"``, ``"nag-samples"`` or ``"nag-intersection"``."""
-    from importlib import resources
-
-    return json.loads((resources.files("nag.files") / "schema" / f"{kind}-1.json").read_text())
-
-
 def write_document(document: dict[str, Any], target: str) -> None:
     """Write a document as JSON.
 
@@ -196,12 +220,10 @@ def write_document(document: dict[str, Any], target: str) -> None:
         UsageError: if the file cannot be written.
     """
     from nag.files.json_text import lay_out
-    from nag.files.written_file import TargetError, write_target
+    from nag.files.written_file import write_target
 
-    try:
+    with writing_json():
         write_target(target, lay_out(document) + "\n")
-    except TargetError as error:
-        raise UsageError(f"--json: {error}") from None
 
 
 def doubts(found: Given) -> list[tuple[str, str]]:

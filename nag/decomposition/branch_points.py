@@ -19,7 +19,7 @@ import flint
 import numpy as np
 
 from nag.numerics.digits import doubles, log_norm, log_size, middle, number, working
-from nag.numerics.exact_system import ExactSystem
+from nag.numerics.exact_system import ExactSystem, value
 from nag.numerics.implicit_function import jacobian
 from nag.numerics.power_series import Terms
 from nag.witness.fibres import Fibre, Tracker, move
@@ -128,7 +128,7 @@ def _square(
     y = [middle(number(complex(c)) / u) for c, u in zip(x, units, strict=True)]
     for _ in range(NEWTON_STEPS):
         matrix = flint.acb_mat(jacobian(rows, y))
-        right = flint.acb_mat([[_value(row, y)] for row in rows])
+        right = flint.acb_mat([[value(row, y)] for row in rows])
         step = [middle(c) for (c,) in matrix.solve(right).tolist()]
         y = [middle(a - b) for a, b in zip(y, step, strict=True)]
         if log_norm(step) < ARRIVED:
@@ -139,16 +139,6 @@ def _square(
     speed = matrix.solve(unit).tolist()
     derivative = sum((w * v for w, (v,) in zip(form, speed, strict=True)), flint.acb(0))
     return middle(derivative * derivative)
-
-
-def _value(row: Terms, y: Sequence[flint.acb]) -> flint.acb:
-    total = flint.acb(0)
-    for e, c in row:
-        for x, k in zip(y, e, strict=True):
-            if k:
-                c = c * x**k
-        total = total + c
-    return total
 
 
 def _loewner(at: Sequence[complex], values: Sequence[flint.acb]) -> list[list[flint.acb]]:

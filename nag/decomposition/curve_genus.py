@@ -22,7 +22,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_points import BranchPointError, Sheets, branch_points
 from nag.decomposition.factor import IntersectionError
-from nag.decomposition.monodromy import located
+from nag.decomposition.monodromy import places_among
 from nag.decomposition.rank_drop import rank_drop
 from nag.numerics.coincidence import clusters
 from nag.witness.fibres import Fibre, Tracker, move
@@ -195,7 +195,7 @@ class _Cover:
             ends_of.append(points[:, : fibre.cut.n])
         start = np.vstack([fibre.x for fibre in self.sheets.fibres])
         end = np.vstack(ends_of)
-        images = located(end, start)
+        images = places_among(end, start)
         if images is None or sorted(images.tolist()) != list(range(len(start))):
             raise GenusError("sheets were mixed up on the way")
         return images

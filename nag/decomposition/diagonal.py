@@ -16,17 +16,19 @@ from fractions import Fraction
 
 import numpy as np
 
+from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import forbidden
+from nag.decomposition.superset import ROUNDED, forbidden
 from nag.numerics.coincidence import clusters, coincident, compared
+from nag.numerics.zero_values import possible_zeros
 from nag.witness.cutting import NEAR, Cut, regular_on, sharpen
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.moving import orthonormal_rows
-from nag.witness.slices import random_rows, unit_complex
+from nag.witness.slices import padded, random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
 
@@ -216,16 +218,34 @@ class _Diagonal:
         near, _ = compared(self.product.gaps(z), accuracy)
         self.take(z[near], np.full(int(near.sum()), accuracy), 0)
 
+    def allowed(self, x: np.ndarray, accuracy: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        """At which points nothing vanishes that must not; decided in digits at those near it."""
+        reduced, unclear = self.common.reduced, 0
+        result = ~forbidden(self.common.nonzero, x, accuracy)
+        for i in np.flatnonzero(~result):
+            error, slices = max(float(accuracy[i]), ROUNDED), padded(rows, 1 + x.shape[1])
+            rng = np.random.default_rng(0)
+            zeros = possible_zeros(reduced.polynomials, x[i], error, rng, slices)
+            there = {any(vanish_at([g], z.digits) for g in reduced.nonzero) for z in zeros}
+            result[i] = there == {False}
+            unclear += len(there) != 1
+        if unclear:
+            self.result.notes.append(f"{unclear} points may be such as are excluded")
+        return result
+
     def take(self, z: np.ndarray, accuracy: np.ndarray, d: int) -> None:
         """Add ends of dimension ``d`` on the diagonal, unless larger sets hold them."""
         common, result = self.common, self.result
         first = self.product.first
         x = first.reduction.frame.points(z[:, : first.n])[:, common.kept]
-        allowed = ~forbidden(common.nonzero, x, accuracy)
+        if not len(x):
+            return
+        rows = self.product.common_rows(self.flag[:d], common)
+        allowed = self.allowed(x, accuracy, rows)
         x, accuracy = x[allowed], accuracy[allowed]
         if not len(x):
             return
-        rows = result.rows[d] = self.product.common_rows(self.flag[:d], common)
+        result.rows[d] = rows
         fibres = result.fibres[d] = []
         place = common.equations, rows, self.rng
         lost = 0

@@ -19,15 +19,14 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import most_zeros
 from nag.decomposition.symmetric_images import in_orbits
-from nag.solving.solutions import Solution
+from nag.numerics.coincidence import coincident
+from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError
 from nag.witness.cutting import dyadic, numerical_corank
 from nag.witness.fibres import Tracker
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet, even_radii
 
-# Solutions that are the same, found by two ways: relative distance.
-SAME = 1e-8
 # Singular values of a Jacobian, relative to its size, that count as zero at a multiple point.
 ZERO = 1e-9
 # Values of an equation, beside their terms, that are certainly not zero.
@@ -53,12 +52,8 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
     for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
         plane = plane + x * Fraction(float(weight))
     cut = PolynomialSystem(system.variables, (*others, plane))
-    seed = int(rng.integers(2**31))
-    try:
-        found = solve(
-            cut, seed=seed, threads=tracker.threads, settings=tracker.settings, finite=True
-        )
-    except StartError:
+    found = _solved(cut, rng, tracker)
+    if found is None:
         return False
     last = Evaluator.of([system.polynomials[hardest]], n)
     met = bool((last.residuals(found.points) <= NONZERO).any())
@@ -66,6 +61,17 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
         return True
     # What paths leave open may be proved.
     return not met and most_zeros(system.polynomials) is not None
+
+
+def _solved(
+    system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker
+) -> SolveResult | None:
+    """The isolated solutions of a system; None if it has no start system."""
+    seed, how = int(rng.integers(2**31)), {"settings": tracker.settings, "threads": tracker.threads}
+    try:
+        return solve(system, seed=seed, finite=True, **how)
+    except StartError:
+        return None
 
 
 def solved_at_once(
@@ -77,14 +83,8 @@ def solved_at_once(
     """The points of a solution set, if it is finite and the solver has no doubts."""
     if len(system.polynomials) < system.n:
         return None
-    seed = int(rng.integers(2**31))
-    try:
-        found = solve(
-            system, seed=seed, threads=tracker.threads, settings=tracker.settings, finite=True
-        )
-    except StartError:
-        return None
-    if not found.complete or found.positive_dimensional:
+    found = _solved(system, rng, tracker)
+    if found is None or not found.complete or found.positive_dimensional:
         return None
     evaluator = Evaluator.of(system.polynomials, system.n)
     components = [_component(s, evaluator, system) for s in found.solutions]
@@ -142,11 +142,11 @@ def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSyste
 def contains(answer: Decomposition, other: Decomposition) -> bool:
     """Whether all points that ``other`` is sure of are points of ``answer`` as well."""
     points = np.vstack([c.points for c in answer.components] or [np.zeros((0, answer.system.n))])
+    error = max((c.accuracy for c in answer.components), default=0.0)
     for component in other.components:
         if component.status is Status.UNDECIDED:
             continue
         for x in component.points:
-            distance = np.linalg.norm(points - x, axis=1).min(initial=np.inf)
-            if distance > SAME * (1 + np.linalg.norm(x)):
+            if not coincident(points, x, max(error, component.accuracy)).any():
                 return False
     return True

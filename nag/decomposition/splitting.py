@@ -9,7 +9,7 @@ confirmed for all of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,8 +31,6 @@ ATTEMPTS = 4
 NOT_LINEAR = "its trace is not linear: points are missing, or loops did not join them"
 NO_TRACE = "the trace could not be computed"
 NO_DIGITS = "whether its trace is linear needs more digits"
-
-Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,21 +97,15 @@ def split(
     evidence: int,
     rng: np.random.Generator,
     tracker: Tracker,
-    *,
-    labels: Sequence[int] | None = None,
-    progress: Progress | None = None,
 ) -> Split:
     """Split points on a generic slice into irreducible components.
 
     Args:
         permutations: of the points, by symmetries.
         evidence: digits to which a trace must be linear.
-        labels: for each point the smallest index of those that are known to belong to its
-            component.
-        progress: called with a stage's name, the classes that are confirmed, and their number.
     """
     total = len(points)
-    known = np.arange(total) if labels is None else np.array(labels)
+    known = np.arange(total)
     if points.dimension == 0:
         classes = tuple(Class(np.array([i])) for i in range(total))
         return Split(points, known, classes, PathCounts())
@@ -124,9 +116,9 @@ def split(
     idle = 0
     for _ in range(MOST_LOOPS):
         open_points = state.open_points()
-        if progress is not None:
+        if tracker.progress is not None:
             number = len(np.unique(state.labels))
-            progress("splitting", number - len(np.unique(state.labels[open_points])), number)
+            tracker.tell("splitting", number - len(np.unique(state.labels[open_points])), number)
         if len(open_points) and not _tested(state, open_points, evidence, rng, tracker):
             break
         open_points = state.open_points()

@@ -47,9 +47,20 @@ class Superset:
 
 
 def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
-    """Order of intersection: lowest degree first, then fewest variables, then as given."""
-    keys = [(f.degree, len(f.support), i) for i, f in enumerate(equations)]
-    return [i for *_, i in sorted(keys)]
+    """Order of intersection: lowest degree first, then fewest new variables, fewest, as given.
+
+    Equations of one degree that share variables with those before lead to sets of lower degree than
+    products, as of the norms of all turns in a linkage.
+    """
+    left, known, order = list(range(len(equations))), frozenset(), []
+    supports = [frozenset(f.support) for f in equations]
+    while left:
+        keys = [(equations[i].degree, len(supports[i] - known), len(supports[i]), i) for i in left]
+        *_, best = min(keys)
+        left.remove(best)
+        order.append(best)
+        known |= supports[best]
+    return order
 
 
 def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:

@@ -5,10 +5,8 @@ The format is ``nag-certificate``, version 1; its JSON Schema is in ``schema/`` 
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Sequence
-from importlib import resources
 from typing import Any
 
 import flint
@@ -26,12 +24,6 @@ FORMAT = "nag-certificate"
 VERSION = 1
 # Most decimal digits of a zero for which doubles do not suffice.
 DIGITS = 60
-
-
-def schema() -> dict[str, Any]:
-    """The JSON Schema of the format."""
-    name = f"{FORMAT}-{VERSION}.json"
-    return json.loads((resources.files("nag.files") / "schema" / name).read_text("utf-8"))
 
 
 def _points(points: CertifiedPoints) -> list[dict[str, Any]]:

@@ -9,11 +9,9 @@ of version 2 without error radii, are read as well.
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -84,12 +82,6 @@ class Export:
 
     decomposition: Decomposition
     origin: Origin | None = None
-
-
-def schema() -> dict[str, Any]:
-    """The JSON Schema of the format."""
-    name = f"{FORMAT}-{VERSION}.json"
-    return json.loads((resources.files("nag.files") / "schema" / name).read_text("utf-8"))
 
 
 def component_document(component: WitnessSet, variables: Sequence[str]) -> dict[str, Any]:

@@ -6,9 +6,7 @@ The format is ``nag-modes``, version 1: for each class of modes its combinations
 
 from __future__ import annotations
 
-import json
 import os
-from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -50,12 +48,6 @@ def document(answer: ModesAnswer, case: Case) -> dict[str, Any]:
         "meetings": [list(meeting) for meeting in answer.meetings],
         "classes": classes,
     }
-
-
-def schema() -> dict[str, Any]:
-    """The JSON Schema of the format."""
-    name = f"{FORMAT}-{VERSION}.json"
-    return json.loads((resources.files("nag.files") / "schema" / name).read_text("utf-8"))
 
 
 def write_modes(answer: ModesAnswer, path: str | os.PathLike[str], case: Case) -> None:

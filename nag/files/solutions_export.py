@@ -6,10 +6,8 @@ A file holds nothing that differs between runs with the same seed.
 
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import dataclass, fields
-from importlib import resources
 from typing import Any
 
 from nag.files.json_text import lay_out, pairs, real_or_null, system_document
@@ -43,12 +41,6 @@ class SolutionsExport:
     result: SolveResult
     title: str | None = None
     file: str | None = None
-
-
-def schema() -> dict[str, Any]:
-    """The JSON Schema of the format."""
-    name = f"{FORMAT}-{VERSION}.json"
-    return json.loads((resources.files("nag.files") / "schema" / name).read_text("utf-8"))
 
 
 def _solution_document(solution: Solution) -> dict[str, Any]:

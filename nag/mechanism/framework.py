@@ -212,29 +212,6 @@ def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework:
     return placed_framework(dimension, exact, bars)
 
 
-def henneberg_order(framework: Framework) -> list[str] | None:
-    """The points in an order in which each has just two bars to earlier ones, or None.
-
-    The first two are joined by a bar. Such a graph of n points has 2^(n - 2) realisations in the
-    plane for general lengths (Henneberg's first construction).
-    """
-    neighbours = {
-        p: {q for bar in framework.bars if p in bar for q in bar} - {p} for p in framework.points
-    }
-    removed: list[str] = []
-    left = set(framework.points)
-    while len(left) > 2:
-        last = next(
-            (p for p in framework.points if p in left and len(neighbours[p] & left) == 2), None
-        )
-        if last is None:
-            return None
-        removed.append(last)
-        left.discard(last)
-    first = [p for p in framework.points if p in left]
-    return [*first, *reversed(removed)] if first[1] in neighbours[first[0]] else None
-
-
 def _rational_rank(matrix: list[list[Fraction]]) -> int:
     """The rank over the rationals, in integers without fractions (Bareiss)."""
     from math import lcm

@@ -15,7 +15,7 @@ from nag.mechanism.mode_classes import ModeClass, mode_classes
 from nag.mechanism.model import Model, ModelError, model, with_loops
 from nag.mechanism.row_reduction import row_echelon
 from nag.witness.expansion import expanded
-from nag.witness.witness import Decomposition, WitnessSet
+from nag.witness.witness import Decomposition
 
 Progress = Callable[[str, int, int], None]
 
@@ -140,12 +140,3 @@ def _meetings(
                 if intersect_components(system, first, second, **options).components:
                     found.add(pair)
     return sorted(found)
-
-
-def degree_counts(components: Sequence[WitnessSet]) -> dict[tuple[int, int], int]:
-    """How many components there are of each dimension and degree."""
-    counts: dict[tuple[int, int], int] = {}
-    for component in components:
-        key = component.dimension, component.degree
-        counts[key] = counts.get(key, 0) + component.orbit
-    return counts

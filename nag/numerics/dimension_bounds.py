@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from itertools import accumulate
 from typing import Any
 
@@ -14,6 +15,7 @@ import numpy as np
 from nag.algebra.elimination import Elimination
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.algebraic_point import prime_images
+from nag.numerics.curve_search import CurveSearch
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, Deflated
 from nag.numerics.descent import Round, work
@@ -125,7 +127,7 @@ def _at_zero(zero: Zero, rng: np.random.Generator) -> LocalDimension:
     images = _images(zero)
     arithmetic = f"modulo {len(images)} primes" if images[0].field.modulus else f"{DIGITS} digits"
     while True:
-        search = _Search(zero, lower, rng)
+        search = CurveSearch(SEARCHES, partial(_sliced_curve, zero, lower, rng))
         try:
             space = _dual_space(zero, images, lower, search.succeeds, rng)
         except (UnclearRank, _TooLarge) as reason:
@@ -247,26 +249,9 @@ def _in_image(
     return dual_space(field, m, series, HIGHEST, stop)
 
 
-@dataclass
-class _Search:
-    """Looks for a set of zeros through a point when its dual space has grown for some degrees."""
-
-    zero: Zero
-    hyperplanes: int
-    rng: np.random.Generator
-    dimension: int = 0
-    times: int = 0
-
-    def succeeds(self, hilbert: Sequence[int]) -> bool:
-        growing = list(hilbert[-3:]) == sorted(hilbert[-3:])
-        if self.times < len(SEARCHES) and growing and len(hilbert) > SEARCHES[self.times]:
-            self.times += 1
-            self.dimension = self._found(4 * self.times)
-        return self.dimension > 0
-
-    def _found(self, attempts: int) -> int:
-        sliced = _sliced(self.zero, self.hyperplanes, self.rng)
-        return 0 if sliced is None else curve_through(*sliced, self.rng, attempts)
+def _sliced_curve(zero: Zero, hyperplanes: int, rng: np.random.Generator, attempts: int) -> int:
+    sliced = _sliced(zero, hyperplanes, rng)
+    return 0 if sliced is None else curve_through(*sliced, rng, attempts)
 
 
 def _sliced(zero: Zero, k: int, rng: np.random.Generator) -> tuple[ExactSystem, Deflated] | None:

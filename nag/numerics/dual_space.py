@@ -87,7 +87,9 @@ def dual_space(
     ring, equations = series(min(2, highest))
     for degree in range(1, highest + 1):
         if degree > ring.order:
-            ring, equations = series(min(ring.order + max(2, ring.order // 2), highest))
+            # In many variables longer series cost more than making them again.
+            more = max(2, ring.order // 2) if m < 3 else max(1, ring.order // (m + 1))
+            ring, equations = series(min(ring.order + more, highest))
         found = _next(field, ring, equations, basis)
         if not found:
             return DualSpace(tuple(hilbert), True)

@@ -103,7 +103,7 @@ class ExactSystem:
 
     def vanishes_exactly(self, y: Sequence[Fraction]) -> bool:
         """Whether all rows vanish at a rational point."""
-        return all(_value(row, y) == 0 for row in self.rows)
+        return all(value(row, y) == 0 for row in self.rows)
 
 
 def modular(c: Fraction, p: int) -> int:
@@ -113,7 +113,8 @@ def modular(c: Fraction, p: int) -> int:
     return c.numerator * pow(c.denominator, -1, p) % p
 
 
-def _value(row: Terms, y: Sequence[Any]) -> Any:
+def value(row: Terms, y: Sequence[Any]) -> Any:
+    """The value of a row at a point, in the arithmetic of both."""
     total: Any = 0
     for e, c in row:
         for x, k in zip(y, e, strict=True):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from math import log10
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.clusters import close_zeros
+from nag.numerics.curve_search import CurveSearch
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
 from nag.numerics.descent import work
@@ -120,7 +120,7 @@ def _by_dual_space(system: ExactSystem, found: Deflated, rng: np.random.Generato
     exact = rational_point(found.point, DIGITS) if system.rational else None
     if exact is not None and not system.vanishes_exactly(exact):
         raise UnclearRank("the equations vanish to all digits, but not at the rational point there")
-    search = _Search(system, found, rng)
+    search = CurveSearch(SEARCHES, lambda attempts: curve_through(system, found, rng, attempts))
     spaces: list[DualSpace] = []
     for field in [PrimeField(p) for p in PRIMES] if exact is not None else [NUMBERS]:
         centre = found.point if exact is None else [modular(q, field.modulus) for q in exact]
@@ -136,24 +136,6 @@ def _by_dual_space(system: ExactSystem, found: Deflated, rng: np.random.Generato
     multiplicity = min(space.dimension for space in spaces)
     reason = f"the dual space, of degree {len(spaces[0].hilbert) - 1}"
     return _end(system, found, Place.ISOLATED, multiplicity, reason)
-
-
-@dataclass
-class _Search:
-    """Looks for a curve through a point when its dual space has grown for some degrees."""
-
-    system: ExactSystem
-    found: Deflated
-    rng: np.random.Generator
-    dimension: int = 0
-    times: int = 0
-
-    def succeeds(self, hilbert: Sequence[int]) -> bool:
-        growing = list(hilbert[-3:]) == sorted(hilbert[-3:])
-        if self.times < len(SEARCHES) and growing and len(hilbert) > SEARCHES[self.times]:
-            self.times += 1
-            self.dimension = curve_through(self.system, self.found, self.rng, 4 * self.times)
-        return self.dimension > 0
 
 
 class _TooLarge(Exception):

@@ -27,10 +27,10 @@ track.NONZERO         1e3      A coordinate over the error of a regular end that
                                digits.
 straight_run          1e-9     Newton corrections in doubles that need not contract any more.
 .ROUNDING
-straight_run          12       Steps behind the safe point before a path that does not get on goes
+straight_run          24       Steps behind the safe point before a path that does not get on goes
 .PATIENCE                      to more digits.
 ends.follow.KNOWN *   1e3      A coordinate over its rounding error that is not zero.
-ends.follow.TAIL      1e-11    Last terms of a path's power series that is taken to converge, for
+ends.runs.TAIL        1e-11    Last terms of a path's power series that is taken to converge, for
                                the winding number in question.
 ends.follow           16       Digits to which the exact equations' terms of least order must cancel
 .LEAST_EVIDENCE *              at a limit, so that coefficients that doubles rounded would show.
@@ -55,5 +55,10 @@ solve.ON *            1e-9     Residual of the equations, relative to their term
 coincidence.LEAST     1e-11    Least relative error of ends in doubles; those within a hundred times
                                their errors are looked at together: no decision, as what is one and
                                what is several is seen in 150 digits (`nag.numerics`).
+missing_zeros.SAFETY  1e3      Errors of a zero that was found in which no other one is looked for.
+tropical_zeros.APART  1e-3     Relative distance, beyond those errors, of a zero of extreme size
+                               from all that were found: nearer ones are for paths to find.
+missing_zeros         2^26     Sizes from which zeros are looked for where they cannot be counted;
+.EXTREME                       ends so far out may satisfy the least evidence of infinity.
 ====================  =======  =====================================================================
 """

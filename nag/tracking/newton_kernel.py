@@ -147,77 +147,79 @@ def _smallest(s, w):
     return size
 
 
+def _put(s, w, batch, first):
+    """The next eight points into the lanes; the last one again where there are fewer."""
+    for lane in range(8):
+        path = min(first + lane, batch.count - 1)
+        for j in range(s.N):
+            w.vr[8 * j + lane] = batch.points[s.N * path + j].real
+            w.vi[8 * j + lane] = batch.points[s.N * path + j].imag
+    store(w.tr, 0, splat(0.0))
+
+
+def _newton(s, w, low):
+    """Newton's step at the lanes' points, whose matrix is factorised, into the right-hand side."""
+    for j in range(s.N):
+        z.write(low.slots, j, z.exact(load(w.vr, j), load(w.vi, j)))
+    _residual(s, w, low)
+    substitute(s.N, w.jr, w.ji, w.pivots, w.br, w.bi)
+
+
+def _move(s, w):
+    """Take Newton's step, and its length into the first norm."""
+    store(w.norms, 0, _length(s, w))
+    for lane in range(8):
+        # A step that long, or not a number, belongs to a singular Jacobian.
+        if not w.norms[lane] < 0.5:
+            w.norms[lane] = np.inf
+            for j in range(s.N):
+                w.br[8 * j + lane] = 0.0
+                w.bi[8 * j + lane] = 0.0
+    for j in range(s.N):
+        store(w.vr, j, load(w.vr, j) + load(w.br, j))
+        store(w.vi, j, load(w.vi, j) + load(w.bi, j))
+
+
 def newton_batch(s: System, w: Work, low: Low, batch: Refinement) -> None:
     """Refine all points of a batch in place."""
     n = s.N
-    points = batch.points
-    iterations = batch.iterations
     count = batch.count
-    before = batch.before
-    after = batch.after
-    error = batch.error
-    frobenius = batch.frobenius
-    further = batch.further
-    twice = batch.twice
-    slots = low.slots
-    zero = splat(0.0)
+    iterations = batch.iterations
     for first in range(0, count, 8):
-        for lane in range(8):
-            path = min(first + lane, count - 1)
-            for j in range(n):
-                w.vr[8 * j + lane] = points[n * path + j].real
-                w.vi[8 * j + lane] = points[n * path + j].imag
-        store(w.tr, 0, zero)
+        last = min(8, count - first)
+        _put(s, w, batch, first)
         normalize(s, w)
         length = square_root(_matrix(s, w))
         small = _smallest(s, w)
         store(w.norms, 0, small)
         store(w.norms, 1, small)
-        for lane in range(min(8, count - first)):
-            before[first + lane] = w.norms[lane]
+        for lane in range(last):
+            batch.before[first + lane] = w.norms[lane]
         for step in range(iterations):
-            for j in range(n):
-                z.write(slots, j, z.exact(load(w.vr, j), load(w.vi, j)))
             if step > 0:
                 normalize(s, w)
-                for j in range(n):
-                    z.write(slots, j, z.exact(load(w.vr, j), load(w.vi, j)))
                 length = square_root(_matrix(s, w))
-            _residual(s, w, low)
-            substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
-            store(w.norms, 0, _length(s, w))
-            for lane in range(8):
-                # A step that long, or not a number, belongs to a singular Jacobian.
-                if not w.norms[lane] < 0.5:
-                    w.norms[lane] = np.inf
-                    for j in range(n):
-                        w.br[8 * j + lane] = 0.0
-                        w.bi[8 * j + lane] = 0.0
-            for j in range(n):
-                store(w.vr, j, load(w.vr, j) + load(w.br, j))
-                store(w.vi, j, load(w.vi, j) + load(w.bi, j))
-            for lane in range(min(8, count - first)):
-                error[first + lane] = w.norms[lane]
+            _newton(s, w, low)
+            _move(s, w)
+            for lane in range(last):
+                batch.error[first + lane] = w.norms[lane]
         if iterations > 0:
             normalize(s, w)
             length = square_root(_matrix(s, w))
             store(w.norms, 1, _smallest(s, w))
         store(w.norms, 0, length)
-        if twice != 0:
-            for j in range(n):
-                z.write(slots, j, z.exact(load(w.vr, j), load(w.vi, j)))
-            _residual(s, w, low)
-            substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
-            for lane in range(min(8, count - first)):
+        if batch.twice != 0:
+            _newton(s, w, low)
+            for lane in range(last):
                 for j in range(n):
-                    step_re = w.br[8 * j + lane]
-                    step_im = w.bi[8 * j + lane]
-                    further[n * (first + lane) + j] = complex(step_re, step_im)
-        for lane in range(min(8, count - first)):
-            after[first + lane] = w.norms[8 + lane]
-            frobenius[first + lane] = w.norms[lane]
+                    further = complex(w.br[8 * j + lane], w.bi[8 * j + lane])
+                    batch.further[n * (first + lane) + j] = further
+        for lane in range(last):
+            path = first + lane
+            batch.after[path] = w.norms[8 + lane]
+            batch.frobenius[path] = w.norms[lane]
             for j in range(n):
-                points[n * (first + lane) + j] = complex(w.vr[8 * j + lane], w.vi[8 * j + lane])
+                batch.points[n * path + j] = complex(w.vr[8 * j + lane], w.vi[8 * j + lane])
 
 
 newton_lanes = Kernel(newton_batch, "tracking")

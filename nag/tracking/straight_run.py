@@ -38,7 +38,7 @@ PATH, ROUNDS, TAKEN, FAILURES, STATE, STRAIGHT = range(6)
 # Rows of the lanes' scalars.
 T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH = range(8)
 # A path that gets on so badly for so many steps behind the radius is left to others.
-PATIENCE = 12
+PATIENCE = 24
 # Corrections that do not contract any more are rounding errors if they are less than this.
 ROUNDING = 1e-9
 

@@ -7,10 +7,24 @@ import math
 from nag.machine_code.lanes import fma, fnma, load, splat, square_root, store
 
 
-def _block(first, last, slot, cr, ci, real, vr, vi, shift):
+def _value_blocks(s):
+    """The coefficients of the values: where each block starts, slots, numbers, which are real."""
+    return s.value_start, s.value_slot, s.value_re, s.value_im, s.value_real
+
+
+def _jacobian_blocks(s):
+    """The same of the Jacobian."""
+    return s.jacobian_start, s.jacobian_slot, s.jacobian_re, s.jacobian_im, s.jacobian_real
+
+
+def _block(blocks, b, vr, vi, shift):
+    """The sum of a block's coefficients times slots."""
+    start, slot, cr, ci, real = blocks
+    first = start[b]
+    last = start[b + 1]
     re = splat(0.0)
     im = splat(0.0)
-    if real != 0:
+    if real[b] != 0:
         for q in range(first, last):
             c = splat(cr[q])
             re = fma(c, load(vr, shift + slot[q]), re)
@@ -79,17 +93,7 @@ def values(s, w):
         store(w.br, k, zero)
         store(w.bi, k, zero)
     for b in range(s.value_blocks):
-        re, im = _block(
-            s.value_start[b],
-            s.value_start[b + 1],
-            s.value_slot,
-            s.value_re,
-            s.value_im,
-            s.value_real[b],
-            w.vr,
-            w.vi,
-            0,
-        )
+        re, im = _block(_value_blocks(s), b, w.vr, w.vi, 0)
         re, im = _scaled(s, w, s.value_part[b], re, im)
         _add(w.br, w.bi, s.value_place[b], zero - re, zero - im)
     t = load(w.tr, 0)
@@ -132,17 +136,7 @@ def jacobian(s, w):
         store(w.jr, k, zero)
         store(w.ji, k, zero)
     for b in range(s.jacobian_blocks):
-        re, im = _block(
-            s.jacobian_start[b],
-            s.jacobian_start[b + 1],
-            s.jacobian_slot,
-            s.jacobian_re,
-            s.jacobian_im,
-            s.jacobian_real[b],
-            w.vr,
-            w.vi,
-            0,
-        )
+        re, im = _block(_jacobian_blocks(s), b, w.vr, w.vi, 0)
         re, im = _scaled(s, w, s.jacobian_part[b], re, im)
         _add(w.jr, w.ji, s.jacobian_place[b], re, im)
     t = load(w.tr, 0)
@@ -234,11 +228,11 @@ def complete_slots(s, w, k):
         store(w.ci, top + m, im)
 
 
-def _lower_block(s, w, k, first, last, real):
+def _lower_block(s, w, k, b):
     if k == 1:
-        return _block(first, last, s.value_slot, s.value_re, s.value_im, real, w.vr, w.vi, 0)
+        return _block(_value_blocks(s), b, w.vr, w.vi, 0)
     shift = (k - 2) * (s.N + 1 + s.value_products)
-    return _block(first, last, s.value_slot, s.value_re, s.value_im, real, w.cr, w.ci, shift)
+    return _block(_value_blocks(s), b, w.cr, w.ci, shift)
 
 
 def _toric_right_side(s, w, k):
@@ -274,25 +268,12 @@ def right_side(s, w, k):
         _toric_right_side(s, w, k)
     for b in range(0 if s.toric != 0 else s.value_blocks):
         part = s.value_part[b]
-        first = s.value_start[b]
-        last = s.value_start[b + 1]
-        real = s.value_real[b]
         if k > 1:
-            re, im = _block(
-                first,
-                last,
-                s.value_slot,
-                s.value_re,
-                s.value_im,
-                real,
-                w.cr,
-                w.ci,
-                (k - 1) * size,
-            )
+            re, im = _block(_value_blocks(s), b, w.cr, w.ci, (k - 1) * size)
             re, im = _scaled(s, w, part, re, im)
             _add(w.br, w.bi, s.value_place[b], zero - re, zero - im)
         if s.moving[part] != 0:
-            re, im = _lower_block(s, w, k, first, last, real)
+            re, im = _lower_block(s, w, k, b)
             c = splat(s.factor_re[2 * part + 1])
             d = splat(s.factor_im[2 * part + 1])
             _add(

@@ -141,19 +141,17 @@ def _attempt(
         return paths
     if most is not None and _all_are_found(homotopy, paths, most):
         return _to_infinity(homotopy, paths, doubtful)
-    from nag.tracking.ends.follow import follow
+    from nag.tracking.ends.follow import Unfinished, follow
 
     reached = raw.reason[doubtful] == Reason.NONE
-    new = follow(
-        homotopy,
+    unfinished = Unfinished(
         raw.points[doubtful],
         reached,
         regular[doubtful],
         raw.safe[doubtful],
         raw.safe_t[doubtful],
-        settings,
-        threads,
     )
+    new = follow(homotopy, unfinished, settings, threads)
     if not endgame:
         new = without(new, new.where(PathStatus.SINGULAR))
     return merged(paths, new, doubtful)

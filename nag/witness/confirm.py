@@ -39,7 +39,9 @@ def confirmed(
     if fine is not None:
         return _at_close_zero(cut, equations, rows, fine) is True
     matrix = np.vstack([cut.evaluator.jacobian(z), padded(rows, 1 + len(z))[:, 1:]])
-    smallest = np.linalg.svd(matrix, compute_uv=False).min(initial=np.inf)
+    # Far out, powers of the coordinates leave the range of doubles.
+    finite = np.isfinite(matrix).all()
+    smallest = np.linalg.svd(matrix, compute_uv=False).min(initial=np.inf) if finite else 0.0
     if not cut.deflated and len(cut.polynomials) == len(equations) and smallest > REGULAR:
         return True
     return _at_zero(cut, equations, rows, z) is True
@@ -98,7 +100,9 @@ def _at_zero(
 ) -> bool | None:
     """Whether equations vanish at the zero of ``cut`` near ``z``; None if none was found there."""
     jacobian, slices = cut.evaluator.jacobian(z), padded(rows, 1 + len(z))
-    answer = vanish(equations, cut.polynomials, slices, jacobian, z)
+    answer = None
+    if np.isfinite(jacobian).all():
+        answer = vanish(equations, cut.polynomials, slices, jacobian, z)
     if answer is not None or cut.aux:
         return answer
     # Coordinates may differ too much in size for Newton's method with an inverse in doubles.

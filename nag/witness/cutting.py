@@ -120,6 +120,9 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
         jacobian = evaluator.jacobian(z)
         matrix = np.vstack([jacobian, a[:, 1:]])
         right = np.concatenate([values, a[:, 0] + a[:, 1:] @ z])
+        if not (np.isfinite(matrix).all() and np.isfinite(right).all()):
+            # Powers of the coordinates leave the range of doubles.
+            return Sharpened(z, np.inf, False)
         weights = 1 / np.maximum(np.linalg.norm(matrix, axis=1), _floors(evaluator, z, len(a)))
         delta, _, _, s = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=1e-14)
         z = z - delta

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from nag.numerics.coincidence import coincident
 from nag.witness.close_points import (
     DIGITS,
     WORDS,
@@ -23,8 +24,8 @@ from nag.witness.exact_points import FEWEST, ExactPoints, exact_points
 from nag.witness.fibres import STEEPER, Fibre, Tracker, move
 from nag.witness.witness import PathCounts
 
-# Points of a component nearer to each other than this, relative to their size, are one.
-SAME = 1e-8
+# Relative error that ends of paths may have.
+ERROR = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,9 +149,8 @@ class Points:
         """The index of the point at ``x``, if there is one."""
         if not len(self):
             return None
-        distances = np.linalg.norm(self.x - x, axis=1)
-        nearest = int(distances.argmin())
-        return nearest if distances[nearest] < SAME * (1 + np.linalg.norm(x)) else None
+        near = coincident(self.x, x, ERROR)
+        return int(near.argmax()) if near.any() else None
 
 
 def with_fine(fibres: Sequence[Fibre], rows: np.ndarray) -> list[Fibre]:

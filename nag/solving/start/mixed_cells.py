@@ -74,8 +74,8 @@ class Followed(NamedTuple):
 
     ``found``: the cells at t = infinity, at most ``most_cells``; ``numbers``: how many there are,
     and a code: 0, 1 for too many steps or cells, 2 for a degenerate cell. ``stack, times``: at most
-    ``depth`` cells to be followed, and from when. ``cell``: the present one. ``matrix, right``:
-    a linear system with at most two right-hand sides.
+    ``depth`` cells to be followed, and from when. ``cell``: the present one. ``matrix,
+    pivots, right``: the factors of its edges, and two right-hand sides.
     """
 
     most_cells: int
@@ -86,40 +86,54 @@ class Followed(NamedTuple):
     times: Reals
     cell: Wholes
     matrix: Reals
+    pivots: Wholes
     right: Reals
 
 
-def _solve(n, matrix, right, columns):
-    """Gaussian elimination with partial pivoting, in place; the determinant's absolute value."""
-    determinant = 1.0
+def _factorize(n, matrix, pivots):
+    """Overwrite a matrix by its factors, with partial pivoting; whether it is regular."""
     for k in range(n):
         pivot = k
         for i in range(k + 1, n):
             if abs(matrix[n * i + k]) > abs(matrix[n * pivot + k]):
                 pivot = i
         if abs(matrix[n * pivot + k]) < 1e-9:
-            return 0.0
-        for j in range(n):
-            a, b = n * k + j, n * pivot + j
-            matrix[a], matrix[b] = matrix[b], matrix[a]
-        for j in range(columns):
-            a, b = columns * k + j, columns * pivot + j
-            right[a], right[b] = right[b], right[a]
-        determinant *= matrix[n * k + k]
+            return False
+        pivots[k] = pivot
+        if pivot != k:
+            for j in range(n):
+                a, b = n * k + j, n * pivot + j
+                matrix[a], matrix[b] = matrix[b], matrix[a]
         for i in range(k + 1, n):
-            factor = matrix[n * i + k] / matrix[n * k + k]
-            if factor != 0.0:
-                for j in range(k, n):
+            if matrix[n * i + k] != 0.0:
+                factor = matrix[n * i + k] / matrix[n * k + k]
+                matrix[n * i + k] = factor
+                for j in range(k + 1, n):
                     matrix[n * i + j] -= factor * matrix[n * k + j]
-                for j in range(columns):
-                    right[columns * i + j] -= factor * right[columns * k + j]
+    return True
+
+
+def _substitute(n, matrix, pivots, right):
+    """Overwrite two right-hand sides by the solutions."""
+    for k in range(n):
+        p = pivots[k]
+        for c in range(2):
+            a, b = 2 * k + c, 2 * p + c
+            right[a], right[b] = right[b], right[a]
+    for k in range(n):
+        for i in range(k):
+            factor = matrix[n * k + i]
+            if factor != 0.0:
+                right[2 * k] -= factor * right[2 * i]
+                right[2 * k + 1] -= factor * right[2 * i + 1]
     for k in range(n - 1, -1, -1):
-        for j in range(columns):
-            value = right[columns * k + j]
-            for i in range(k + 1, n):
-                value -= matrix[n * k + i] * right[columns * i + j]
-            right[columns * k + j] = value / matrix[n * k + k]
-    return abs(determinant)
+        for i in range(k + 1, n):
+            factor = matrix[n * k + i]
+            if factor != 0.0:
+                right[2 * k] -= factor * right[2 * i]
+                right[2 * k + 1] -= factor * right[2 * i + 1]
+        right[2 * k] /= matrix[n * k + k]
+        right[2 * k + 1] /= matrix[n * k + k]
 
 
 def _dual(s, w):
@@ -131,7 +145,10 @@ def _dual(s, w):
             w.matrix[n * i + j] = s.points[n * b + j] - s.points[n * a + j]
         w.right[2 * i] = s.lift[a] - s.lift[b]
         w.right[2 * i + 1] = s.slope[a] - s.slope[b]
-    return _solve(n, w.matrix, w.right, 2) != 0.0
+    if not _factorize(n, w.matrix, w.pivots):
+        return False
+    _substitute(n, w.matrix, w.pivots, w.right)
+    return True
 
 
 def _next(s, w, now):
@@ -159,16 +176,21 @@ def _next(s, w, now):
 
 
 def _share(s, w, which, enters):
-    """Coefficient of edge ``which`` where the edges make up the way to the point that enters."""
+    """Coefficient of edge ``which`` where the edges make up the way to the point that enters.
+
+    It is the product of that way with the vector whose products with the edges are 0, but 1 with
+    this one.
+    """
     n = s.n
+    for k in range(2 * n):
+        w.right[k] = 0.0
+    w.right[2 * which] = 1.0
+    _substitute(n, w.matrix, w.pivots, w.right)
     a = w.cell[2 * which]
-    for i in range(n):
-        for j in range(n):
-            first, second = n * w.cell[2 * i] + j, n * w.cell[2 * i + 1] + j
-            w.matrix[n * j + i] = s.points[second] - s.points[first]
-        w.right[i] = s.points[n * enters + i] - s.points[n * a + i]
-    _solve(n, w.matrix, w.right, 1)
-    return w.right[which]
+    share = 0.0
+    for j in range(n):
+        share += w.right[2 * j] * (s.points[n * enters + j] - s.points[n * a + j])
+    return share
 
 
 def _copy(target, place, source, start, count):
@@ -255,6 +277,7 @@ def _follow(
             np.empty(DEPTH),
             np.empty((n, 2), dtype=np.int64),
             np.empty((n, n)),
+            np.empty(n, dtype=np.int64),
             np.empty((n, 2)),
         ),
     )

@@ -21,8 +21,9 @@ from nag.tracking.ends.linear_algebra import equilibrate, factorize, newton_corr
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
 
-# Relative size of coordinates that doubles do not know.
-FLOOR = 1e-9
+# Relative size of coordinates that doubles do not know, and the rounding errors that they make of
+# a point, both with room to spare.
+FLOOR, DOUBLES = 1e-9, 1e-13
 MOST_CORRECTIONS = 12
 # Corrections of so many rounding errors may be nothing else.
 STAGNANT = 1e2
@@ -35,14 +36,14 @@ def weigh(s, r, floor):
         store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
 
 
-def linearize(s, r, floor):
+def linearize(s, r, floor, rough):
     """The factorised Jacobian at the points, Newton's correction and its measures."""
     products(s, r, s.products)
     values(s, r)
     jacobian(s, r)
     equilibrate(s, r)
     factorize(s, r)
-    newton_correction(s, r, floor)
+    newton_correction(s, r, floor, rough)
 
 
 def correct(s, r, f, b):
@@ -55,13 +56,15 @@ def correct(s, r, f, b):
         f[8 * SETTLED + lane] = 0.0 if f[8 * MODE + lane] > IDLE else 2.0
     lay_patches(s, r)
     factors_at(s, r)
-    # Small coordinates are not known at points that come from doubles.
+    # Small coordinates are not known at points that come from doubles, and what vanishes along a
+    # path is as large there as their rounding errors are.
     half = splat(0.5)
     nothing = z.exact(splat(0.0), splat(0.0))
     floor = select_less(load(f, BASE), half, splat(FLOOR), splat(0.0))
+    rough = select_less(load(f, BASE), half, splat(DOUBLES / number.EPSILON), splat(0.0))
     weigh(s, r, floor)
     for k in range(MOST_CORRECTIONS):
-        linearize(s, r, floor)
+        linearize(s, r, floor, rough)
         for lane in range(8):
             if f[8 * SETTLED + lane] < 0.5:
                 f[8 * EVALUATED + lane] += 1.0
@@ -80,7 +83,7 @@ def correct(s, r, f, b):
         if busy == 0:
             break
     weigh(s, r, floor)
-    linearize(s, r, floor)
+    linearize(s, r, floor, rough)
     for lane in range(8):
         excess = r.measures[8 + lane]
         f[8 * EVALUATED + lane] += 1.0

@@ -2,33 +2,23 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from nag.algebra.number import decimal_digits
-from nag.tracking import evaluations
-from nag.tracking.ends import records
+from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limit, Limits
+from nag.tracking.ends.runs import MAX_STEPS, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import ROUNDING, refine
 from nag.tracking.paths import Ball, Branch, Paths, PathStatus, Reason
 from nag.tracking.settings import Settings
 
-# Order of the Taylor coefficients.
-ORDER = 14
 # Digits of numbers of as many words.
 DIGITS = {2: 32, 4: 64}
-MAX_STEPS, MOST_STEPS = 300, 3000
-MAX_WINDING = 40
-# Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
-# those of the settings.
-ACCURACY, CONTRACTION = 0.1, 0.3
-# Largest last term of a power series in doubles that is taken to converge.
-TAIL = 1e-11
 # Digits to which equations with coefficients of so few digits must hold at least, and the most
 # that may be asked for.
 LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 16, 6, 58
@@ -39,7 +29,7 @@ KNOWN = 1e3
 
 
 @dataclass(eq=False)
-class _States:
+class States:
     """Where the paths are, and what is known of their ends.
 
     ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
@@ -69,7 +59,7 @@ class _States:
     most: int = MAX_STEPS
 
     @classmethod
-    def from_start(cls, starts: np.ndarray, curvature: np.ndarray) -> _States:
+    def from_start(cls, starts: np.ndarray, curvature: np.ndarray) -> States:
         """Paths at t = 1, at points in words, shape ``(P, N, 2, words)``."""
         P, N, _, words = starts.shape
         states = cls.of(np.zeros((P, N)), np.zeros(P, bool), np.zeros((P, N)), np.ones(P))
@@ -80,7 +70,7 @@ class _States:
         return states
 
     @classmethod
-    def of(cls, ends: np.ndarray, reached: np.ndarray, safe: np.ndarray, t: np.ndarray) -> _States:
+    def of(cls, ends: np.ndarray, reached: np.ndarray, safe: np.ndarray, t: np.ndarray) -> States:
         P, N = safe.shape
         whole = [np.zeros(P, dtype=np.int64) for _ in range(4)]
         return cls(
@@ -123,32 +113,40 @@ def _in_words(points: np.ndarray) -> np.ndarray:
     return result
 
 
+@dataclass(frozen=True, eq=False)
+class Unfinished:
+    """Paths as straight runs in doubles left them.
+
+    Attributes:
+        ends: where the runs ended, at t = 0 where ``reached``, shape ``(P, N)``.
+        regular: which of these ends are known to be regular ones, be they at infinity.
+        safe: points of the paths at ``t``, shape ``(P, N)``.
+    """
+
+    ends: np.ndarray
+    reached: np.ndarray
+    regular: np.ndarray
+    safe: np.ndarray
+    t: np.ndarray
+
+
 def follow(
-    homotopy: Homotopy,
-    ends: np.ndarray,
-    reached: np.ndarray,
-    regular: np.ndarray,
-    safe: np.ndarray,
-    t: np.ndarray,
-    settings: Settings,
-    threads: int = 1,
+    homotopy: Homotopy, unfinished: Unfinished, settings: Settings, threads: int = 1
 ) -> Paths:
     """Follow paths from safe points to their ends.
 
     Args:
         homotopy: what to track.
-        ends: where straight runs in doubles ended, at t = 0 where ``reached``, shape ``(P, N)``.
-        regular: which of these ends are known to be regular ones, be they at infinity.
-        safe: points of the paths at ``t``, shape ``(P, N)``.
         settings: how many digits may be used, and how many are evidence.
         threads: number of threads; the result does not depend on it.
 
     Returns:
         The paths; those whose ends ask for more digits have failed.
     """
-    states = _States.of(ends, reached, safe, t)
-    states.regular[:] = regular
-    pending = np.arange(len(safe))
+    left = unfinished
+    states = States.of(left.ends, left.reached, left.safe, left.t)
+    states.regular[:] = left.regular
+    pending = np.arange(len(left.safe))
     for words, digits in DIGITS.items():
         if not len(pending) or digits > settings.digits:
             break
@@ -172,7 +170,7 @@ def follow_whole(
     Returns:
         The paths; those whose ends ask for more digits have failed.
     """
-    states = _States.from_start(starts, curvature)
+    states = States.from_start(starts, curvature)
     _follow_in(homotopy, states, np.arange(len(starts)), starts.shape[-1], settings, threads)
     return _paths(homotopy, states)
 
@@ -192,7 +190,7 @@ def digits_of_evidence(homotopy: Homotopy, beyond: int) -> int:
 
 def _follow_in(
     homotopy: Homotopy,
-    states: _States,
+    states: States,
     pending: np.ndarray,
     words: int,
     settings: Settings,
@@ -209,12 +207,12 @@ def _follow_in(
         states.safe_t = np.pad(states.safe_t, room[2:])
         # The next arithmetic starts from what is known well.
         states.where, states.t = states.safe.copy(), states.safe_t.copy()
-    terms = Terms(homotopy)
+    terms, fine = Terms(homotopy), Terms(homotopy)
     limits = Limits(terms, words, ORDER)
     need = 10.0 ** -digits_of_evidence(homotopy, settings.evidence)
     later: list[int] = []
     while len(pending):
-        found = _run(homotopy, states, pending, words, settings, threads)
+        found = run(homotopy, states, pending, words, settings, threads)
         again: list[int] = []
         for k, path in enumerate(pending.tolist()):
             states.digits[path] = DIGITS[words]
@@ -225,7 +223,9 @@ def _follow_in(
                 verdict = _limit(states, limits, path, found[k], need)
                 if verdict != end_run.LIMIT:
                     states.outcome[path] = end_run.LOST
-                    hopeful = verdict == end_run.OPEN and states.steps[path] < states.most
+                    # A trial at a limit takes one step, and no path is to be lost for that.
+                    may_go_on = states.steps[path] < states.most or not states.tried[path]
+                    hopeful = verdict == end_run.OPEN and may_go_on
                     (again if hopeful else later).append(path)
             elif outcome == end_run.REGULAR:
                 centre = states.found[path]
@@ -234,7 +234,7 @@ def _follow_in(
                     # Newton's method converged, but not to a regular zero: go on without it.
                     states.straight[path] = 0
                     again.append(path)
-                elif _ambiguous(homotopy, states, path, need):
+                elif _ambiguous(homotopy, states, path, need, fine):
                     states.ends[path], states.tried[path] = centre, 0
                     later.append(path)
                 else:
@@ -245,13 +245,15 @@ def _follow_in(
     return np.array(sorted(later), dtype=np.int64)
 
 
-def _ambiguous(homotopy: Homotopy, states: _States, path: int, need: float) -> bool:
-    """Whether a regular end is at infinity to fewer digits than are needed."""
+def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, fine: Terms) -> bool:
+    """Whether a regular end is at infinity to fewer digits than are needed, or only seems to be."""
     far = [j for j in homotopy.infinity if not states.known(path)[j]]
-    return bool(far) and float(KNOWN * states.errors[path][far].max()) > need
+    if not far or float(KNOWN * states.errors[path][far].max()) > need:
+        return bool(far)
+    return not at_infinity(fine, states.found[path], far)
 
 
-def _limit(states: _States, limits: Limits, path: int, found: np.ndarray, need: float) -> int:
+def _limit(states: States, limits: Limits, path: int, found: np.ndarray, need: float) -> int:
     """`LIMIT` if the equations agree, `OPEN` if further in they may, `LOST` in more digits."""
     from nag.tracking.ends import end_run
 
@@ -275,72 +277,7 @@ def _limit(states: _States, limits: Limits, path: int, found: np.ndarray, need: 
     return end_run.LOST if noise > 1e-3 * need and limits.words == 2 else end_run.OPEN
 
 
-def _run(
-    homotopy: Homotopy,
-    states: _States,
-    chosen: np.ndarray,
-    words: int,
-    settings: Settings,
-    threads: int,
-) -> np.ndarray:
-    """Run the kernel; what it extrapolated for the chosen paths that converged to limits."""
-    from nag.tracking.ends import end_run
-
-    compiled = end_run.KERNELS[words]
-    compiled.prepare()
-    system = records.equations(homotopy, words, ORDER)
-    batches = max(1, min(threads, len(chosen) // 8))
-    limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
-
-    def part(first: int) -> int:
-        own = chosen[first::batches]
-        count, N = len(own), homotopy.N
-        whole = [np.zeros(count, dtype=np.int64) for _ in range(4)]
-        points, errors = states.where[own].copy(), np.zeros((count, N))
-        safe, safe_t = states.safe[own].copy(), states.safe_t[own].copy()
-        t, curvature = states.t[own], states.curvature[own]
-        own_limits = np.zeros((count, N, 4, 2, words))
-        batch = end_run.Batch(
-            count,
-            ORDER,
-            states.ends[own].ravel(),
-            states.tried[own],
-            states.straight[own],
-            states.where[own].ravel(),
-            t.reshape(-1),
-            states.latest[own],
-            *whole,
-            *(a.reshape(-1) for a in (points, safe, safe_t, own_limits, errors)),
-            curvature,
-            states.most,
-            MAX_WINDING,
-            ACCURACY * settings.tolerance,
-            CONTRACTION * settings.contraction,
-            TAIL,
-        )
-        compiled(system, records.room(homotopy, words, ORDER), batch)
-        states.outcome[own], states.winding[own] = whole[0], whole[1]
-        states.steps[own] += whole[2]
-        regular = whole[0] == end_run.REGULAR
-        states.found |= {int(own[k]): points[k] for k in np.flatnonzero(regular)}
-        states.where[own[~regular]] = points[~regular]
-        states.errors[own] = errors
-        states.safe[own], states.safe_t[own] = safe, safe_t
-        states.t[own], states.curvature[own] = t, curvature
-        states.tried[own] = 1
-        limits[first::batches] = own_limits
-        return int(whole[3].sum())
-
-    if batches == 1:
-        spent = part(0)
-    else:
-        with ThreadPoolExecutor(batches) as pool:
-            spent = sum(pool.map(part, range(batches)))
-    evaluations.count(spent)
-    return limits
-
-
-def _paths(homotopy: Homotopy, states: _States) -> Paths:
+def _paths(homotopy: Homotopy, states: States) -> Paths:
     from nag.tracking.ends import end_run
 
     P = len(states.t)

@@ -46,13 +46,13 @@ def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) ->
     floor = np.abs(centre[:, :, 0]).max(initial=0.0) * 2.0 ** -(BITS[centre.shape[-1]] // 2 + 8)
     radii = [WIDER * float(e) + floor * 2.0**-32 for e in errors]
     box = [z + flint.acb(flint.arb(0, r), flint.arb(0, r)) for z, r in zip(x, radii, strict=True)]
-    patches = _patches(flint, terms, x)
-    values, jacobian = _system(flint, terms, patches, x)
+    patches = patches_through(flint, terms, x)
+    values, jacobian = system_at(flint, terms, patches, x)
     try:
         Y = jacobian.mid().inv().mid()
     except ZeroDivisionError:
         return False
-    _, slopes = _system(flint, terms, patches, box)
+    _, slopes = system_at(flint, terms, patches, box)
     newton = Y * values
     rest = flint.acb_mat(N, N, [int(i == j) for i in range(N) for j in range(N)]) - Y * slopes
     moved = flint.acb_mat(N, 1, [b - z for b, z in zip(box, x, strict=True)])
@@ -60,7 +60,7 @@ def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) ->
     return all(bool(image[j, 0].abs_upper() < flint.arb(r)) for j, r in enumerate(radii))
 
 
-def _patches(flint: Any, terms: Terms, x: list[Any]) -> list[list[Any]]:
+def patches_through(flint: Any, terms: Terms, x: list[Any]) -> list[list[Any]]:
     """One row for each group, whose product with the point is 1."""
     rows = []
     for group in terms.homotopy.groups:
@@ -70,7 +70,7 @@ def _patches(flint: Any, terms: Terms, x: list[Any]) -> list[list[Any]]:
     return rows
 
 
-def _system(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) -> tuple[Any, Any]:
+def system_at(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) -> tuple[Any, Any]:
     """Values and Jacobian of the rows at t = 0 and of the patches."""
     N = terms.homotopy.N
     values: list[Any] = []

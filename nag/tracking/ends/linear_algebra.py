@@ -125,13 +125,14 @@ def vanishing(x, correction):
     return select_less(size, splat(number.SMALL), gone, splat(0.0))
 
 
-def newton_correction(s, r, floor):
+def newton_correction(s, r, floor, rough):
     """Newton's correction into the right-hand side, rounding errors of the point, and measures.
 
     Measures of each lane: the largest correction over its coordinate's weight; the largest over
     its coordinate's rounding error; the largest rounding error over a coordinate that exceeds
     it a thousandfold; and 1 if the largest coordinate of a group does not. Corrections of
-    coordinates smaller than ``floor`` count as if they were of that size.
+    coordinates smaller than ``floor``, or than ``rough`` rounding errors, count as if they were of
+    that size.
     """
     n = s.N
     for i in range(n):
@@ -160,7 +161,7 @@ def newton_correction(s, r, floor):
         gone = vanishing(z.read(r.slots, j), z.read(r.right, j))
         weight = select_less(half, gone, splat(number.SMALL), weight)
         error = select_less(half, gone, z.largest(error, step), error)
-        weight = z.largest(weight, floor)
+        weight = z.largest(z.largest(weight, floor), rough * error)
         store(r.errors, j, error)
         store(r.weights, j, weight)
         eta = z.largest(eta, step / weight)

@@ -42,7 +42,7 @@ def newton_batch(s: Equations, r: Room, b: Steps) -> None:
         factors_at(s, r)
         for _ in range(b.steps):
             weigh(s, r, floor)
-            linearize(s, r, floor)
+            linearize(s, r, floor, splat(0.0))
             for j in range(s.N):
                 z.write(r.slots, j, z.add(z.read(r.slots, j), z.read(r.right, j)))
         for lane in range(min(8, b.count - first)):

@@ -1,0 +1,54 @@
+"""Whether a regular zero lies at infinity: its homogenising coordinate in many digits.
+
+Coefficients that were rounded at 1e-15 move zeros in from infinity to sizes of 1e15, and where two
+such coefficients multiply, of 1e30. What looks infinite in the digits that a path is followed in
+is therefore looked at in more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from nag.tracking.ends.inclusion import patches_through, system_at
+from nag.tracking.ends.terms import Terms, number
+
+BITS = 700
+# Coordinates of size one that are zero; Newton's method has arrived where its step is as small.
+ZERO = 1e-150
+MOST_STEPS = 10
+
+
+def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) -> bool:
+    """Whether one of the coordinates of the regular zero near a point vanishes.
+
+    Args:
+        terms: the homotopy's, not yet worked out in fewer digits.
+        centre: a point near enough for Newton's method, shape ``(N, 2, words)``.
+        coordinates: those that are asked for.
+    """
+    import flint
+
+    bits = flint.ctx.prec
+    try:
+        flint.ctx.prec = BITS
+        return _vanishes(flint, terms, [number(c) for c in centre], coordinates)
+    finally:
+        flint.ctx.prec = bits
+
+
+def _vanishes(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) -> bool:
+    patches = patches_through(flint, terms, x)
+    size = max(float(abs(z).mid()) for z in x)
+    for _ in range(MOST_STEPS):
+        values, jacobian = system_at(flint, terms, patches, x)
+        try:
+            step = jacobian.mid().solve(values.mid())
+        except ZeroDivisionError:
+            return False
+        x = [(z - step[j, 0]).mid() for j, z in enumerate(x)]
+        if max(float(abs(step[j, 0]).mid()) for j in range(len(x))) < ZERO * size:
+            return any(float(abs(x[j]).mid()) < ZERO * size for j in coordinates)
+    return False

@@ -1,0 +1,114 @@
+"""Runs of the kernel that follows paths in more digits, over batches of them."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nag.tracking import evaluations
+from nag.tracking.ends import records
+from nag.tracking.homotopy import Homotopy
+from nag.tracking.settings import Settings
+
+if TYPE_CHECKING:
+    from nag.tracking.ends.end_run import Batch
+    from nag.tracking.ends.follow import States
+
+# Order of the Taylor coefficients.
+ORDER = 14
+MAX_STEPS, MOST_STEPS = 300, 3000
+MAX_WINDING = 40
+# Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
+# those of the settings.
+ACCURACY, CONTRACTION = 0.1, 0.3
+# Largest last term of a power series in doubles that is taken to converge.
+TAIL = 1e-11
+
+
+def run(
+    homotopy: Homotopy,
+    states: States,
+    chosen: np.ndarray,
+    words: int,
+    settings: Settings,
+    threads: int,
+) -> np.ndarray:
+    """Run the kernel; what it extrapolated for the chosen paths that converged to limits."""
+    from nag.tracking.ends import end_run
+
+    compiled = end_run.KERNELS[words]
+    compiled.prepare()
+    system = records.equations(homotopy, words, ORDER)
+    batches = max(1, min(threads, len(chosen) // 8))
+    limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
+
+    def part(first: int) -> int:
+        own = chosen[first::batches]
+        batch = _batch(homotopy, states, own, words, settings)
+        compiled(system, records.room(homotopy, words, ORDER), batch)
+        _keep(states, own, batch)
+        limits[first::batches] = batch.limits.reshape(len(own), *limits.shape[1:])
+        return int(batch.evaluations.sum())
+
+    if batches == 1:
+        spent = part(0)
+    else:
+        with ThreadPoolExecutor(batches) as pool:
+            spent = sum(pool.map(part, range(batches)))
+    evaluations.count(spent)
+    return limits
+
+
+def _batch(
+    homotopy: Homotopy, states: States, own: np.ndarray, words: int, settings: Settings
+) -> Batch:
+    """Some paths from where they are, and room for where they get to."""
+    from nag.tracking.ends.end_run import Batch
+
+    count, N = len(own), homotopy.N
+    outcome, winding, steps, spent = (np.zeros(count, dtype=np.int64) for _ in range(4))
+    return Batch(
+        count,
+        ORDER,
+        states.ends[own].ravel(),
+        states.tried[own],
+        states.straight[own],
+        states.where[own].ravel(),
+        states.t[own].ravel(),
+        states.latest[own],
+        outcome,
+        winding,
+        steps,
+        spent,
+        states.where[own].ravel(),
+        states.safe[own].ravel(),
+        states.safe_t[own].ravel(),
+        np.zeros(count * N * 4 * 2 * words),
+        np.zeros(count * N),
+        states.curvature[own],
+        states.most,
+        MAX_WINDING,
+        ACCURACY * settings.tolerance,
+        CONTRACTION * settings.contraction,
+        TAIL,
+    )
+
+
+def _keep(states: States, own: np.ndarray, batch: Batch) -> None:
+    """What a run says of its paths."""
+    from nag.tracking.ends import end_run
+
+    count = len(own)
+    points = batch.points.reshape(count, *states.where.shape[1:])
+    states.outcome[own], states.winding[own] = batch.outcome, batch.winding
+    states.steps[own] += batch.steps
+    regular = batch.outcome == end_run.REGULAR
+    states.found |= {int(own[k]): points[k] for k in np.flatnonzero(regular)}
+    states.where[own[~regular]] = points[~regular]
+    states.errors[own] = batch.errors.reshape(count, -1)
+    states.safe[own] = batch.safe.reshape(points.shape)
+    states.safe_t[own] = batch.safe_t.reshape(count, -1)
+    states.t[own], states.curvature[own] = batch.t.reshape(count, -1), batch.curvature
+    states.tried[own] = 1
