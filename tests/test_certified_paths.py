@@ -43,7 +43,7 @@ parameters = st.fractions(-1, 1, max_denominator=32)
 
 def series(values: list[Fraction]) -> Discs:
     """Real numbers, exact in doubles, as a series for one point in one variable."""
-    return Discs(np.array([[values]], dtype=complex).astype(complex), np.zeros((1, 1, 3)))
+    return Discs(np.array(values, dtype=complex)[:, None, None], np.zeros((3, 1, 1)))
 
 
 def within(value: Fraction, found: Discs, s: Fraction) -> bool:

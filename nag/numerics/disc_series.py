@@ -10,8 +10,6 @@ Reference:
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from nag.numerics.discs import (
@@ -25,40 +23,23 @@ from nag.numerics.discs import (
 )
 
 
-@cache
-def _collected(length: int) -> tuple[np.ndarray, np.ndarray]:
-    """Which products of coefficients belong to which one, and those of too high an order.
-
-    Matrices of zeros and ones, shape ``(length^2, length)``; the second has entries in the last
-    column only.
-    """
-    inside, beyond = np.zeros((2, length * length, length))
-    for i in range(length):
-        for j in range(length):
-            if i + j < length:
-                inside[i * length + j, i + j] = 1.0
-            else:
-                beyond[i * length + j, -1] = 1.0
-    return inside, beyond
-
-
-def _pairs(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """All products of coefficients of two series."""
-    found = a[..., :, None] * b[..., None, :]
-    return found.reshape(*found.shape[:-2], -1)
-
-
 def series_product(a: Discs, b: Discs) -> Discs:
-    """Series of the products; coefficients stand along the last axis."""
-    length = a.mid.shape[-1]
-    inside, beyond = _collected(length)
-    sizes = _pairs(magnitude(a.mid), magnitude(b.mid))
-    whole = _pairs(magnitude(a.mid) + a.rad, magnitude(b.mid) + b.rad)
-    # The products' radii are differences of these up to rounding, which the second term holds.
-    less = _pairs(magnitude(a.mid), b.rad) + _pairs(a.rad, magnitude(b.mid) + b.rad)
-    rounding = rounding_of_sum(length)
-    rad = (less + rounding * sizes) @ inside + whole @ beyond
-    return Discs(_pairs(a.mid, b.mid) @ inside, rad * (UP + rounding) + LEAST)
+    """Series of the products; coefficients stand along the first axis."""
+    length = len(a.mid)
+    size_a, size_b = magnitude(a.mid), magnitude(b.mid)
+    most_a, most_b = size_a + a.rad, size_b + b.rad
+    shape = np.broadcast_shapes(a.mid.shape, b.mid.shape)
+    mid = np.zeros(shape, dtype=complex)
+    sizes, most = np.zeros(shape), np.zeros(shape)
+    for i in range(length):
+        mid[i:] += a.mid[i] * b.mid[: length - i]
+        sizes[i:] += size_a[i] * size_b[: length - i]
+        most[i:] += most_a[i] * most_b[: length - i]
+    # What the factors' radii add is the difference, up to rounding.
+    rad = most - sizes + 2 * rounding_of_sum(length) * most
+    for i in range(1, length):
+        rad[-1] += most_a[i] * most_b[length - i :].sum(axis=0)
+    return Discs(mid, rad * (UP + rounding_of_sum(length * length)) + LEAST)
 
 
 def series_sum(a: Discs, b: Discs) -> Discs:
@@ -68,43 +49,40 @@ def series_sum(a: Discs, b: Discs) -> Discs:
 
 
 def values_along(system: DiscPolynomials, x: Discs) -> Discs:
-    """Values on series of boxes, shape ``(P, n, length)``: shape ``(P, rows, length)``."""
+    """Values on series of boxes, shape ``(length, P, n)``: shape ``(length, P, rows)``."""
     return _weighted(system.values, _monomials(system, x))
 
 
 def slopes_along(system: DiscPolynomials, x: Discs) -> Discs:
-    """Jacobian matrices on series of boxes: shape ``(P, rows, n, length)``."""
+    """Jacobian matrices on series of boxes: shape ``(length, P, rows, n)``."""
     found = _weighted(system.slopes, _monomials(system, x))
-    shape = len(x.mid), system.rows, system.n, x.mid.shape[-1]
+    shape = (*x.mid.shape[:2], system.rows, system.n)
     return Discs(found.mid.reshape(shape), found.rad.reshape(shape))
 
 
 def _weighted(weights: Weights, monomials: Discs) -> Discs:
-    count, P, length = monomials.mid.shape
-    flat = Discs(monomials.mid.reshape(count, -1), monomials.rad.reshape(count, -1))
-    found = weights @ flat
-    shape = (-1, P, length)
-    return Discs(
-        found.mid.reshape(shape).transpose(1, 0, 2), found.rad.reshape(shape).transpose(1, 0, 2)
-    )
+    """Sums of monomials, shape ``(length, M, P)``, to shape ``(length, P, rows)``."""
+    length, count, P = monomials.mid.shape
+    flat = [c.transpose(1, 0, 2).reshape(count, -1) for c in monomials]
+    found = weights @ Discs(*flat)
+    return Discs(*(c.reshape(-1, length, P).transpose(1, 2, 0) for c in found))
 
 
 def _monomials(system: DiscPolynomials, x: Discs) -> Discs:
-    """All monomials of a system, shape ``(M, P, length)``."""
-    base = Discs(x.mid.transpose(1, 0, 2), x.rad.transpose(1, 0, 2))
+    """All monomials of a system, shape ``(length, M, P)``."""
+    base = Discs(*(np.ascontiguousarray(c.transpose(0, 2, 1)) for c in x))
     one = Discs(np.zeros_like(base.mid), np.zeros_like(base.rad))
-    one.mid[..., 0] = 1.0
+    one.mid[0] = 1.0
     table = [one, base]
     while len(table) <= system.top:
         table.append(series_product(table[-1], base))
-    mid = np.concatenate([t.mid for t in table[: system.top + 1]])
-    rad = np.concatenate([t.rad for t in table[: system.top + 1]])
+    mid = np.concatenate([t.mid for t in table[: system.top + 1]], axis=1)
+    rad = np.concatenate([t.rad for t in table[: system.top + 1]], axis=1)
     first, *others = system.powers
-    found = Discs(mid[first], rad[first])
+    found = Discs(mid[:, first], rad[:, first])
     for places in others:
         several = np.flatnonzero(places)
-        these = Discs(found.mid[several], found.rad[several])
-        found.mid[several], found.rad[several] = series_product(
-            these, Discs(mid[places[several]], rad[places[several]])
-        )
+        these = Discs(found.mid[:, several], found.rad[:, several])
+        more = Discs(mid[:, places[several]], rad[:, places[several]])
+        found.mid[:, several], found.rad[:, several] = series_product(these, more)
     return found

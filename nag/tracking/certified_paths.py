@@ -105,8 +105,8 @@ def located(system: MovingSystem, points: np.ndarray, t: float) -> Located:
         for exponent in range(SIDES):
             if not len(left):
                 break
-            curve = np.zeros((*x[left].shape, 4), dtype=complex)
-            curve[..., 0] = x[left]
+            curve = np.zeros((4, *x[left].shape), dtype=complex)
+            curve[0] = x[left]
             side = FIRST_SIDE * 2.0 ** (-4 * exponent) * sizes[left]
             radii = np.broadcast_to(side[:, None], x[left].shape)
             tube = _tube(system, curve, times_[left], times_[left], radii)
@@ -213,16 +213,16 @@ def _controlled(state: _State, active: np.ndarray, tube: _Tube, proved: np.ndarr
 
 
 def _hermite(x: np.ndarray, y: np.ndarray, dx: np.ndarray, dy: np.ndarray) -> np.ndarray:
-    """The cubic in s with these values and derivatives at -1 and 1, shape ``(P, n, 4)``."""
+    """The cubic in s with these values and derivatives at -1 and 1, shape ``(4, P, n)``."""
     second = (dy - dx) / 4
     third = ((dx + dy) - (y - x)) / 4
-    return np.stack([(x + y) / 2 - second, (y - x) / 2 - third, second, third], axis=-1)
+    return np.stack([(x + y) / 2 - second, (y - x) / 2 - third, second, third])
 
 
 def _end_of(curve: np.ndarray, inner: np.ndarray, radii: np.ndarray, s: int) -> Located:
     """The zero at an end of a tube, by boxes about a centre that is rounded."""
-    point = (curve * np.array([1, s, 1, s])).sum(axis=-1)
-    rounding = magnitude(curve).sum(axis=-1) * 2.0**-48
+    point = curve[0] + s * curve[1] + curve[2] + s * curve[3]
+    rounding = magnitude(curve).sum(axis=0) * 2.0**-48
     return Located(point, (inner + rounding) * UP, (radii - rounding) / UP)
 
 
@@ -247,17 +247,17 @@ def _tube(
     system: MovingSystem, curve: np.ndarray, begin: np.ndarray, end: np.ndarray, radii: np.ndarray
 ) -> _Tube:
     """Krawczyk's test for all boxes of these radii about a curve at once."""
-    P, n, _ = curve.shape
-    mid = np.zeros((P, n, LENGTH), dtype=complex)
-    mid[..., :4] = curve
+    _, P, n = curve.shape
+    mid = np.zeros((LENGTH, P, n), dtype=complex)
+    mid[:4] = curve
     values = system.values_along(Discs(mid, np.zeros(mid.shape)), times(begin, end, LENGTH))
-    rad = np.zeros((P, n, SLOPES))
-    rad[..., 0], rad[..., 2] = radii, magnitude(curve[..., 3])
-    box = Discs(curve[..., :SLOPES], rad)
+    rad = np.zeros((SLOPES, P, n))
+    rad[0], rad[2] = radii, magnitude(curve[3])
+    box = Discs(curve[:SLOPES], rad)
     slopes = system.slopes_along(box, times(begin, end, SLOPES))
-    inverse = inverses(slopes.mid[..., 0])
-    moving = -inverse @ slopes.mid[..., 1] @ inverse
-    column = Discs(values.mid[:, :, None], values.rad[:, :, None])
+    inverse = inverses(slopes.mid[0])
+    moving = -inverse @ slopes.mid[1] @ inverse
+    column = Discs(values.mid[..., None], values.rad[..., None])
     step = sum(_applied(inverse, moving, column, 0.0))[..., 0] * UP
     bent, wide = _applied(inverse, moving, slopes, np.eye(n))
     rest = (bent + wide) * UP
@@ -279,20 +279,20 @@ def _applied(
     inverse: np.ndarray, moving: np.ndarray, series: Discs, identity: np.ndarray | float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Bounds of ``(inverse + s moving) series(s) - identity``: of midpoints, and of the rest."""
-    length = series.mid.shape[-1]
+    length = len(series.mid)
     rounding = rounding_of_sum(2 * inverse.shape[-1])
     sizes = magnitude(series.mid)
     loose = series.rad + rounding * sizes
     size, move = magnitude(inverse), magnitude(moving)
     exact, rest = 0.0, 0.0
     for k in range(length):
-        mid = inverse @ series.mid[..., k]
-        rest = rest + size @ loose[..., k]
+        mid = inverse @ series.mid[k]
+        rest = rest + size @ loose[k]
         if k:
-            mid = mid + moving @ series.mid[..., k - 1]
-            rest = rest + move @ loose[..., k - 1]
+            mid = mid + moving @ series.mid[k - 1]
+            rest = rest + move @ loose[k - 1]
         else:
             mid = mid - identity
         exact = exact + magnitude(mid)
-    rest = rest + move @ (sizes[..., -1] + series.rad[..., -1])
+    rest = rest + move @ (sizes[-1] + series.rad[-1])
     return exact * (UP + rounding), rest * (UP + rounding) + LEAST

@@ -32,9 +32,9 @@ class MovingPart:
     def factor(self, t: Discs) -> Discs:
         """``a + t b`` for series of t, of any length."""
         mid = self.b * t.mid
-        mid[..., 0] += self.a
+        mid[0] += self.a
         rad = abs(self.b) * (t.rad + 16 * UNIT * magnitude(t.mid))
-        rad[..., 0] += 16 * UNIT * abs(self.a)
+        rad[0] += 16 * UNIT * abs(self.a)
         return Discs(mid, rad * UP + LEAST)
 
 
@@ -90,19 +90,19 @@ class MovingSystem:
         return values, slopes, rates
 
     def values_along(self, x: Discs, t: Discs) -> Discs:
-        """Values on series of boxes and of t, shapes ``(P, n, length)`` and ``(P, length)``."""
+        """Values on series of boxes and of t, shapes ``(length, P, n)`` and ``(length, P)``."""
         total = None
         for part in self.parts:
-            factor = Discs(*(c[:, None] for c in part.factor(t)))
+            factor = Discs(*(c[..., None] for c in part.factor(t)))
             found = series_product(values_along(part.rows, x), factor)
             total = found if total is None else series_sum(total, found)
         return total
 
     def slopes_along(self, x: Discs, t: Discs) -> Discs:
-        """Jacobian matrices on series of boxes and of t, shape ``(P, rows, n, length)``."""
+        """Jacobian matrices on series of boxes and of t, shape ``(length, P, rows, n)``."""
         total = None
         for part in self.parts:
-            factor = Discs(*(c[:, None, None] for c in part.factor(t)))
+            factor = Discs(*(c[..., None, None] for c in part.factor(t)))
             found = series_product(slopes_along(part.rows, x), factor)
             total = found if total is None else series_sum(total, found)
         return total
@@ -110,9 +110,9 @@ class MovingSystem:
 
 def times(begin: np.ndarray, end: np.ndarray, length: int) -> Discs:
     """The way from ``begin`` to ``end``, shape ``(P,)``, as a series in s from -1 to 1."""
-    mid = np.zeros((len(begin), length), dtype=complex)
-    mid[:, 0], mid[:, 1] = (begin + end) / 2, (end - begin) / 2
+    mid = np.zeros((length, len(begin)), dtype=complex)
+    mid[0], mid[1] = (begin + end) / 2, (end - begin) / 2
     rad = np.zeros(mid.shape)
     # The exact middle and half are within this, so that the series holds both ends and all between.
-    rad[:, 0] = rad[:, 1] = 4 * UNIT * (np.abs(begin) + np.abs(end))
+    rad[:2] = 4 * UNIT * (np.abs(begin) + np.abs(end))
     return Discs(mid, rad)
