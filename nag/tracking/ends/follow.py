@@ -10,7 +10,7 @@ from nag.algebra.number import decimal_digits
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limit, Limits
-from nag.tracking.ends.runs import MAX_STEPS, MOST_STEPS, ORDER, run
+from nag.tracking.ends.runs import MAX_STEPS, MAX_WINDING, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import ROUNDING, refine
@@ -175,17 +175,23 @@ def follow_whole(
     return _paths(homotopy, states)
 
 
-def digits_of_evidence(homotopy: Homotopy, beyond: int) -> int:
+def digits_of_evidence(homotopy: Homotopy, beyond: int) -> tuple[int, ...]:
     """To how many digits an end must satisfy the equations: so many more than these have.
 
-    What holds only because coefficients were rounded then does not count.
+    What holds only because coefficients were rounded then does not count. Entry ``k`` is for
+    winding numbers that ``2 ** k`` divides: what joins two branches may be a coincidence of
+    coefficients, and the zeros that several of these move away are as much farther out.
     """
     most = 0
     for row in homotopy.rows.parts:
         for part, terms in row:
             if homotopy.factors[part][0] != 0:
                 most = max(most, *map(decimal_digits, terms.values()))
-    return min(LEAST_EVIDENCE + beyond + max(0, most - ROUND_NUMBERS), MOST_EVIDENCE)
+    long = max(0, most - ROUND_NUMBERS)
+    return tuple(
+        min(LEAST_EVIDENCE + beyond + max(1, k) * long, MOST_EVIDENCE)
+        for k in range(MAX_WINDING.bit_length())
+    )
 
 
 def _follow_in(
@@ -209,7 +215,7 @@ def _follow_in(
         states.where, states.t = states.safe.copy(), states.safe_t.copy()
     terms, fine = Terms(homotopy), Terms(homotopy)
     limits = Limits(terms, words, ORDER)
-    need = 10.0 ** -digits_of_evidence(homotopy, settings.evidence)
+    needs = [10.0**-digits for digits in digits_of_evidence(homotopy, settings.evidence)]
     later: list[int] = []
     while len(pending):
         found = run(homotopy, states, pending, words, settings, threads)
@@ -220,7 +226,9 @@ def _follow_in(
             if outcome == end_run.LOST:
                 later.append(path)
             elif outcome == end_run.LIMIT:
-                verdict = _limit(states, limits, path, found[k], need)
+                winding = int(states.winding[path])
+                doublings = (winding & -winding).bit_length() - 1
+                verdict = _limit(states, limits, path, found[k], needs[doublings])
                 if verdict != end_run.LIMIT:
                     states.outcome[path] = end_run.LOST
                     # A trial at a limit takes one step, and no path is to be lost for that.
@@ -234,7 +242,7 @@ def _follow_in(
                     # Newton's method converged, but not to a regular zero: go on without it.
                     states.straight[path] = 0
                     again.append(path)
-                elif _ambiguous(homotopy, states, path, need, fine):
+                elif _ambiguous(homotopy, states, path, needs[0], fine):
                     states.ends[path], states.tried[path] = centre, 0
                     later.append(path)
                 else:
