@@ -61,15 +61,16 @@ def vanish_at(equations: Sequence[Polynomial], point: Sequence[tuple[str, str]])
 
     with flint.ctx.workdps(DIGITS + 10):
         z = [_middle(flint.acb(flint.arb(re), flint.arb(im))) for re, im in point]
-        return vanish_in_balls(equations, z)
+    return vanish_in_balls(equations, z)
 
 
 def vanish_in_balls(equations: Sequence[Polynomial], point: Sequence[Any]) -> bool:
     """Whether equations vanish at a point known to `DIGITS` digits, in FLINT's ``acb``."""
     import flint
 
-    vanishing = flint.arb(VANISHES)
-    return all(_relative(f, point[: f.n]) < vanishing for f in equations)
+    with flint.ctx.workdps(DIGITS + 10):
+        vanishing = flint.arb(VANISHES)
+        return all(_relative(f, point[: f.n]) < vanishing for f in equations)
 
 
 def zero_near(
@@ -138,23 +139,23 @@ def vanish(
     jacobian: np.ndarray,
     z: np.ndarray,
 ) -> bool | None:
-    """Whether equations vanish at the zero of a square system near a point.
+    """Whether equations, in the first of the ``N`` variables, vanish at a zero of a square system.
 
-    The zero is computed to `DIGITS` digits; see `zero_near` for the other arguments.
-
-    Args:
-        equations: in the first of the ``N`` variables.
+    See `sharp_zero` for the other arguments.
 
     Returns:
         None if there is no such zero near ``z``.
     """
-    import flint
+    found = sharp_zero(square, slices, jacobian, z)
+    return None if found is None else vanish_in_balls(equations, found)
 
-    with flint.ctx.workdps(DIGITS):
-        found = zero_near(square, slices, jacobian, z, DIGITS)
-        if found is not None and found[1] > SHARP:
-            # Near a curve of zeros of a nearby system a zero is known to fewer digits.
-            found = zero_near(square, slices, jacobian, z, 2 * DIGITS)
-        if found is None:
-            return None
-        return vanish_in_balls(equations, found[0])
+
+def sharp_zero(
+    square: Sequence[Polynomial], slices: np.ndarray, jacobian: np.ndarray, z: np.ndarray
+) -> list[Any] | None:
+    """The zero of a square system near a point to `DIGITS` digits; see `zero_near`."""
+    found = zero_near(square, slices, jacobian, z, DIGITS)
+    if found is not None and found[1] > SHARP:
+        # Near a curve of zeros of a nearby system a zero is known to fewer digits.
+        found = zero_near(square, slices, jacobian, z, 2 * DIGITS)
+    return None if found is None else found[0]

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import vanish
+from nag.algebra.high_precision import sharp_zero, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
@@ -55,31 +57,39 @@ class SquareProblem:
 
         None if there is no such zero.
         """
-        return self._vanish(self.equations, x)
+        zero = self._zero(x)
+        return None if zero is None else vanish_in_balls(self.equations, zero)
 
     def excluded(self, x: np.ndarray, accuracy: float, multiple: bool) -> bool | None:
         """Whether a polynomial that must not vanish does at the exact zero near ``x``.
 
         None if that is not known.
         """
-        n, answers = self.target.n, []
-        zeros = None
-        for g in self.nonzero:
-            if Evaluator.of([g], n).residuals(x[None])[0, 0] > NONZERO:
-                continue
-            if not multiple:
-                answers.append(self._vanish([g], x))
-                continue
-            if zeros is None:
-                zeros = possible_zeros(self.equations, x, accuracy, np.random.default_rng(0))
-            answers.append(vanishes_at_all(zeros, g))
-        return True if True in answers else None if None in answers else False
+        values = self._nonzero.residuals(x[None])[0]
+        near = [g for g, value in zip(self.nonzero, values, strict=True) if value <= NONZERO]
+        if not near:
+            return False
+        if multiple:
+            zeros = possible_zeros(self.equations, x, accuracy, np.random.default_rng(0))
+            answers = [vanishes_at_all(zeros, g) for g in near]
+            return True if True in answers else None if None in answers else False
+        zero = self._zero(x)
+        return None if zero is None else any(vanish_in_balls([g], zero) for g in near)
 
-    def _vanish(self, polynomials: Sequence[Polynomial], x: np.ndarray) -> bool | None:
-        n = self.target.n
-        square = [Polynomial(n, dict(row)) for row in self.target.rows]
-        jacobian = Evaluator.of(square, n).jacobian(x)
-        return vanish(polynomials, square, np.zeros((0, 1 + n)), jacobian, x)
+    def _zero(self, x: np.ndarray) -> list[Any] | None:
+        """The square system's exact zero near ``x`` in balls, if there is one."""
+        square, evaluator = self._square
+        slices = np.zeros((0, 1 + self.target.n))
+        return sharp_zero(square, slices, evaluator.jacobian(x), x)
+
+    @cached_property
+    def _nonzero(self) -> Evaluator:
+        return Evaluator.of(self.nonzero, self.target.n)
+
+    @cached_property
+    def _square(self) -> tuple[list[Polynomial], Evaluator]:
+        square = [Polynomial(self.target.n, dict(row)) for row in self.target.rows]
+        return square, Evaluator.of(square, self.target.n)
 
 
 def _random_linear(n: int, rng: np.random.Generator) -> Polynomial:
