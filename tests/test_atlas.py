@@ -120,8 +120,8 @@ def test_bad_arguments_are_one_line(arguments: list[str], capsys) -> None:
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
-@pytest.mark.parametrize("name", ["cluster-2", "far-cluster"])
-def test_zeros_too_close_for_the_digits_are_undecided_and_no_error(name: str) -> None:
+@pytest.mark.parametrize(("name", "count"), [("cluster-2", 8), ("far-cluster", 8), ("triple", 20)])
+def test_zeros_far_closer_than_doubles_are_told_apart(name: str, count: int) -> None:
     result = solve(family_named(name).make(30, np.random.default_rng([0, 20])).system)
-    assert not result.complete
-    assert len(result.undecided) == 4
+    assert result.complete
+    assert [s.multiplicity for s in result.solutions] == [1] * count

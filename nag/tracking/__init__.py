@@ -32,11 +32,13 @@ straight_run          24       Steps behind the safe point before a path that do
 ends.follow.KNOWN *   1e3      A coordinate over its rounding error that is not zero.
 ends.runs.TAIL        1e-11    Last terms of a path's power series that is taken to converge, for
                                the winding number in question.
-ends.follow           16       Digits to which the exact equations' terms of least order must cancel
+ends.follow           14       Digits to which the exact equations' terms of least order must cancel
 .LEAST_EVIDENCE *              at a limit, so that coefficients that doubles rounded would show.
                                No gap: a limit that does not pass is looked for further in.
 ends.follow           6        Digits of coefficients that ask for no more; each further asks for
 .ROUND_NUMBERS                 one more.
+ends.follow.GAINED    0.1      Residual of a limit over that of the last one, further out: more is
+                               rounding, and asks for more digits.
 ends.follow           58       More cannot be asked of 64 digits.
 .MOST_EVIDENCE
 ends.limits.WHOLE *   1e-3     How far an order of a coordinate may be from a rational number.
@@ -50,6 +52,8 @@ ends.follow.BEYOND    30       Error of a limit in last terms of its series.
 ends.corrector.FLOOR  1e-9     Coordinates that a start in doubles does not know.
 ends.linear_algebra   1e-6     What a correction leaves of a coordinate that it takes away: a zero
 .GONE                          along the whole path.
+.ROUGHEST             1e-6     Coordinate of a point from doubles that may be rounding alone. More
+                               would hide corrections that lead away from the path.
 solve.ON *            1e-9     Residual of the equations, relative to their terms, at a solution: a
                                zero of some combinations of the equations only is larger.
 coincidence.LEAST     1e-11    Least relative error of ends in doubles; those within a hundred times

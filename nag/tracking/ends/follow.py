@@ -19,9 +19,11 @@ from nag.tracking.settings import Settings
 
 # Digits of numbers of as many words.
 DIGITS = {2: 32, 4: 64}
+# Residual of a limit over that of the last one, further out: more says that rounding decides.
+GAINED = 0.1
 # Digits to which equations with coefficients of so few digits must hold at least, and the most
 # that may be asked for.
-LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 16, 6, 58
+LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 14, 6, 58
 # The error of a limit, in last terms of its power series.
 BEYOND = 30.0
 # A coordinate is known if it exceeds its rounding error so many times.
@@ -35,7 +37,7 @@ class States:
     ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
     ``found``: regular ends; ``limits``: others. ``straight``: 0 where Newton's method at t = 0 is
     of no use; ``regular``: where the first trial needs no proof; ``asked``: in how many words it
-    was tried at a limit.
+    was tried at a limit; ``residuals``: of the last limits that were looked at.
     """
 
     where: np.ndarray
@@ -56,6 +58,7 @@ class States:
     errors: np.ndarray
     limits: dict[int, Limit]
     found: dict[int, np.ndarray]
+    residuals: dict[int, float]
     most: int = MAX_STEPS
 
     @classmethod
@@ -87,6 +90,7 @@ class States:
             np.zeros(P, dtype=np.int64),
             *whole,
             np.zeros((P, N)),
+            {},
             {},
             {},
         )
@@ -282,7 +286,11 @@ def _limit(states: States, limits: Limits, path: int, found: np.ndarray, need: f
         shrink = min(0.1, max(1e-8, (need / limit.residual) ** (w / ORDER)))
     states.latest[path] = t * shrink
     noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
-    return end_run.LOST if noise > 1e-3 * need and limits.words == 2 else end_run.OPEN
+    # Where no digits are gained on the way in, rounding errors are what is left.
+    residual, last = np.inf if limit is None else limit.residual, states.residuals.get(path, np.inf)
+    states.residuals[path] = residual
+    stuck = noise > 1e-3 * need or (np.isfinite(residual) and residual > GAINED * last)
+    return end_run.LOST if stuck and limits.words == 2 else end_run.OPEN
 
 
 def _paths(homotopy: Homotopy, states: States) -> Paths:

@@ -12,6 +12,8 @@ from nag.tracking.numbers.error_free import power_near_inverse_root
 PHASE = 1.9416
 # Part of a coordinate that a correction leaves where it takes it away.
 GONE = 1e-6
+# Largest coordinate of a point from doubles that may be nothing but their rounding errors.
+ROUGHEST = 1e-6
 
 
 def _power_near_inverse(r, value):
@@ -125,22 +127,26 @@ def vanishing(x, correction):
     return select_less(size, splat(number.SMALL), gone, splat(0.0))
 
 
+def make_noise(s, r):
+    """Rounding errors of the rows; phases that grow as squares cancel no smooth vector."""
+    for i in range(s.N):
+        size = load(r.sizes, i) * splat(number.EPSILON * 8.0)
+        re, im = math.cos(PHASE * (i * i)), math.sin(PHASE * (i * i))
+        z.write(r.noise, i, z.exact(size * splat(re), size * splat(im)))
+
+
 def newton_correction(s, r, floor, rough):
     """Newton's correction into the right-hand side, rounding errors of the point, and measures.
 
     Measures of each lane: the largest correction over its coordinate's weight; the largest over
     its coordinate's rounding error; the largest rounding error over a coordinate that exceeds
     it a thousandfold; and 1 if the largest coordinate of a group does not. Corrections of
-    coordinates smaller than ``floor``, or than ``rough`` rounding errors, count as if they were of
-    that size.
+    coordinates smaller than ``floor``, or than ``rough`` rounding errors and `ROUGHEST`, count as
+    if they were of that size.
     """
     n = s.N
-    for i in range(n):
-        # Phases that grow as squares cancel no smooth vector, as signs in turn would.
-        size = load(r.sizes, i) * splat(number.EPSILON * 8.0)
-        re, im = math.cos(PHASE * (i * i)), math.sin(PHASE * (i * i))
-        z.write(r.noise, i, z.exact(size * splat(re), size * splat(im)))
     substitute(s, r, r.right)
+    make_noise(s, r)
     substitute(s, r, r.noise)
     zero = splat(0.0)
     half = splat(0.5)
@@ -161,7 +167,9 @@ def newton_correction(s, r, floor, rough):
         gone = vanishing(z.read(r.slots, j), z.read(r.right, j))
         weight = select_less(half, gone, splat(number.SMALL), weight)
         error = select_less(half, gone, z.largest(error, step), error)
-        weight = z.largest(z.largest(weight, floor), rough * error)
+        most = rough * error
+        most = select_less(splat(ROUGHEST), most, splat(ROUGHEST), most)
+        weight = z.largest(z.largest(weight, floor), most)
         store(r.errors, j, error)
         store(r.weights, j, weight)
         eta = z.largest(eta, step / weight)
