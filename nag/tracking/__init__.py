@@ -38,7 +38,7 @@ ends.follow           14       Digits to which the exact equations' terms of lea
 ends.follow           6        Digits of coefficients that ask for no more; each further asks for
 .ROUND_NUMBERS                 one more.
 ends.follow.GAINED    0.1      Residual of a limit over that of the last one, further out: more is
-                               rounding, and asks for more digits.
+                               rounding, if it is below 1e-6, and asks for more digits.
 ends.follow           58       More cannot be asked of 64 digits.
 .MOST_EVIDENCE
 ends.limits.WHOLE *   1e-3     How far an order of a coordinate may be from a rational number.

@@ -19,8 +19,9 @@ from nag.tracking.settings import Settings
 
 # Digits of numbers of as many words.
 DIGITS = {2: 32, 4: 64}
-# Residual of a limit over that of the last one, further out: more says that rounding decides.
-GAINED = 0.1
+# Residual of a limit over that of the last one, further out: more says that rounding decides, if
+# the forms nearly vanish.
+GAINED, NEARLY = 0.1, 1e-6
 # Digits to which equations with coefficients of so few digits must hold at least, and the most
 # that may be asked for.
 LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 14, 6, 58
@@ -289,7 +290,7 @@ def _limit(states: States, limits: Limits, path: int, found: np.ndarray, need: f
     # Where no digits are gained on the way in, rounding errors are what is left.
     residual, last = np.inf if limit is None else limit.residual, states.residuals.get(path, np.inf)
     states.residuals[path] = residual
-    stuck = noise > 1e-3 * need or (np.isfinite(residual) and residual > GAINED * last)
+    stuck = noise > 1e-3 * need or GAINED * last < residual < NEARLY
     return end_run.LOST if stuck and limits.words == 2 else end_run.OPEN
 
 
