@@ -8,8 +8,10 @@ from itertools import product
 import numpy as np
 import pytest
 
+import nag
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
+from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.follow import Unfinished, digits_of_evidence, follow
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limits
@@ -123,3 +125,27 @@ def test_orders_that_are_no_rational_numbers_give_no_limit() -> None:
     point[:, 0, 0] = 1.0
     found[1, 0, 0, 0] = np.sqrt(2) / 3
     assert limits.of(point, found, np.ones(2, dtype=bool), np.array([1e-3, 0.0]), 1) is None
+
+
+@pytest.mark.parametrize(
+    "equations",
+    [
+        ["x^2 - 2*y^2 + x - 1", "x - sqrt(2)*y - 1"],
+        ["3*x^2 - y^2 + y - 7", "sqrt(3)*x*y - y^2 + x"],
+    ],
+)
+def test_irrational_coefficients_have_zeros_at_infinity(equations: list[str]) -> None:
+    found = nag.solve(equations, start="total")
+    assert found.complete
+    assert found.paths.at_infinity == 1
+
+
+@pytest.mark.parametrize("digits", [None, 40, 100])
+def test_a_zero_is_at_infinity_only_if_the_exact_equations_put_it_there(digits: int | None) -> None:
+    # x = y - 1 and e y^2 = 2 y: the second zero has size 2 / e.
+    e = Fraction(1, 10**digits) if digits else Fraction(0)
+    x, y = Polynomial.variables(2)
+    homotopy, _ = homotopy_of([x**2 - (1 - e) * y**2 - 1, x - y + 1])
+    centre = np.zeros((3, 2, 2))
+    centre[1:, 0, 0] = 1.0
+    assert at_infinity(Terms(homotopy), centre, [0]) == (digits is None)

@@ -6,7 +6,6 @@ if the component is reduced, of their isosingular deflation otherwise (Hauenstei
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -137,29 +136,6 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
             return Sharpened(z, np.inf, False)
     residual = float(evaluator.residuals(z[None]).max(initial=0.0))
     return Sharpened(z, step, bool(step < floor) and residual < VANISHING)
-
-
-def sharpen_all(evaluator: Evaluator, rows: np.ndarray, points: np.ndarray) -> list[Sharpened]:
-    """`sharpen` for points of shape ``(P, n)``; those known to rounding take one step together."""
-    found: list[Sharpened | None] = [None] * len(points)
-    a = padded(rows, 1 + points.shape[1])
-    columns = points.shape[1]
-    if len(evaluator.coefficients) + len(a) == columns > 0:
-        jacobians = evaluator.placed_derivatives(columns)(points)
-        slices = np.broadcast_to(a[:, 1:], (len(points), len(a), columns))
-        matrices = np.concatenate([jacobians, slices], axis=1)
-        values = [evaluator.values(points), a[:, 0] + points @ a[:, 1:].T]
-        with contextlib.suppress(np.linalg.LinAlgError):
-            steps = np.linalg.solve(matrices, np.concatenate(values, axis=1)[:, :, None])[:, :, 0]
-            moved = points - steps
-            sizes = np.linalg.norm(steps, axis=1) / (1 + np.linalg.norm(moved, axis=1))
-            residuals = evaluator.residuals(moved).max(axis=1, initial=0.0)
-            for i in np.flatnonzero((sizes < ROUNDING) & (residuals < VANISHING)):
-                found[i] = Sharpened(moved[i], float(sizes[i]), True)
-    return [
-        sharpen(evaluator, rows, z) if known is None else known
-        for z, known in zip(points, found, strict=True)
-    ]
 
 
 def _floors(evaluator: Evaluator, z: np.ndarray, slices: int) -> np.ndarray:

@@ -77,6 +77,6 @@ def exact(c: Number | complex) -> Any:
     if isinstance(c, complex | float | np.complexfloating | np.floating):
         return flint.acb(complex(c))
     if isinstance(c, Irrational):
-        c = rounded_fraction(c, 100)
+        c = rounded_fraction(c, max(100, flint.ctx.dps + 10))
     c = Fraction(c)
     return flint.acb(flint.fmpq(c.numerator, c.denominator))
