@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
@@ -11,12 +12,22 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
 from nag.mechanism.graph import Body, Joint, Mechanism
+from nag.witness.witness import Decomposition
 
 CASES = Path(__file__).parent.parent / "cases"
 
 
 def exact(*values: int | str | Fraction) -> tuple[Fraction, ...]:
     return tuple(Fraction(v) for v in values)
+
+
+def kinds(answer: Decomposition) -> Counter[tuple[int, int, int]]:
+    """How many components there are of each dimension, degree and multiplicity."""
+    assert answer.complete
+    counts: Counter[tuple[int, int, int]] = Counter()
+    for c in answer.components:
+        counts[c.dimension, c.degree, c.multiplicity] += c.orbit
+    return counts
 
 
 def loop(points: list, axes: list, orientations: dict | None = None) -> Mechanism:

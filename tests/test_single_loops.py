@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
-
 import pytest
-from linkages import CASES
+from linkages import CASES, kinds
 
 from nag.decomposition import decompose
 from nag.files.cases import read_case
 from nag.mechanism.coordinates import euler_decomposition
 from nag.mechanism.model import model
-from nag.witness.witness import Decomposition
 
 # Those that Euler parameters decompose within two seconds. Tables are in
 # tests/test_table_formulations.py.
@@ -23,14 +20,6 @@ LOOPS = [
     "spatial/rccc",
     "spatial/rssr",
 ]
-
-
-def kinds(answer: Decomposition) -> Counter:
-    assert answer.complete
-    counts: Counter = Counter()
-    for c in answer.components:
-        counts[c.dimension, c.degree, c.multiplicity] += c.orbit
-    return counts
 
 
 @pytest.mark.parametrize("name", LOOPS)

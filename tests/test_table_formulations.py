@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from fractions import Fraction
 
 import pytest
-from linkages import CASES
+from linkages import CASES, kinds
 
 from nag.algebra.number import is_zero
 from nag.cli import main
@@ -15,7 +14,6 @@ from nag.files.cases import read_case
 from nag.files.dh_case import in_formulation
 from nag.mechanism.dh import DHModel
 from nag.mechanism.dh_euler import dh_euler_model, euler_closings
-from nag.witness.witness import Decomposition
 
 # Those that Euler parameters decompose within a second; tests/many_seeds.py has the others.
 TABLES = [
@@ -36,14 +34,6 @@ def table(name: str) -> DHModel:
     made = read_case(CASES / f"{name}.toml").assembly
     assert isinstance(made, DHModel)
     return made
-
-
-def kinds(answer: Decomposition) -> Counter:
-    assert answer.complete
-    counts: Counter = Counter()
-    for c in answer.components:
-        counts[c.dimension, c.degree, c.multiplicity] += c.orbit
-    return counts
 
 
 @pytest.mark.parametrize("name", TABLES)

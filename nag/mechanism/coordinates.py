@@ -7,10 +7,13 @@ is lifted; loops and the trace find the witness points of the component through 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
 from nag.decomposition.given_points import components_through_points
 from nag.mechanism.model import Model, model
 from nag.mechanism.rods import RodModel
@@ -35,28 +38,44 @@ def euler_decomposition(
     target = replace(target, reason=f"{reason} to the bodies' Euler parameters")
     spins = source.form.spins if isinstance(source.form, RodModel) else 0
     starts = []
-    notes = list(decomposition.notes)
     for component in decomposition.components:
-        if component.status is not Status.IRREDUCIBLE:
-            notes.append(f"a component of dimension {component.dimension} is undecided")
         lifted = source.lift(component.points[0])
         point = np.array(target.project(lifted), dtype=complex)
         starts.append((component.dimension + spins, point))
+    return target, carried_over(decomposition, target.system, target.symmetries, starts, threads)
+
+
+def carried_over(
+    decomposition: Decomposition,
+    system: PolynomialSystem,
+    symmetries: Sequence[SignedPermutation],
+    starts: Sequence[tuple[int, np.ndarray]],
+    threads: int,
+) -> Decomposition:
+    """Components in other coordinates, each through a point that a component was lifted to.
+
+    Complete if the given decomposition is and every component was found and confirmed.
+
+    Args:
+        system: the equations in the other coordinates; symmetries: theirs.
+        starts: for each component its dimension there and the point.
+    """
+    notes = [
+        f"a component of dimension {component.dimension} is undecided"
+        for component in decomposition.components
+        if component.status is not Status.IRREDUCIBLE
+    ]
     answer = components_through_points(
-        target.system,
+        system,
         starts,
         seed=decomposition.seed,
         threads=threads,
         settings=decomposition.settings,
-        symmetries=target.symmetries,
+        symmetries=symmetries,
     )
-    return target, Decomposition(
-        system=answer.system,
-        components=answer.components,
+    return replace(
+        answer,
         paths=decomposition.paths + answer.paths,
-        seed=answer.seed,
-        settings=answer.settings,
-        order=(),
         complete=decomposition.complete and answer.complete and not notes,
-        notes=(*notes, *answer.notes),
+        notes=(*decomposition.notes, *notes, *answer.notes),
     )

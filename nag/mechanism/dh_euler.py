@@ -22,8 +22,8 @@ from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.given_points import components_through_points
 from nag.mechanism.configuration import arithmetic_of, as_entries
+from nag.mechanism.coordinates import carried_over
 from nag.mechanism.dh import REAL, DHError, DHLoop, DHModel, dh_model, opened
 from nag.mechanism.formulations import Alternative
 from nag.mechanism.quaternion import (
@@ -37,7 +37,7 @@ from nag.mechanism.quaternion import (
     translation,
 )
 from nag.mechanism.row_reduction import independent_polynomials
-from nag.witness.witness import Decomposition, Status
+from nag.witness.witness import Decomposition
 
 ZERO, ONE = Fraction(0), Fraction(1)
 _IDENTITY: Quaternion = (ONE, ZERO, ZERO, ZERO)
@@ -179,18 +179,4 @@ def euler_closings(
     for component in closings.components:
         point = target.of_half_angles(source, component.points[0])
         starts.append((component.dimension, np.array(point, dtype=complex)))
-    answer = components_through_points(
-        target.system,
-        starts,
-        seed=closings.seed,
-        threads=threads,
-        settings=closings.settings,
-        symmetries=target.symmetries,
-    )
-    undecided = any(c.status is not Status.IRREDUCIBLE for c in closings.components)
-    return target, replace(
-        answer,
-        paths=closings.paths + answer.paths,
-        complete=closings.complete and answer.complete and not undecided,
-        notes=(*closings.notes, *answer.notes),
-    )
+    return target, carried_over(closings, target.system, target.symmetries, starts, threads)
