@@ -121,3 +121,13 @@ def test_a_branch_keeps_its_meaning_among_other_coordinates() -> None:
         assert branch.orders == other.orders
         assert np.exp(branch.logs) == pytest.approx(np.exp(other.logs), abs=1e-6)
     assert len(images.where(PathStatus.FAILED)) == 0
+
+
+@pytest.mark.parametrize(
+    ("equations", "number"),
+    [(["2*x*y - 1", "2*y*x - 1"], 0), (["x^2 - x*y + 3*y^2", "y^2 - x*y + 3*x^2"], 4)],
+)
+def test_systems_without_mixed_cells_are_solved(equations: list[str], number: int) -> None:
+    result = solve(equations, start="total")
+    assert sum(s.multiplicity for s in result.solutions) == number
+    assert result.complete
