@@ -12,11 +12,12 @@ from fractions import Fraction
 
 import numpy as np
 
+from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.excluded import excluded
 from nag.decomposition.hypersurface import Crossing, Sections, crossing
 from nag.numerics.coincidence import clusters, coincident
-from nag.witness.close_to_sets import meant, regular_fibre
+from nag.witness.close_to_sets import among, meant, regular_fibre
 from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
@@ -242,9 +243,12 @@ class _Stage:
         """Add the isolated zeros among ends that seem to lie on a larger set."""
         notes, found = [], meant(cluster, so_far, rows, self.rng)
         for zero in found.zeros:
+            known = among(zero, own, rows)
+            if known or any(vanish_at([g], zero.digits) for g in self.avoid):
+                continue
             fibre = regular_fibre(zero, so_far, rows)
-            if fibre is None:
-                notes.append("a multiple point close to a larger set could not be made regular")
+            if fibre is None or known is None:
+                notes.append("a point close to a larger set could not be made regular")
             else:
                 own.append(fibre)
         return notes

@@ -167,13 +167,19 @@ def _dual_space(
 def _resolved(
     system: ExactSystem, found: Deflated, reach: float, rng: np.random.Generator, depth: int
 ) -> list[SingularEnd]:
-    """The zeros of a cluster about a point, each judged by itself."""
+    """The zeros of a cluster about a point, each judged by itself.
+
+    Of those on a component of positive dimension there is one, the last.
+    """
     result: list[SingularEnd] = []
     known: list[list[flint.acb]] = []
-    for start, size in close_zeros(system, found, reach, rng):
+    component: SingularEnd | None = None
+    for start, size, regular in close_zeros(system, found, reach, rng):
+        if component is not None and not regular:
+            break
         end = _judged(system, start, size - 4.0, rng, depth + 1)
-        if end.place is Place.ON_COMPONENT:
-            return [end]
+        if end.dimension:
+            component = end
         for one in end.nearby or (end,):
             if one.place is not Place.ISOLATED:
                 continue
@@ -182,16 +188,28 @@ def _resolved(
             if all(distance > 20.0 - WRITTEN for distance in apart):
                 known.append(place)
                 result.append(one)
-    return result
+    return result if component is None else [*result, component]
 
 
 def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]) -> SingularEnd:
-    total = sum(end.multiplicity for end in nearby)
-    reason = f"{len(nearby)} zeros close together, of multiplicities that add up to {total}"
+    isolated = tuple(one for one in nearby if one.place is Place.ISOLATED)
+    total = sum(one.multiplicity for one in isolated)
+    reason = f"{len(isolated)} zeros close together, of multiplicities that add up to {total}"
+    dimension = max(one.dimension for one in nearby)
+    if dimension:
+        reason += ", beside a component of positive dimension"
     end = _end(system, found, Place.CLUSTER, 0, reason)
     spread = max(float(np.abs(one.point - end.point).max()) for one in nearby)
     return SingularEnd(
-        end.point, end.place, 0, spread, np.inf, reason, digits=end.digits, nearby=tuple(nearby)
+        end.point,
+        end.place,
+        0,
+        spread,
+        np.inf,
+        reason,
+        dimension,
+        digits=end.digits,
+        nearby=isolated,
     )
 
 

@@ -31,7 +31,7 @@ def possible_zeros(
     """
     end = analyse(equations, x, accuracy, rng, slices)
     if end.place is Place.CLUSTER:
-        return end.nearby
+        return () if end.dimension else end.nearby
     return (end,) if end.place is Place.ISOLATED else ()
 
 

@@ -13,23 +13,26 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
+from nag.algebra.high_precision import sharp_zero
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.coincidence import coincident
 from nag.numerics.digits import log_norm, middle, point
 from nag.numerics.pivots import pivots
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.witness.close_points import in_words, rated
+from nag.witness.close_points import in_words, rated, zero_from
 from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre
 from nag.witness.slices import padded
 
 # Digits in which zeros are looked at, and in which a pivot is none (decimal logarithm); zeros
 # nearer to each other than this, relative to one, are the same.
-DIGITS, ZERO, SAME = 110, -80.0, -80.0
+DIGITS, ZERO, SAME = 100, -80.0, -80.0
 # How many digits larger slices are made than equations.
 FIRST = 40
-# Doubles are no more accurate than this, relative to the point.
-ROUNDED = 1e-15
+# Doubles are no more accurate than this, relative to the point; regular ends nearer to a zero than
+# this are compared with it in digits.
+ROUNDED, CLOSE = 1e-15, 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,11 +63,39 @@ def meant(
         for zero in end.nearby or ((end,) if end.place is Place.ISOLATED else ()):
             with flint.ctx.workdps(DIGITS):
                 here = point(zero.digits)
-                apart = [log_norm(a - b for a, b in zip(here, z, strict=True)) for z in known]
-            if all(distance > SAME for distance in apart):
+                new = not any(_same(here, z) for z in known)
+            if new:
                 zeros.append(zero)
                 known.append(here)
     return Meant(tuple(zeros), decided)
+
+
+def among(zero: SingularEnd, fibres: Sequence[Fibre], rows: np.ndarray) -> bool | None:
+    """Whether a zero is one of the points of fibres on ``rows``, in digits; None if left open."""
+    unknown = False
+    with flint.ctx.workdps(DIGITS):
+        here = point(zero.digits)
+    for fibre in fibres:
+        for i in np.flatnonzero(coincident(fibre.x, zero.point, CLOSE)).tolist():
+            there = _digits(fibre, i, rows)
+            if there is not None and _same(here, there[: len(here)]):
+                return True
+            unknown |= there is None
+    return None if unknown else False
+
+
+def _same(x: Sequence[flint.acb], y: Sequence[flint.acb]) -> bool:
+    return log_norm(a - b for a, b in zip(x, y, strict=True)) < SAME
+
+
+def _digits(fibre: Fibre, i: int, rows: np.ndarray) -> list[flint.acb] | None:
+    """A regular point of a fibre in digits; None where Newton's method does not lead to it."""
+    cut, z = fibre.cut, fibre.points[i]
+    if i in fibre.fine:
+        with flint.ctx.workdps(2 * DIGITS):
+            found = zero_from(cut.polynomials, rows, fibre.fine[i], DIGITS)
+        return None if found is None else found[0]
+    return sharp_zero(cut.polynomials, padded(rows, 1 + len(z)), cut.evaluator.jacobian(z), z)
 
 
 def regular_fibre(zero: SingularEnd, equations: Equations, rows: np.ndarray) -> Fibre | None:
