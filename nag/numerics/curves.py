@@ -55,7 +55,7 @@ def smooth_set(
         inverse: of the blocks that were solved for, decimal logarithm: Newton's method converges
             as much nearer to the point.
     """
-    nearer = max(0, int(inverse / LOG10_2))
+    nearer = int(max(0.0, inverse) / LOG10_2)
     for k in (k + nearer for k in NEAR):
         digits = LEAST_DIGITS
         first = _values(system, point, rounds, k, digits)

@@ -103,7 +103,7 @@ def lowest_order(
 
 def _noise(degree: int, inverse: float) -> float:
     """What a coefficient of a degree may be that is zero; see `lowest_order`."""
-    return max(ZERO, SPARE - DIGITS + degree * inverse)
+    return max(ZERO, SPARE - DIGITS + degree * max(0.0, inverse))
 
 
 def regular_block(
