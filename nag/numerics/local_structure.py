@@ -22,7 +22,7 @@ from nag.numerics.implicit_function import eliminate
 from nag.numerics.null_space import Digits, Field, PrimeField, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.rational_point import rational_point
-from nag.numerics.sharpening import DIGITS
+from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 from nag.numerics.singular_point import Place, SingularEnd
 
 # Decimal logarithms of the factors by which the error may exceed what is claimed, in this order.
@@ -36,6 +36,8 @@ NUMBERS = Digits(DIGITS, -90.0, -45.0)
 # become smaller for two degrees, and the highest degree.
 SEARCHES = (6, 14, 30)
 HIGHEST = 400
+# The most digits, beside those, in which a zero is looked at once more.
+MOST_DIGITS = 2000
 # Written digits of a point.
 WRITTEN = 100
 # Clusters of clusters are not resolved further than this.
@@ -105,6 +107,9 @@ def _at_zero(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> 
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
+    if (found.corank or len(system.rows) > system.n) and not _held(system, found):
+        reason = "more digits show several zeros there, or none, nearer than 150 digits tell"
+        return _end(system, found, Place.UNDECIDED, 0, reason)
     if found.corank == 0:
         return _end(system, found, Place.ISOLATED, 1, "the Jacobian is regular")
     if found.corank == 1:
@@ -114,6 +119,18 @@ def _at_zero(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> 
         return _by_dual_space(system, found, rng)
     except (UnclearRank, _TooLarge) as reason:
         return _end(system, found, Place.UNDECIDED, 0, str(reason))
+
+
+def _held(system: ExactSystem, found: Deflated) -> bool:
+    """Whether what vanishes at a zero does so to as many digits as long coefficients ask for.
+
+    Zeros may be as near to each other as the coefficients are long, times the number of zeros.
+    """
+    more = min(2 * system.height * int(min(system.most_zeros, MOST_DIGITS)), MOST_DIGITS)
+    digits = DIGITS + more
+    with working(digits):
+        exact = sharpen(system, found.point, found.rounds, digits)
+    return exact is not None and exact[1].defect < ZERO / DIGITS * digits
 
 
 def _by_dual_space(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> SingularEnd:
