@@ -99,10 +99,11 @@ def test_a_root_of_multiplicity_m_has_winding_number_m(m):
     assert (error <= 3 * paths.accuracy).all()
 
 
-def test_infinite_singular_and_regular_ends_are_told_apart():
+@pytest.mark.parametrize("seed", range(40))
+def test_infinite_singular_and_regular_ends_are_told_apart(seed):
     x, y = Polynomial.variables(2)
-    # (y = 0, x = 1) simple, (x = 1, y = -1) of multiplicity 2, one solution at infinity.
-    homotopy, starts = total_degree([(x - 1) * (y + 1), y * (y + 1)], 3)
+    # (y = 0, x = 1) simple, one solution at infinity; two paths stay at points of the line y = -1.
+    homotopy, starts = total_degree([(x - 1) * (y + 1), y * (y + 1)], seed)
     paths = track(homotopy, starts)
     regular = paths.where(PathStatus.REGULAR)
     affine = paths.points[regular, 1:] / paths.points[regular, :1]

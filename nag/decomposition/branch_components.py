@@ -24,7 +24,12 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.zero_values import possible_zeros, vanishes_at_all
+from nag.numerics.zero_values import (
+    alike,
+    multiplicity_of_all,
+    possible_zeros,
+    vanishes_at_all,
+)
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import ON, Cut, numerical_corank
 from nag.witness.error_radii import framed, sharpened
@@ -33,13 +38,15 @@ from nag.witness.frame import Frame
 from nag.witness.membership import Membership, component_fibres, is_member
 from nag.witness.moving import witness_at
 from nag.witness.multiplicity import ACCURACY, multiplicity
-from nag.witness.slices import random_rows, to_slice
+from nag.witness.slices import padded, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 # Values, relative to their terms, above which a polynomial certainly does not vanish at a point.
 NONZERO = 1e-6
 # Singular values of a Jacobian, relative to its size, that count as zero.
 ZERO = 1e-9
+# Relative error of a zero that is known by its written digits.
+WRITTEN = 1e-90
 
 Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
 
@@ -90,7 +97,8 @@ class _Component:
             # Of what was sharpened by a deflation no more is known.
             accuracy = max(accuracy, ACCURACY)
         rng = np.random.default_rng(0)
-        return possible_zeros(self.system.polynomials, x, accuracy, rng, rows)
+        zeros = possible_zeros(self.system.polynomials, x, accuracy, rng, rows)
+        return alike(zeros, x) if len(zeros) > 1 else zeros
 
 
 @dataclass(frozen=True, eq=False)
@@ -346,7 +354,13 @@ def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
         return independent_gradients(polynomials, x, error)
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int:
-        return multiplicity(generators, witness.slice.rows, x, np.random.default_rng(0))
+        rows, rng = witness.slice.rows, np.random.default_rng(0)
+        zeros = () if component.zero is not None else component._zeros
+        if len(zeros) != 1:
+            return multiplicity(generators, rows, x, rng)
+        # Zeros of other branches may be close to it.
+        there = possible_zeros(generators, zeros[0].digits, WRITTEN, rng, padded(rows, 1 + n))
+        return multiplicity_of_all(there) or 0
 
     codimension = n - witness.dimension
     return generic_multiplicity(

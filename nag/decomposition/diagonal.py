@@ -18,10 +18,10 @@ import numpy as np
 
 from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
+from nag.decomposition.excluded import ROUNDED, forbidden
 from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import ROUNDED, forbidden
 from nag.numerics.coincidence import clusters, coincident, compared
 from nag.numerics.zero_values import possible_zeros
 from nag.witness.cutting import NEAR, Cut, regular_on, sharpen

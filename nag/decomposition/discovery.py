@@ -18,8 +18,8 @@ from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Assembly, Known, assembled
 from nag.decomposition.common_slices import CommonSlices, Start
+from nag.decomposition.excluded import forbidden
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import forbidden
 from nag.decomposition.symmetric_images import in_orbits
 from nag.witness.cutting import NEARLY_SINGULAR, Cut
 from nag.witness.fibres import Progress, Tracker

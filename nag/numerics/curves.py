@@ -42,14 +42,21 @@ def digits_at(system: ExactSystem, k: int) -> int:
     return max(LEAST_DIGITS, int((highest * (k + 2) * LOG10_2 + 20) / VANISHING))
 
 
-def smooth_set(system: ExactSystem, point: Point, rounds: Sequence[Round]) -> float:
+def smooth_set(
+    system: ExactSystem, point: Point, rounds: Sequence[Round], inverse: float = 0.0
+) -> float:
     """Whether the equations vanish along the smooth set that the rounds leave: 0 if they do.
 
     They are evaluated at a point of the set, at a distance r and to as many digits that r to the
     power of any possible multiplicity would be seen. If they do not vanish, the order to which they
     do is returned, roughly, by a second distance; ``inf`` where no further points were found.
+
+    Args:
+        inverse: of the blocks that were solved for, decimal logarithm: Newton's method converges
+            as much nearer to the point.
     """
-    for k in NEAR:
+    nearer = int(max(0.0, inverse) / LOG10_2)
+    for k in (k + nearer for k in NEAR):
         digits = LEAST_DIGITS
         first = _values(system, point, rounds, k, digits)
         if first is not None and first < -VANISHING * digits:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from math import floor, lcm, log2, prod
+from math import floor, gcd, lcm, log2, prod
 from typing import Any
 
 import flint
@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.digits import log_norm, number
+from nag.numerics.digits import LOG10_2, log_norm, number
 from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Terms
 
@@ -95,6 +95,18 @@ class ExactSystem:
     @cached_property
     def _degrees(self) -> list[int]:
         return [max(sum(e) for e, _ in row) for row in self.rows]
+
+    @cached_property
+    def height(self) -> int:
+        """Decimal digits of the longest coefficient where rows of rationals have whole ones."""
+        longest = 0
+        for row in self.rows:
+            if all(isinstance(c, Fraction) for _, c in row):
+                whole = lcm(*(c.denominator for _, c in row))
+                numbers = [c.numerator * (whole // c.denominator) for _, c in row]
+                largest = max(map(abs, numbers)) // gcd(*numbers)
+                longest = max(longest, int(largest.bit_length() * LOG10_2) + 1)
+        return longest
 
     def log_residual(self, y: Sequence[flint.acb], digits: int) -> float:
         """Decimal logarithm of the largest value at a point of so many digits."""

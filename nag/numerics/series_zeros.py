@@ -11,6 +11,8 @@ import numpy as np
 from nag.numerics.power_series import Series, SeriesRing
 
 STEPS = 60
+# Singular values beside the largest one that are those of a regular zero.
+REGULAR = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +71,12 @@ class ScaledSeries:
             lowered[:, i] = k * powers[i, np.maximum(k - 1, 0)]
             jacobian[:, i] = self.rows @ lowered.prod(axis=1)
         return values, jacobian
+
+    def regular(self, u: np.ndarray) -> bool:
+        """Whether a zero is a regular one, as far as doubles can tell."""
+        _, jacobian = self._values(u)
+        values = np.linalg.svd(jacobian, compute_uv=False)
+        return len(values) == self.m and bool(values[-1] > REGULAR * values[0])
 
     def newton(self, u: np.ndarray, plane: np.ndarray | None = None) -> np.ndarray | None:
         """Gauss-Newton from ``u``, on the hyperplane ``plane u = 1`` if there is one.

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
+from typing import Any
 
 import numpy as np
 
@@ -28,7 +29,12 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
 from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.zero_values import multiplicity_of_all, possible_zeros, vanishes_at_all
+from nag.numerics.zero_values import (
+    alike,
+    multiplicity_of_all,
+    possible_zeros,
+    vanishes_at_all,
+)
 from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
@@ -38,6 +44,8 @@ NONZERO = 1e-6
 NEAR = 1e-7
 # Bits of the coordinates of exact zeros whose local rings are looked at.
 BITS = 400
+# Relative error of a zero that is known by its written digits, and digits to compute with.
+WRITTEN, WORKING = 1e-90, 120
 
 Tracked = Callable[[PolynomialSystem], SolveResult]
 
@@ -83,7 +91,22 @@ class _Found:
         assert self.elimination is not None
         reduced, x = self.elimination, self.solution.point
         y, rng = reduced.project(x), np.random.default_rng(0)
-        return possible_zeros(reduced.system.polynomials, y, self.solution.accuracy, rng)
+        zeros = possible_zeros(reduced.system.polynomials, y, self.solution.accuracy, rng)
+        return alike(zeros, y) if len(zeros) > 1 else zeros
+
+    @cached_property
+    def in_digits(self) -> list[Any] | None:
+        """The coordinates to 100 digits (FLINT's ``acb``) where it is known which zero this is."""
+        if len(self._zeros) != 1:
+            return None
+        import flint
+
+        from nag.numerics.digits import number, point
+
+        assert self.elimination is not None
+        with flint.ctx.workdps(WORKING):
+            y = point(self._zeros[0].digits)
+            return [flint.acb(f(y, number)).mid() for f in self.elimination.images]
 
 
 @dataclass(frozen=True, eq=False)
@@ -329,7 +352,12 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
         return independent_gradients(polynomials, x, error)
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
-        at, error = (x, accuracy) if each.zero is None else (each.zero.known_to(BITS), 2.0**-BITS)
+        at, error = x, accuracy
+        if each.zero is not None:
+            at, error = each.zero.known_to(BITS), 2.0**-BITS
+        elif each.in_digits is not None:
+            # Zeros of other branches may be close to it.
+            at, error = each.in_digits, WRITTEN
         return multiplicity_of_all(possible_zeros(generators, at, error, np.random.default_rng(0)))
 
     return generic_multiplicity(equations, len(x), each.vanishes, independent, by_local_ring)

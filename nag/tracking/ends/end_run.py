@@ -280,7 +280,8 @@ def _advance(s, r, f, lane, b, best, winding):
         # Further in, rounding errors grow: no further than a limit is wanted.
         h = min(h, max(2.0, math.log(f[8 * T + lane] / b.latest[path])))
     f[8 * H + lane] = min(h, f[8 * H + lane]) if rejected > 0.5 else h
-    end = tail_at_end(s, r, b.order, lane)
+    # Tails that are rounding errors, as of paths that stay where they are, say nothing new.
+    end = max(tail_at_end(s, r, b.order, lane), number.EPSILON)
     if end <= 0.1 * f[8 * TRIED + lane] and b.straight[path] != 0:
         f[8 * TRIED + lane] = end
         f[8 * MODE + lane] = FINISH
