@@ -110,6 +110,15 @@ def test_it_is_the_dimension_of_the_component_at_its_generic_points(name: str) -
         assert at_witness_point(system, component).dimension == component.dimension
 
 
+@pytest.mark.parametrize("at", [(0, 0, 0), (1, -1, Fraction(1, 2)), (2**0.5, 1.0, 2**-0.5)])
+def test_a_common_factor_of_the_equations_is_a_hypersurface(at: tuple) -> None:
+    """Points of a surface, isolated and embedded ones among them."""
+    surface = "(x - y*z*(x^2 - 1))*(x*y^2 - 2*z)^2"
+    system = nag.system([f"{surface}*({f})^2" for f in ("x - y", "y + z", "x + y*z")], "x y z")
+    found = nag.local_dimension(system, at)
+    assert found.dimension == 2 and "common factor" in found.reason
+
+
 def test_a_cluster_of_zeros_is_left_undecided() -> None:
     system = plain(polynomials("x y", "x^3 + 1/10^20*x^2", "y - x"))
     found = nag.local_dimension(system, np.array([1e-9, 1e-9]))

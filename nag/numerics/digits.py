@@ -59,7 +59,10 @@ def log_size(z: flint.acb | int) -> float:
     """The decimal logarithm of ``|z|`` to within a factor of three; also beyond doubles' range."""
     if isinstance(z, int):
         return LOG10_2 * z.bit_length() if z else -np.inf
-    size = abs(complex(z))
+    try:
+        size = abs(complex(z))
+    except OverflowError:
+        size = np.inf
     if SMALLEST < size < LARGEST:
         return log10(size)
     return LOG10_2 * max(_log2(z.real), _log2(z.imag))
