@@ -15,6 +15,7 @@ import numpy as np
 
 from nag.algebra.elimination import Elimination
 from nag.algebra.factoring import common_factor
+from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.algebraic_point import prime_images
 from nag.numerics.curve_search import CurveSearch
@@ -71,7 +72,7 @@ def bounds(
             here = np.array([complex(float(c)) if is_exact(c) else complex(c) for c in point])
             return LocalDimension(here, None, 0, len(point), 0, 0, (), "", reason)
         sharpened = [c * f for c, f in zip(zero.found.point, factors, strict=True)]
-        answer = _at_zero(zero, _on_hypersurface(polynomials, sharpened, factors), rng)
+        answer = _at_zero(zero, _on_hypersurface(polynomials, zero, factors), rng)
         digits = tuple((decimal(c.real), decimal(c.imag)) for c in sharpened)
         return replace(answer, point=doubles(sharpened), digits=digits)
 
@@ -112,12 +113,16 @@ def _value(image: Polynomial, point: Sequence[flint.acb]) -> flint.acb:
 
 
 def _on_hypersurface(
-    polynomials: Sequence[Polynomial], point: Sequence[flint.acb], units: Sequence[flint.arb]
+    polynomials: Sequence[Polynomial], zero: Zero, units: Sequence[flint.arb]
 ) -> bool:
     """Whether a common factor of the equations vanishes at a zero of them."""
     common = common_factor(polynomials)
     if common is None:
         return False
+    if zero.exact is not None:
+        powers = [Fraction(2) ** int(unit.man_exp()[1]) for unit in units]
+        return is_zero(common([c * k for c, k in zip(zero.exact, powers, strict=True)]))
+    point = [c * unit for c, unit in zip(zero.found.point, units, strict=True)]
     sizes = [max(abs(c).mid(), unit) for c, unit in zip(point, units, strict=True)]
     largest = max(abs(number(c)) * _monomial(e, sizes) for e, c in common.terms.items())
     return log_norm([middle(common(point, number))]) < ZERO + log_norm([middle(largest)])
