@@ -10,8 +10,9 @@ point exactly if its multiplicity is 1.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
+from math import comb
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.intersection import intersect_components
+from nag.decomposition.linear_hull import within_hull
 from nag.decomposition.rank_drop import rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
@@ -33,6 +35,8 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 MOST_PAIRS = 150
 # Relative errors of isolated points that were found as ends of paths.
 ACCURACY = 1e-8
+# What is further from a linear space than a point's error by this factor is not on it.
+SURELY = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,9 +110,14 @@ class _Candidate:
 
 @dataclass(eq=False)
 class _Search:
-    """Candidates, and what was left open on the way to them."""
+    """Candidates, and what was left open on the way to them.
+
+    Attributes:
+        own: each component with the equations that say most of it.
+    """
 
     whole: Decomposition
+    own: Sequence[tuple[PolynomialSystem, WitnessSet]]
     options: dict[str, Any]
     candidates: list[_Candidate] = field(default_factory=list)
     examined: list[int] = field(default_factory=list)
@@ -118,12 +127,12 @@ class _Search:
 
     def on_component(self, i: int) -> None:
         """Points of a component where the rank of its own equations drops."""
-        component, name = self.whole.components[i], f"component {i + 1}"
-        if component.multiplicity != 1 and self._own(i) is self.whole.system:
+        (system, component), name = self.own[i], f"component {i + 1}"
+        if component.multiplicity != 1 and system is self.whole.system:
             self.notes.append(f"{name} is not reduced; its own singular points are not known")
             return
         try:
-            found = rank_drop(self.whole.system, component, **self.options)
+            found = rank_drop(system, component, **self.options)
         except (IntersectionError, ValueError) as reason:
             self.notes.append(f"{name}: {reason}")
             return
@@ -137,9 +146,9 @@ class _Search:
 
     def of_pair(self, i: int, j: int) -> None:
         """The intersection of two components that no common equations show."""
-        first, second = self.whole.components[i], self.whole.components[j]
+        (system, first), (_, second) = self.own[i], self.own[j]
         try:
-            found = intersect_components(self.whole.system, first, second, **self.options)
+            found = intersect_components(system, first, second, **self.options)
         except (IntersectionError, ValueError) as reason:
             self.notes.append(f"components {i + 1} and {j + 1}: {reason}")
             return
@@ -151,18 +160,15 @@ class _Search:
 
     def unseen(self, i: int, j: int) -> bool:
         """Whether a pair's intersection may hold points where neither rank drops."""
-        first, second = self.whole.components[i], self.whole.components[j]
+        (system, first), (other, second) = self.own[i], self.own[j]
         if first.dimension == 0 or second.dimension == 0:
             return False
         return not (
             i in self.examined
             and j in self.examined
             and first.dimension == second.dimension
-            and self._own(i) == self._own(j)
+            and system == other
         )
-
-    def _own(self, i: int) -> PolynomialSystem:
-        return component_system(self.whole.system, self.whole.components[i])
 
 
 def singular_locus(
@@ -181,7 +187,8 @@ def singular_locus(
     """
     whole = expanded(decomposition)
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
-    search = _Search(whole, {"seed": seed, "threads": threads, "settings": settings})
+    own = _own_equations(whole, np.random.default_rng([seed, 8]), Tracker(settings, threads))
+    search = _Search(whole, own, {"seed": seed, "threads": threads, "settings": settings})
     for i in chosen:
         search.on_component(i)
     pairs = [
@@ -198,6 +205,23 @@ def singular_locus(
     notes = tuple(dict.fromkeys(search.notes))
     examined, proved = tuple(search.examined), tuple(search.proved)
     return SingularLocus(sets, examined, search.counts, not notes, notes, proved)
+
+
+def _own_equations(
+    whole: Decomposition, rng: np.random.Generator, tracker: Tracker
+) -> list[tuple[PolynomialSystem, WitnessSet]]:
+    """The components, each with its branch of the system, or in its linear hull.
+
+    What only cuts one component does not show where it meets others: that asks for all pairs.
+    """
+    systems = [component_system(whole.system, c) for c in whole.components]
+    found = [
+        (system, replace(c, system=system))
+        for system, c in zip(systems, whole.components, strict=True)
+    ]
+    if comb(len(found), 2) > MOST_PAIRS:
+        return found
+    return [within_hull(system, c, rng, tracker) for system, c in found]
 
 
 def _judged_sets(
@@ -238,6 +262,8 @@ def _judged(
             x = local.point
     multiplicities = {}
     for i, component in enumerate(whole.components):
+        if _outside_hull(search.own[i][0], x):
+            continue
         m = _multiplicity(whole.system, component, x, rng, tracker)
         if m is None:
             search.notes.append(f"the multiplicity of component {i + 1} at a point is not known")
@@ -250,6 +276,17 @@ def _judged(
     if candidate.dimension == 0:
         cone, points = tangent_cone(whole.system, x, accuracy=ACCURACY), x[None]
     return SingularSet(candidate.dimension, candidate.degree, points, multiplicities, local, cone)
+
+
+def _outside_hull(system: PolynomialSystem, x: np.ndarray) -> bool:
+    """Whether a point is further from the zeros of a linear equation than it may be off."""
+    error = SURELY * ACCURACY * (1 + float(np.linalg.norm(x)))
+    for f in system.polynomials:
+        if f.degree == 1:
+            slopes = sum(abs(complex(c)) for e, c in f.terms.items() if any(e))
+            if abs(f(x.tolist(), complex)) > error * slopes:
+                return True
+    return False
 
 
 def _multiplicity(

@@ -93,6 +93,14 @@ class ExactSystem:
         return max(self._degrees, default=0)
 
     @cached_property
+    def longest(self) -> float:
+        """Digits of the longest rational coefficient, powers of two apart."""
+        kept = {c for row in self.rows for _, c in row if isinstance(c, Fraction)}
+        return LOG10_2 * max(
+            (_odd_bits(c.numerator) + _odd_bits(c.denominator) for c in kept), default=0
+        )
+
+    @cached_property
     def _degrees(self) -> list[int]:
         return [max(sum(e) for e, _ in row) for row in self.rows]
 
@@ -116,6 +124,10 @@ class ExactSystem:
     def vanishes_exactly(self, y: Sequence[Fraction]) -> bool:
         """Whether all rows vanish at a rational point."""
         return all(value(row, y) == 0 for row in self.rows)
+
+
+def _odd_bits(k: int) -> int:
+    return k.bit_length() - (k & -k).bit_length()
 
 
 def modular(c: Fraction, p: int) -> int:

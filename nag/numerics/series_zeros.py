@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
+from nag.numerics.digits import log_norm
 from nag.numerics.power_series import Series, SeriesRing
+from nag.numerics.sharpening import ZERO
 
 STEPS = 60
 # Singular values beside the largest one that are those of a regular zero.
@@ -18,6 +20,8 @@ REGULAR = 1e-5
 @dataclass(frozen=True, eq=False)
 class ScaledSeries:
     """Series ``s(r u)`` as polynomials in ``u``, each divided by its largest coefficient.
+
+    Series of equations that follow from the others are nothing but rounding, and left out.
 
     Attributes:
         m: number of variables.
@@ -37,10 +41,10 @@ class ScaledSeries:
         scale = flint.arb(10) ** flint.arb(size)
         rows = []
         for s in series:
-            values = {k: flint.acb(c) * scale ** ring.degree(k) for k, c in s.items()}
-            largest = max((v.abs_upper() for v in values.values()), default=flint.arb(0))
-            if not largest > 0:
+            if log_norm(s.values()) <= ZERO:
                 continue
+            values = {k: flint.acb(c) * scale ** ring.degree(k) for k, c in s.items()}
+            largest = max(v.abs_upper() for v in values.values())
             row = np.zeros(len(keys), dtype=complex)
             for k, v in values.items():
                 row[place[k]] = complex(v / largest)
