@@ -15,7 +15,7 @@ from nag.algebra.high_precision import sharp_zero, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
-from nag.solving.start.target import Target
+from nag.solving.start.target import Target, most_digits
 
 # Values, beside their terms, of polynomials that certainly do not vanish.
 NONZERO = 1e-6
@@ -47,7 +47,7 @@ class SquareProblem:
         added = max(0, n - len(equations))
         slices = [_random_linear(n, rng) for _ in range(added)]
         square = _squared([*equations, *slices], n, rng)
-        target = Target.of(square, n)
+        target = Target.of(square, n, most_digits(equations))
         nonzero = tuple(target.scaled(f) for f in system.nonzero)
         mended = tuple(target.scaled(f) for f in [*equations, *slices])
         return cls(system, mended, nonzero, target, added, len(equations) > n)

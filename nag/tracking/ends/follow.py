@@ -187,16 +187,22 @@ def digits_of_evidence(homotopy: Homotopy, beyond: int) -> tuple[int, ...]:
     winding numbers that ``2 ** k`` divides: what joins two branches may be a coincidence of
     coefficients, and the zeros that several of these move away are as much farther out.
     """
-    most = 0
-    for row in homotopy.rows.parts:
-        for part, terms in row:
-            if homotopy.factors[part][0] != 0:
-                most = max(most, *map(decimal_digits, terms.values()))
+    most = _rows_digits(homotopy) if homotopy.digits is None else homotopy.digits
     long = max(0, most - ROUND_NUMBERS)
     return tuple(
         min(LEAST_EVIDENCE + beyond + max(1, k) * long, MOST_EVIDENCE)
         for k in range(MAX_WINDING.bit_length())
     )
+
+
+def _rows_digits(homotopy: Homotopy) -> int:
+    """Decimal digits of the coefficients of the rows at t = 0."""
+    most = 0
+    for row in homotopy.rows.parts:
+        for part, terms in row:
+            if homotopy.factors[part][0] != 0:
+                most = max(most, *map(decimal_digits, terms.values()))
+    return most
 
 
 def _follow_in(
