@@ -11,6 +11,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import ZeroCount
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.solving.isolated_zero import FinePoint, IsolatedZero
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
@@ -22,18 +23,6 @@ ON = 1e-9
 NEARLY = 1e-5
 # Points evaluated at once.
 BLOCK = 2048
-
-
-@dataclass(frozen=True, eq=False)
-class IsolatedZero:
-    """An isolated solution in the scaled variables."""
-
-    point: np.ndarray
-    multiplicity: int
-    residual: float
-    accuracy: float
-    condition: float
-    precision: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,10 +111,10 @@ def judged_ends(
     if problem.added or problem.squared:
         groups = [*zeros.alone()[:, None], *groups]
     else:
-        isolated = _simple(zeros, zeros.alone(), paths)
+        isolated = _simple(begin, zeros, zeros.alone(), paths)
     for group in groups:
         best = int(group[np.argmin(zeros.accuracy[group])])
-        found = _place(problem, zeros, best, paths, evaluator, rng)
+        found = _place(problem, begin, zeros, best, paths, evaluator, rng)
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
         whole = begin.complete and not problem.squared
         # Of a cluster with as many zeros as paths, each is the end of its own.
@@ -192,8 +181,12 @@ def _zeros(
     return kept, int(lost.sum())
 
 
-def _simple(zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
+def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
     """Regular ends as zeros of the equations."""
+
+    def fine(i: int) -> FinePoint | None:
+        return FinePoint.of_ball(begin, paths.balls[i]) if i in paths.balls else None
+
     path = zeros.path[chosen]
     columns = (
         zeros.residual[chosen],
@@ -202,15 +195,21 @@ def _simple(zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZer
         paths.precision[path],
     )
     return [
-        IsolatedZero(point, 1, *numbers)
-        for point, *numbers in zip(
-            zeros.points[chosen], *(column.tolist() for column in columns), strict=True
+        IsolatedZero(
+            point,
+            1,
+            *numbers,
+            FinePoint.of_ball(begin, paths.balls[i]) if i in paths.balls else None,
+        )
+        for i, point, *numbers in zip(
+            path.tolist(), zeros.points[chosen], *(c.tolist() for c in columns), strict=True
         )
     ]
 
 
 def _place(
     problem: SquareProblem,
+    begin: Start,
     zeros: _Zeros,
     i: int,
     paths: Paths,
@@ -228,14 +227,14 @@ def _place(
             return _Place(Place.UNDECIDED)
         if not solves:
             return _Place(None)
-        return _Place(Place.ISOLATED, tuple(_simple(zeros, np.array([i]), paths)))
+        return _Place(Place.ISOLATED, tuple(_simple(begin, zeros, np.array([i]), paths)))
     end = analyse(problem.equations, point, accuracy, rng)
     members = [end]
     if end.place is Place.CLUSTER:
         met = coincident(zeros.points[zeros.alone()], end.point, max(accuracy, end.accuracy))
         members = [] if met.any() else list(end.nearby)
     isolated = tuple(
-        IsolatedZero(z.point, z.multiplicity, residual, z.accuracy, z.condition, precision)
+        IsolatedZero.of_end(z, residual, precision)
         for z, residual in zip(members, _residuals(evaluator, _points(members)), strict=True)
         if z.place is Place.ISOLATED
     )
@@ -260,7 +259,7 @@ def _solutions(
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
     answers: list[bool | None] = [False] * len(isolated)
     if problem.nonzero:
-        answers = [problem.excluded(s.point, s.accuracy, s.multiplicity > 1) for s in isolated]
+        answers = [problem.excluded(s) for s in isolated]
     original = np.array(problem.target.original(points), dtype=np.complex128)
     original.setflags(write=False)
     solutions = [

@@ -9,7 +9,8 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.solving.counted import Verdict, doubtful, verdict
-from nag.solving.judged_ends import IsolatedZero, JudgedEnds, enlarged
+from nag.solving.isolated_zero import IsolatedZero
+from nag.solving.judged_ends import JudgedEnds, enlarged
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
 from nag.solving.tropical_zeros import tropical_zeros
@@ -44,7 +45,9 @@ def with_missing_zeros(
     # Where nothing says that zeros are missing, they are not looked for among ordinary ones.
     least = 0.0 if verdict(ends) is Verdict.MISSING else EXTREME
     far = tropical_zeros(problem.equations, *_known(problem, ends), rng, least)
-    zeros = [_isolated(z.point, z.end, z.residual) for z in far]
+    zeros = [
+        IsolatedZero(z.point, 1, z.residual, z.end.accuracy, z.end.condition, DIGITS) for z in far
+    ]
     return enlarged(problem, ends, zeros) if zeros else ends
 
 
@@ -88,14 +91,11 @@ def _at_lost_paths(
         before = sum(ends.isolated[k].multiplicity for k in near)
         if sum(zero.multiplicity for zero in members) > before:
             residuals = [float(evaluator.residuals(zero.point[None]).max()) for zero in members]
-            found += [_isolated(z.point, z, r) for z, r in zip(members, residuals, strict=True)]
+            pairs = zip(members, residuals, strict=True)
+            found += [IsolatedZero.of_end(z, r, DIGITS) for z, r in pairs]
             replaced |= near
     return found, replaced
 
 
 def _same(x: list[Fraction], y: list[Fraction]) -> bool:
     return all(abs(a - b) <= TWO for a, b in zip(x, y, strict=True))
-
-
-def _isolated(point: np.ndarray, end: SingularEnd, residual: float) -> IsolatedZero:
-    return IsolatedZero(point, end.multiplicity, residual, end.accuracy, end.condition, DIGITS)

@@ -15,6 +15,7 @@ from nag.algebra.high_precision import sharp_zero, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
+from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.start.target import Target, most_digits
 
 # Values, beside their terms, of polynomials that certainly do not vanish.
@@ -60,21 +61,22 @@ class SquareProblem:
         zero = self._zero(x)
         return None if zero is None else vanish_in_balls(self.equations, zero)
 
-    def excluded(self, x: np.ndarray, accuracy: float, multiple: bool) -> bool | None:
-        """Whether a polynomial that must not vanish does at the exact zero near ``x``.
-
-        None if that is not known.
-        """
+    def excluded(self, found: IsolatedZero) -> bool | None:
+        """Whether a polynomial that must not vanish does at a zero; None if that is not known."""
+        x = found.point
         values = self._nonzero.residuals(x[None])[0]
         near = [g for g, value in zip(self.nonzero, values, strict=True) if value <= NONZERO]
         if not near:
             return False
-        if multiple:
-            zeros = possible_zeros(self.equations, x, accuracy, np.random.default_rng(0))
-            answers = [vanishes_at_all(zeros, g) for g in near]
-            return True if True in answers else None if None in answers else False
-        zero = self._zero(x)
-        return None if zero is None else any(vanish_in_balls([g], zero) for g in near)
+        zero = self._zero(x) if found.multiplicity == 1 and found.fine is None else None
+        if zero is not None:
+            return any(vanish_in_balls([g], zero) for g in near)
+        start, error = x, found.accuracy
+        if found.fine is not None:
+            start, error = found.fine.coordinates, found.fine.error
+        zeros = possible_zeros(self.equations, start, error, np.random.default_rng(0))
+        answers = [vanishes_at_all(zeros, g) for g in near]
+        return True if True in answers else None if None in answers else False
 
     def _zero(self, x: np.ndarray) -> list[Any] | None:
         """The square system's exact zero near ``x`` in balls, if there is one."""
