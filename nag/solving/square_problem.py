@@ -12,6 +12,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import sharp_zero, vanish_in_balls
+from nag.algebra.lowest_degrees import of_lowest_degrees
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
@@ -27,7 +28,8 @@ class SquareProblem:
     """A system, the square one that is tracked, and both in scaled variables.
 
     Attributes:
-        equations: the system's equations in the scaled variables.
+        equations: the system's equations, or combinations of lower degrees, in the scaled
+            variables.
         nonzero: polynomials that must not vanish, in the scaled variables.
         added: number of random linear equations that cut a solution set of positive dimension.
         squared: whether the square system has solutions that the equations have not.
@@ -44,11 +46,12 @@ class SquareProblem:
     def of(
         cls, system: PolynomialSystem, equations: Sequence[Polynomial], rng: np.random.Generator
     ) -> SquareProblem:
-        n = system.n
+        n, digits = system.n, most_digits(equations)
+        equations = of_lowest_degrees(equations)
         added = max(0, n - len(equations))
         slices = [_random_linear(n, rng) for _ in range(added)]
         square = _squared([*equations, *slices], n, rng)
-        target = Target.of(square, n, most_digits(equations))
+        target = Target.of(square, n, digits)
         nonzero = tuple(target.scaled(f) for f in system.nonzero)
         mended = tuple(target.scaled(f) for f in [*equations, *slices])
         return cls(system, mended, nonzero, target, added, len(equations) > n)
