@@ -95,10 +95,10 @@ def zero_near(
         is no such zero near ``z``.
     """
     scales = [max(abs(float(c)) for c in f.terms.values()) for f in square]
-    try:
-        inverse = np.linalg.inv(np.vstack([jacobian, slices[:, 1:]]))
-    except np.linalg.LinAlgError:
+    balanced = _balanced_inverse(np.vstack([jacobian, slices[:, 1:]]), z)
+    if balanced is None:
         return None
+    inverse, columns, weights = balanced
     import flint
     from flint import acb, arb
 
@@ -107,19 +107,21 @@ def zero_near(
         point = [acb(complex(x)) for x in z]
         rows = [[acb(complex(c)) for c in row] for row in slices]
         # Values are rounded beside the largest of their terms.
+        whole = np.array(scales) * weights[: len(scales)]
         sizes = evaluate.sizes_at([abs(x) for x in point])
-        terms = [float(size) / k for size, k in zip(sizes, scales, strict=True)]
+        terms = [float(size) / k for size, k in zip(sizes, whole, strict=True)]
         small = arb(10) ** (12 - digits) * arb(max([1.0, *terms]))
         last = None
         for _ in range(NEWTON_STEPS):
-            values = [_middle(v / s) for v, s in zip(evaluate.at(point), scales, strict=True)]
+            values = [v / s for v, s in zip(evaluate.at(point), scales, strict=True)]
             for row in rows:
                 terms = (c * x for c, x in zip(row[1:], point, strict=True))
-                values.append(_middle(sum(terms, row[0])))
+                values.append(sum(terms, row[0]))
+            values = [_middle(v / w) for v, w in zip(values, weights.tolist(), strict=True)]
             size = max((abs(v).mid() for v in values), default=arb(0))
             if size < small:
                 break
-            step = inverse @ np.array([complex(v / size) for v in values])
+            step = columns * (inverse @ np.array([complex(v / size) for v in values]))
             point = [_middle(x - size * acb(complex(d))) for x, d in zip(point, step, strict=True)]
             if last is not None and size > last / 2:
                 return None
@@ -129,7 +131,27 @@ def zero_near(
         moved = max((float(abs(x - complex(y))) for x, y in zip(point, z, strict=True)), default=0)
         if moved > NEAR * (1 + float(np.linalg.norm(z))):
             return None
-        return point, float(size) * float(np.abs(inverse).sum(axis=1).max(initial=0.0))
+        return point, float(size) * float((columns * np.abs(inverse).sum(axis=1)).max(initial=0.0))
+
+
+def _balanced_inverse(
+    jacobian: np.ndarray, z: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """The inverse of a Jacobian with columns in units of large coordinates, and rows of size one.
+
+    Returns:
+        The inverse, these units, shape ``(N,)``, and by what the rows were divided, shape ``(N,)``;
+        None if the matrix is singular.
+    """
+    columns = np.maximum(np.abs(z), 1.0)
+    scaled = jacobian * columns
+    weights = np.abs(scaled).max(axis=1, initial=0.0)
+    if not (weights > 0).all():
+        return None
+    try:
+        return np.linalg.inv(scaled / weights[:, None]), columns, weights
+    except np.linalg.LinAlgError:
+        return None
 
 
 def vanish(

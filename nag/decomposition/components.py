@@ -89,7 +89,7 @@ def _decompose_whole(
     if exact is not None:
         return replace(exact, seed=seed)
     if is_finite(reduction.reduced, rng, tracker):
-        points = solved_at_once(system, rng, tracker, symmetries)
+        points = solved_at_once(system, rng, tracker, symmetries, finite=True)
         if points is not None:
             return replace(points, seed=seed, settings=tracker.settings)
 

@@ -14,6 +14,7 @@ from math import prod
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -39,7 +40,8 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
     """Whether the zero set of as many equations as variables is seen to be finite.
 
     A set of positive dimension meets a generic hyperplane. What all equations but one leave there
-    must be finite too, and the last equation must vanish nowhere on it.
+    must be finite too, and the last equation must vanish nowhere on it. What `system.nonzero`
+    excludes does not count.
     """
     n = system.n
     if n < 2 or len(system.polynomials) != n:
@@ -51,25 +53,39 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
     plane = Polynomial.constant(n, Fraction(float(dyadic(rng, (1,))[0])))
     for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
         plane = plane + x * Fraction(float(weight))
-    cut = PolynomialSystem(system.variables, (*others, plane))
-    found = _solved(cut, rng, tracker)
+    cut = PolynomialSystem(system.variables, (*others, plane), system.nonzero)
+    found = _solved(cut, rng, tracker, True)
     if found is None:
         return False
-    last = Evaluator.of([system.polynomials[hardest]], n)
-    met = bool((last.residuals(found.points) <= NONZERO).any())
+    last = system.polynomials[hardest]
+    near = Evaluator.of([last], n).residuals(found.points)[:, 0] <= NONZERO
+    met = any(_met(cut, last, x) for x in found.points[near])
     if found.complete and not found.positive_dimensional and not met:
         return True
     # What paths leave open may be proved.
     return not met and most_zeros(system.polynomials) is not None
 
 
+def _met(cut: PolynomialSystem, last: Polynomial, x: np.ndarray) -> bool:
+    """Whether the last equation vanishes, or may do so, at a zero of the others on the plane."""
+    *others, plane = cut.polynomials
+    row = np.array([[float(plane.terms.get(e, 0)) for e in _linear(cut.n)]])
+    jacobian = Evaluator.of(others, cut.n).jacobian(x)
+    return vanish([last], others, row, jacobian, x) is not False
+
+
+def _linear(n: int) -> list[tuple[int, ...]]:
+    """The exponents of 1 and of the variables."""
+    return [tuple(int(i == j) for i in range(n)) for j in range(-1, n)]
+
+
 def _solved(
-    system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker
+    system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker, finite: bool
 ) -> SolveResult | None:
     """The isolated solutions of a system; None if it has no start system."""
     seed, how = int(rng.integers(2**31)), {"settings": tracker.settings, "threads": tracker.threads}
     try:
-        return solve(system, seed=seed, finite=True, **how)
+        return solve(system, seed=seed, finite=finite, **how)
     except StartError:
         return None
 
@@ -79,12 +95,20 @@ def solved_at_once(
     rng: np.random.Generator,
     tracker: Tracker,
     symmetries: Sequence[SignedPermutation],
+    finite: bool = False,
 ) -> Decomposition | None:
-    """The points of a solution set, if it is finite and the solver has no doubts."""
+    """The points of a solution set, if it is finite and the solver has no doubts.
+
+    Args:
+        finite: whether it is known to be, but for what `system.nonzero` excludes.
+    """
     if len(system.polynomials) < system.n:
         return None
-    found = _solved(system, rng, tracker)
-    if found is None or not found.complete or found.positive_dimensional:
+    outside = finite and bool(system.nonzero)
+    found = _solved(system, rng, tracker, not outside)
+    if found is None or not found.complete:
+        return None
+    if found.positive_dimensional and not (outside and _all_excluded(system, found.on_components)):
         return None
     evaluator = Evaluator.of(system.polynomials, system.n)
     components = [_component(s, evaluator, system) for s in found.solutions]
@@ -99,6 +123,12 @@ def solved_at_once(
         order=(),
         complete=True,
     )
+
+
+def _all_excluded(system: PolynomialSystem, points: np.ndarray) -> bool:
+    """Whether a polynomial that must not vanish seems to do so at each point."""
+    residuals = Evaluator.of(system.nonzero, system.n).residuals(points)
+    return bool((residuals.min(axis=1) <= NONZERO).all())
 
 
 def counted(answer: Decomposition, scheme: bool) -> Decomposition:

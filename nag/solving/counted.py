@@ -29,12 +29,16 @@ class Verdict(Enum):
 
 def counted(problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds) -> JudgedEnds:
     """The ends with the number of zeros, where paths leave a doubt that it may settle."""
-    proved = bool((paths.status == PathStatus.REGULAR).all()) or ends.zeros == len(paths)
-    if (begin.complete and proved) or problem.added or len(ends.on_components):
+    if problem.added or len(ends.on_components):
+        return ends
+    patient = bool(ends.unclear) or len(paths.where(PathStatus.FAILED)) > 0
+    if begin.complete and ends.zeros == len(paths):
+        # There are no more zeros than paths, whatever became of each of these.
+        return replace(ends, count=ZeroCount(len(paths), False)) if patient else ends
+    if begin.complete and bool((paths.status == PathStatus.REGULAR).all()):
         return ends
     if ends.zeros == begin.known.most:
         return replace(ends, count=ZeroCount(begin.known.most, False))
-    patient = bool(ends.unclear) or len(paths.where(PathStatus.FAILED)) > 0
     return replace(ends, count=most_zeros(problem.system.polynomials, ends.zeros, patient))
 
 

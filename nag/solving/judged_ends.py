@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import ZeroCount
-from nag.numerics.coincidence import clusters, conjugates_present
-from nag.numerics.singular_point import Place, analyse
+from nag.numerics.coincidence import clusters, coincident, conjugates_present
+from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.solving.isolated_zero import FinePoint, IsolatedZero
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
@@ -22,18 +23,6 @@ ON = 1e-9
 NEARLY = 1e-5
 # Points evaluated at once.
 BLOCK = 2048
-
-
-@dataclass(frozen=True, eq=False)
-class IsolatedZero:
-    """An isolated solution in the scaled variables."""
-
-    point: np.ndarray
-    multiplicity: int
-    residual: float
-    accuracy: float
-    condition: float
-    precision: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,11 +78,12 @@ class _Zeros:
 class _Place:
     """Where an end lies; None where it is no solution at all.
 
-    ``close``: whether it may be several solutions close together.
+    ``isolated``: the isolated zeros that it stands for; ``close``: whether it may be several
+    solutions close together.
     """
 
     place: Place | None
-    isolated: IsolatedZero | None = None
+    isolated: tuple[IsolatedZero, ...] = ()
     close: bool = False
 
 
@@ -121,17 +111,18 @@ def judged_ends(
     if problem.added or problem.squared:
         groups = [*zeros.alone()[:, None], *groups]
     else:
-        isolated = _simple(zeros, zeros.alone(), paths)
+        isolated = _simple(begin, zeros, zeros.alone(), paths)
     for group in groups:
         best = int(group[np.argmin(zeros.accuracy[group])])
-        found = _place(problem, zeros, best, paths, evaluator, rng)
-        if found.isolated is not None:
-            multiplicity = found.isolated.multiplicity
-            isolated.append(found.isolated)
-            if begin.complete and not problem.squared and multiplicity != len(group):
-                unclear.append(
-                    f"{len(group)} paths end at a solution of multiplicity {multiplicity}"
-                )
+        found = _place(problem, begin, zeros, best, paths, evaluator, rng)
+        multiplicity = sum(zero.multiplicity for zero in found.isolated)
+        whole = begin.complete and not problem.squared
+        # Of a cluster with as many zeros as paths, each is the end of its own.
+        met = found.place is Place.CLUSTER and whole and multiplicity == len(group)
+        if met or found.place is Place.ISOLATED:
+            isolated.extend(found.isolated)
+            if whole and multiplicity != len(group):
+                unclear.append(f"{len(group)} paths end at a zero of multiplicity {multiplicity}")
         elif found.place is not None:
             # That one of several zeros was met leaves open which the other paths met.
             place = Place.UNDECIDED if found.place is Place.CLUSTER else found.place
@@ -158,9 +149,15 @@ def judged_ends(
     )
 
 
-def enlarged(problem: SquareProblem, ends: JudgedEnds, zeros: Sequence[IsolatedZero]) -> JudgedEnds:
-    """The same, with more zeros in the scaled variables."""
-    isolated = (*ends.isolated, *zeros)
+def enlarged(
+    problem: SquareProblem,
+    ends: JudgedEnds,
+    zeros: Sequence[IsolatedZero],
+    instead_of: Collection[int] = (),
+) -> JudgedEnds:
+    """The same, with more zeros in the scaled variables, some of which replace known ones."""
+    kept = [zero for k, zero in enumerate(ends.isolated) if k not in instead_of]
+    isolated = (*kept, *zeros)
     solutions, excluded, notes = _solutions(problem, isolated)
     return replace(ends, solutions=solutions, excluded=excluded, notes=notes, isolated=isolated)
 
@@ -184,8 +181,12 @@ def _zeros(
     return kept, int(lost.sum())
 
 
-def _simple(zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
+def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
     """Regular ends as zeros of the equations."""
+
+    def fine(i: int) -> FinePoint | None:
+        return FinePoint.of_ball(begin, paths.balls[i]) if i in paths.balls else None
+
     path = zeros.path[chosen]
     columns = (
         zeros.residual[chosen],
@@ -194,15 +195,21 @@ def _simple(zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZer
         paths.precision[path],
     )
     return [
-        IsolatedZero(point, 1, *numbers)
-        for point, *numbers in zip(
-            zeros.points[chosen], *(column.tolist() for column in columns), strict=True
+        IsolatedZero(
+            point,
+            1,
+            *numbers,
+            FinePoint.of_ball(begin, paths.balls[i]) if i in paths.balls else None,
+        )
+        for i, point, *numbers in zip(
+            path.tolist(), zeros.points[chosen], *(c.tolist() for c in columns), strict=True
         )
     ]
 
 
 def _place(
     problem: SquareProblem,
+    begin: Start,
     zeros: _Zeros,
     i: int,
     paths: Paths,
@@ -220,15 +227,23 @@ def _place(
             return _Place(Place.UNDECIDED)
         if not solves:
             return _Place(None)
-        return _Place(Place.ISOLATED, _simple(zeros, np.array([i]), paths)[0])
+        return _Place(Place.ISOLATED, tuple(_simple(begin, zeros, np.array([i]), paths)))
     end = analyse(problem.equations, point, accuracy, rng)
-    if end.place is not Place.ISOLATED:
-        return _Place(end.place, close=end.place is Place.UNDECIDED)
-    residual = float(evaluator.residuals(end.point[None]).max())
-    multiple = IsolatedZero(
-        end.point, end.multiplicity, residual, end.accuracy, end.condition, precision
+    members = [end]
+    if end.place is Place.CLUSTER:
+        met = coincident(zeros.points[zeros.alone()], end.point, max(accuracy, end.accuracy))
+        members = [] if met.any() else list(end.nearby)
+    isolated = tuple(
+        IsolatedZero.of_end(z, residual, precision)
+        for z, residual in zip(members, _residuals(evaluator, _points(members)), strict=True)
+        if z.place is Place.ISOLATED
     )
-    return _Place(Place.ISOLATED, multiple)
+    return _Place(end.place, isolated, end.place is Place.UNDECIDED)
+
+
+def _points(ends: Sequence[SingularEnd]) -> np.ndarray:
+    """The points of ends, shape ``(k, n)``."""
+    return np.array([end.point for end in ends]).reshape(len(ends), -1)
 
 
 def _solutions(
@@ -244,7 +259,7 @@ def _solutions(
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
     answers: list[bool | None] = [False] * len(isolated)
     if problem.nonzero:
-        answers = [problem.excluded(s.point, s.accuracy, s.multiplicity > 1) for s in isolated]
+        answers = [problem.excluded(s) for s in isolated]
     original = np.array(problem.target.original(points), dtype=np.complex128)
     original.setflags(write=False)
     solutions = [

@@ -9,7 +9,8 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.solving.counted import Verdict, doubtful, verdict
-from nag.solving.judged_ends import IsolatedZero, JudgedEnds, enlarged
+from nag.solving.isolated_zero import IsolatedZero
+from nag.solving.judged_ends import JudgedEnds, enlarged
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
 from nag.solving.tropical_zeros import tropical_zeros
@@ -37,14 +38,16 @@ def with_missing_zeros(
     if problem.added or problem.squared or not 0 < number <= MOST_PATHS:
         return ends
     if verdict(ends) is Verdict.MISSING:
-        found = _at_lost_paths(problem, begin, paths, ends, rng)
-        ends = enlarged(problem, ends, found) if found else ends
+        found, known = _at_lost_paths(problem, begin, paths, ends, rng)
+        ends = enlarged(problem, ends, found, known) if found else ends
     if verdict(ends) not in (Verdict.UNKNOWN, Verdict.MISSING):
         return ends
     # Where nothing says that zeros are missing, they are not looked for among ordinary ones.
     least = 0.0 if verdict(ends) is Verdict.MISSING else EXTREME
     far = tropical_zeros(problem.equations, *_known(problem, ends), rng, least)
-    zeros = [_isolated(z.point, z.end, z.residual) for z in far]
+    zeros = [
+        IsolatedZero(z.point, 1, z.residual, z.end.accuracy, z.end.condition, DIGITS) for z in far
+    ]
     return enlarged(problem, ends, zeros) if zeros else ends
 
 
@@ -59,34 +62,40 @@ def _known(problem: SquareProblem, ends: JudgedEnds) -> tuple[np.ndarray, np.nda
 
 def _at_lost_paths(
     problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds, rng: np.random.Generator
-) -> list[IsolatedZero]:
-    """Zeros for which singular ends, and the last points of lost paths, stand, if not found."""
+) -> tuple[list[IsolatedZero], set[int]]:
+    """Zeros for which singular ends, and those of lost paths, stand, if they are not all known.
+
+    Also the indices of the known ones among these.
+    """
     lost = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)
     infinite = paths.points[lost][:, list(begin.homotopy.infinity)] == 0
     lost = lost[~infinite.any(axis=1)][:MOST_LOST]
     known, errors = _known(problem, ends)
     evaluator = Evaluator.of(problem.equations, problem.system.n)
     exact: list[list[Fraction]] = []
-    found = []
-    for x in begin.affine(paths.points[lost]):
+    found: list[IsolatedZero] = []
+    replaced: set[int] = set()
+    for x, accuracy in zip(begin.affine(paths.points[lost]), paths.accuracy[lost], strict=True):
         if not np.abs(x).max() < 2.0**EXTREME:
             continue
-        end = analyse(problem.equations, x, NEAR, rng)
-        nearby = end.nearby if end.place is Place.CLUSTER else (end,)
-        for zero in nearby:
+        end = analyse(problem.equations, x, min(NEAR, float(accuracy)), rng)
+        members: list[SingularEnd] = []
+        for zero in end.nearby if end.place is Place.CLUSTER else (end,):
             digits = [Fraction(part) for pair in zero.digits for part in pair]
-            if zero.place is not Place.ISOLATED or any(_same(digits, e) for e in exact):
-                continue
-            exact.append(digits)
-            if (np.abs(known - zero.point).max(axis=1, initial=0.0) > errors).all():
-                residual = float(evaluator.residuals(zero.point[None]).max())
-                found.append(_isolated(zero.point, zero, residual))
-    return found
+            if zero.place is Place.ISOLATED and not any(_same(digits, e) for e in exact):
+                exact.append(digits)
+                members.append(zero)
+        apart = [np.abs(known - zero.point).max(axis=1, initial=0.0) for zero in members]
+        near = {k for distance in apart for k in np.flatnonzero(distance <= errors).tolist()}
+        # Which of the members of a cluster are known, doubles do not say.
+        before = sum(ends.isolated[k].multiplicity for k in near)
+        if sum(zero.multiplicity for zero in members) > before:
+            residuals = [float(evaluator.residuals(zero.point[None]).max()) for zero in members]
+            pairs = zip(members, residuals, strict=True)
+            found += [IsolatedZero.of_end(z, r, DIGITS) for z, r in pairs]
+            replaced |= near
+    return found, replaced
 
 
 def _same(x: list[Fraction], y: list[Fraction]) -> bool:
     return all(abs(a - b) <= TWO for a, b in zip(x, y, strict=True))
-
-
-def _isolated(point: np.ndarray, end: SingularEnd, residual: float) -> IsolatedZero:
-    return IsolatedZero(point, end.multiplicity, residual, end.accuracy, end.condition, DIGITS)

@@ -187,7 +187,10 @@ def _result(
     seen = verdict(ends)
     if seen is Verdict.ALL:
         notes = list(ends.notes)
-        reason = f"{reason}; linear algebra modulo two primes shows no more than {ends.zeros}"
+        how = "linear algebra modulo two primes shows"
+        if begin.complete and ends.zeros == len(paths):
+            how = "so many paths leave"
+        reason = f"{reason}; {how} no more than {ends.zeros}"
     else:
         notes = [*ends.unclear, *_open(begin, paths), *ends.notes]
         if seen is not Verdict.UNKNOWN:

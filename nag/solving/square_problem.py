@@ -12,10 +12,12 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import sharp_zero, vanish_in_balls
+from nag.algebra.lowest_degrees import of_lowest_degrees
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
-from nag.solving.start.target import Target
+from nag.solving.isolated_zero import IsolatedZero
+from nag.solving.start.target import Target, most_digits
 
 # Values, beside their terms, of polynomials that certainly do not vanish.
 NONZERO = 1e-6
@@ -26,7 +28,8 @@ class SquareProblem:
     """A system, the square one that is tracked, and both in scaled variables.
 
     Attributes:
-        equations: the system's equations in the scaled variables.
+        equations: the system's equations, or combinations of lower degrees, in the scaled
+            variables.
         nonzero: polynomials that must not vanish, in the scaled variables.
         added: number of random linear equations that cut a solution set of positive dimension.
         squared: whether the square system has solutions that the equations have not.
@@ -43,11 +46,12 @@ class SquareProblem:
     def of(
         cls, system: PolynomialSystem, equations: Sequence[Polynomial], rng: np.random.Generator
     ) -> SquareProblem:
-        n = system.n
+        n, digits = system.n, most_digits(equations)
+        equations = of_lowest_degrees(equations)
         added = max(0, n - len(equations))
         slices = [_random_linear(n, rng) for _ in range(added)]
         square = _squared([*equations, *slices], n, rng)
-        target = Target.of(square, n)
+        target = Target.of(square, n, digits)
         nonzero = tuple(target.scaled(f) for f in system.nonzero)
         mended = tuple(target.scaled(f) for f in [*equations, *slices])
         return cls(system, mended, nonzero, target, added, len(equations) > n)
@@ -60,21 +64,22 @@ class SquareProblem:
         zero = self._zero(x)
         return None if zero is None else vanish_in_balls(self.equations, zero)
 
-    def excluded(self, x: np.ndarray, accuracy: float, multiple: bool) -> bool | None:
-        """Whether a polynomial that must not vanish does at the exact zero near ``x``.
-
-        None if that is not known.
-        """
+    def excluded(self, found: IsolatedZero) -> bool | None:
+        """Whether a polynomial that must not vanish does at a zero; None if that is not known."""
+        x = found.point
         values = self._nonzero.residuals(x[None])[0]
         near = [g for g, value in zip(self.nonzero, values, strict=True) if value <= NONZERO]
         if not near:
             return False
-        if multiple:
-            zeros = possible_zeros(self.equations, x, accuracy, np.random.default_rng(0))
-            answers = [vanishes_at_all(zeros, g) for g in near]
-            return True if True in answers else None if None in answers else False
-        zero = self._zero(x)
-        return None if zero is None else any(vanish_in_balls([g], zero) for g in near)
+        zero = self._zero(x) if found.multiplicity == 1 and found.fine is None else None
+        if zero is not None:
+            return any(vanish_in_balls([g], zero) for g in near)
+        start, error = x, found.accuracy
+        if found.fine is not None:
+            start, error = found.fine.coordinates, found.fine.error
+        zeros = possible_zeros(self.equations, start, error, np.random.default_rng(0))
+        answers = [vanishes_at_all(zeros, g) for g in near]
+        return True if True in answers else None if None in answers else False
 
     def _zero(self, x: np.ndarray) -> list[Any] | None:
         """The square system's exact zero near ``x`` in balls, if there is one."""

@@ -43,8 +43,9 @@ ends.follow.GAINED    0.1      Residual of a limit over that of the last one, fu
 ends.follow           58       More cannot be asked of 64 digits.
 .MOST_EVIDENCE
 ends.limits.WHOLE *   1e-3     How far an order of a coordinate may be from a rational number.
-ends.inclusion.WIDER  64       Rounding errors in the radius of the box in which Krawczyk's test
-                               proves one zero; it must hold the errors of the values there.
+ends.inclusion.WIDER  64       Rounding errors in the largest radius of the box in which Krawczyk's
+                               test proves one zero; it must hold the errors of the values there.
+.STEPS                16       Newton's steps in that radius: the box need not be larger.
 ends.corrector        1e2      Rounding errors in a correction that need not contract any more.
 .STAGNANT
 ends.end_run.LOSING   1e-3     Rounding error times Newton's constant at which an arithmetic gives

@@ -34,6 +34,8 @@ class Homotopy:
         A0, A1: linear rows ``(A0 + t A1) x``, complex, shape ``(k, N)``.
         factors: one pair for each part; default ``(1, 0)``: rows that do not depend on t.
         infinity: coordinates whose vanishing means that a point is at infinity.
+        digits: decimal digits of the coefficients from which those of the rows were worked out
+            exactly; None: they are the rows' own.
 
     The number of polynomial rows, linear rows and groups together is ``N``.
     """
@@ -43,6 +45,7 @@ class Homotopy:
     A1: np.ndarray | None = None
     factors: Factors = ()
     infinity: tuple[int, ...] | None = None
+    digits: int | None = None
 
     def __post_init__(self) -> None:
         N = self.rows.N

@@ -123,7 +123,8 @@ class Paths:
         points: end points, unit norm in each group of coordinates, shape ``(P, N)``.
         status: `PathStatus`, int8.
         winding: winding number of the end (1 for regular ends, 0 for failed paths).
-        accuracy: estimated relative error of the point; inf for failed paths.
+        accuracy: estimated relative error of the point; for failed paths of where they seem to
+            lead, inf if nothing is known of that.
         condition: Frobenius norm of the Jacobian over its smallest singular value.
         steps: predictor steps, rejected ones included, of all arithmetics.
         precision: decimal digits of the arithmetic used: 16, 32 or 64.

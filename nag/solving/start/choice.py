@@ -52,6 +52,13 @@ def choose(
         ValueError: if there is no such kind.
     """
     check_kind(kind)
+    start, reason = _chosen(target, kind, given, rng, threads, generic)
+    return replace(start, homotopy=replace(start.homotopy, digits=target.digits)), reason
+
+
+def _chosen(
+    target: Target, kind: str, given: Groups, rng: np.random.Generator, threads: int, generic: bool
+) -> tuple[Start, str]:
     total = bezout(target)
     if kind == "total":
         return total_degree(target, rng, generic), f"total degree, as asked: {_paths(total)}"

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from nag.algebra.number import Number
+from nag.algebra.number import Number, decimal_digits
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.solving.start.centring import centres, shifted
@@ -34,25 +34,33 @@ class Target:
         rows: the terms, in variables ``y``.
         scales, centres: the original variables are ``x_i = 2^scales[i] y_i + centres[i]``, with
             integers and rational numbers.
+        digits: decimal digits of the coefficients of the polynomials that the rows come from.
     """
 
     n: int
     rows: tuple[Terms, ...]
     scales: tuple[int, ...] = ()
     centres: tuple[Fraction, ...] = ()
+    digits: int | None = None
 
     def __post_init__(self) -> None:
         if len(self.rows) != self.n:
             raise ValueError(f"{len(self.rows)} polynomials in {self.n} variables are not square")
 
     @classmethod
-    def of(cls, polynomials: Sequence[Polynomial], n: int) -> Target:
-        """The polynomials with variables centred, and those and rows scaled by powers of two."""
+    def of(cls, polynomials: Sequence[Polynomial], n: int, digits: int | None = None) -> Target:
+        """The polynomials with variables centred, and those and rows scaled by powers of two.
+
+        Args:
+            digits: of the coefficients that those of the polynomials were worked out from, if they
+                are not these.
+        """
+        digits = most_digits(polynomials) if digits is None else digits
         origins = centres(polynomials, n)
         polynomials = [shifted(f, origins) for f in polynomials]
         scales = variable_scales(polynomials, n)
         rows = independent_rows([scaled_terms(f, scales) for f in polynomials])
-        return cls(n, rows, tuple(scales.tolist()), origins)
+        return cls(n, rows, tuple(scales.tolist()), origins, digits)
 
     def scaled(self, f: Polynomial) -> Polynomial:
         """``f``, a polynomial in the original variables, in the variables ``y``, scaled."""
@@ -148,6 +156,11 @@ class Start:
             indices = list(group)
             result[:, indices] = points[:, [shift + i for i in indices]] / points[:, k : k + 1]
         return result
+
+
+def most_digits(polynomials: Iterable[Polynomial]) -> int:
+    """The most decimal digits that a coefficient has."""
+    return max((decimal_digits(c) for f in polynomials for c in f.terms.values()), default=0)
 
 
 def homogenized(

@@ -38,7 +38,7 @@ class States:
     ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
     ``found``: regular ends; ``limits``: others. ``straight``: 0 where Newton's method at t = 0 is
     of no use; ``regular``: where the first trial needs no proof; ``asked``: in how many words it
-    was tried at a limit; ``residuals``: of the last limits that were looked at.
+    was tried at a limit; ``last``: the limits that were looked at last.
     """
 
     where: np.ndarray
@@ -59,7 +59,7 @@ class States:
     errors: np.ndarray
     limits: dict[int, Limit]
     found: dict[int, np.ndarray]
-    residuals: dict[int, float]
+    last: dict[int, Limit]
     most: int = MAX_STEPS
 
     @classmethod
@@ -187,16 +187,22 @@ def digits_of_evidence(homotopy: Homotopy, beyond: int) -> tuple[int, ...]:
     winding numbers that ``2 ** k`` divides: what joins two branches may be a coincidence of
     coefficients, and the zeros that several of these move away are as much farther out.
     """
-    most = 0
-    for row in homotopy.rows.parts:
-        for part, terms in row:
-            if homotopy.factors[part][0] != 0:
-                most = max(most, *map(decimal_digits, terms.values()))
+    most = _rows_digits(homotopy) if homotopy.digits is None else homotopy.digits
     long = max(0, most - ROUND_NUMBERS)
     return tuple(
         min(LEAST_EVIDENCE + beyond + max(1, k) * long, MOST_EVIDENCE)
         for k in range(MAX_WINDING.bit_length())
     )
+
+
+def _rows_digits(homotopy: Homotopy) -> int:
+    """Decimal digits of the coefficients of the rows at t = 0."""
+    most = 0
+    for row in homotopy.rows.parts:
+        for part, terms in row:
+            if homotopy.factors[part][0] != 0:
+                most = max(most, *map(decimal_digits, terms.values()))
+    return most
 
 
 def _follow_in(
@@ -288,9 +294,11 @@ def _limit(states: States, limits: Limits, path: int, found: np.ndarray, need: f
     states.latest[path] = t * shrink
     noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
     # Where no digits are gained on the way in, rounding errors are what is left.
-    residual, last = np.inf if limit is None else limit.residual, states.residuals.get(path, np.inf)
-    states.residuals[path] = residual
-    stuck = noise > 1e-3 * need or GAINED * last < residual < NEARLY
+    before, stuck = states.last.get(path), noise > 1e-3 * need
+    if limit is not None:
+        further = np.inf if before is None else before.residual
+        stuck |= GAINED * further < limit.residual < NEARLY
+        states.last[path] = limit
     return end_run.LOST if stuck and limits.words == 2 else end_run.OPEN
 
 
@@ -318,6 +326,10 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
             finite = bool((limit.point[infinite] != 0).all())
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY
             accuracy[path] = max(ROUNDING, BEYOND * limit.tail)
+        elif path in states.last:
+            # Where it seems to lead.
+            limit = states.last[path]
+            points[path], accuracy[path] = limit.point, max(ROUNDING, BEYOND * limit.tail)
     points = homotopy.normalized(points)
     condition = np.full(P, np.inf)
     regular = np.flatnonzero(status == PathStatus.REGULAR)

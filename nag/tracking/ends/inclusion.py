@@ -16,12 +16,14 @@ import numpy as np
 
 from nag.tracking.ends.terms import BITS, Terms, number
 
-# Radii of the box, in rounding errors of the coordinates.
-WIDER = 64.0
+# Most that the radii of the box are, in rounding errors of the coordinates, and in Newton's steps.
+WIDER, STEPS = 64.0, 16.0
+# Least part of the first that is taken.
+TINY = 1e-12
 
 
 def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> bool:
-    """Whether a box of some rounding errors about a point holds exactly one, regular zero.
+    """Whether a box of some rounding errors about a point, or less, holds one, regular zero only.
 
     Args:
         terms: the homotopy's.
@@ -45,15 +47,20 @@ def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) ->
     x = [number(c) for c in centre]
     floor = np.abs(centre[:, :, 0]).max(initial=0.0) * 2.0 ** -(BITS[centre.shape[-1]] // 2 + 8)
     radii = [WIDER * float(e) + floor * 2.0**-32 for e in errors]
-    box = [z + flint.acb(flint.arb(0, r), flint.arb(0, r)) for z, r in zip(x, radii, strict=True)]
     patches = patches_through(flint, terms, x)
     values, jacobian = system_at(flint, terms, patches, x)
     try:
         Y = jacobian.mid().inv().mid()
     except ZeroDivisionError:
         return False
-    _, slopes = system_at(flint, terms, patches, box)
     newton = Y * values
+    # Slopes over a box do not see that errors in the coordinates of a badly conditioned zero go
+    # together: it must not be larger than Newton's step asks for.
+    steps = [float(newton[j, 0].abs_upper()) / r for j, r in enumerate(radii)]
+    part = min(1.0, STEPS * max(steps, default=0.0) + TINY)
+    radii = [part * r for r in radii]
+    box = [z + flint.acb(flint.arb(0, r), flint.arb(0, r)) for z, r in zip(x, radii, strict=True)]
+    _, slopes = system_at(flint, terms, patches, box)
     rest = flint.acb_mat(N, N, [int(i == j) for i in range(N) for j in range(N)]) - Y * slopes
     moved = flint.acb_mat(N, 1, [b - z for b, z in zip(box, x, strict=True)])
     image = rest * moved - newton
