@@ -82,7 +82,7 @@ class Batch(NamedTuple):
     ``errors``: rounding errors of the coordinates, shape (count, N). ``curvature``: estimate of
     Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
     contraction of Newton's method after it; ``tail``: largest last term of a power series that is
-    taken to converge.
+    taken to converge. ``max_steps``: of each path.
     """
 
     count: int
@@ -103,7 +103,7 @@ class Batch(NamedTuple):
     limits: Reals
     errors: Reals
     curvature: Reals
-    max_steps: int
+    max_steps: Wholes
     max_winding: int
     accuracy: float
     contraction: float
@@ -271,7 +271,7 @@ def _advance(s, r, f, lane, b, best, winding):
     if f[8 * WINDING + lane] != winding:
         f[8 * WAITED + lane] = min(f[8 * WAITED + lane], 1.0)
     f[8 * WINDING + lane] = winding
-    if f[8 * TAKEN + lane] >= b.max_steps or f[8 * T + lane] < 1e-280:
+    if f[8 * TAKEN + lane] >= b.max_steps[path] or f[8 * T + lane] < 1e-280:
         _close(s, r, f, lane, b, TOO_LONG, r.base)
         return
     goal = min(b.accuracy, b.contraction / curvature)

@@ -38,7 +38,7 @@ class States:
     ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
     ``found``: regular ends; ``limits``: others. ``straight``: 0 where Newton's method at t = 0 is
     of no use; ``regular``: where the first trial needs no proof; ``asked``: in how many words it
-    was tried at a limit; ``residuals``: of the last limits that were looked at.
+    was tried at a limit; ``residuals``: of the last limits that were looked at; ``most``: steps.
     """
 
     where: np.ndarray
@@ -60,7 +60,7 @@ class States:
     limits: dict[int, Limit]
     found: dict[int, np.ndarray]
     residuals: dict[int, float]
-    most: int = MAX_STEPS
+    most: np.ndarray
 
     @classmethod
     def from_start(cls, starts: np.ndarray, curvature: np.ndarray) -> States:
@@ -70,7 +70,7 @@ class States:
         states.where, states.safe, states.ends = starts.copy(), starts.copy(), starts.copy()
         states.t = np.tile(np.eye(1, words), (P, 1))
         states.safe_t = states.t.copy()
-        states.curvature, states.most = curvature.copy(), MOST_STEPS
+        states.curvature, states.most[:] = curvature.copy(), MOST_STEPS
         return states
 
     @classmethod
@@ -94,6 +94,7 @@ class States:
             {},
             {},
             {},
+            np.full(P, MAX_STEPS),
         )
 
     def point(self, path: int) -> np.ndarray:
@@ -151,6 +152,8 @@ def follow(
     left = unfinished
     states = States.of(left.ends, left.reached, left.safe, left.t)
     states.regular[:] = left.regular
+    # What doubles lost on the way may have come close to other paths there.
+    states.most[left.t > settings.radius] = MOST_STEPS
     pending = np.arange(len(left.safe))
     for words, digits in DIGITS.items():
         if not len(pending) or digits > settings.digits:
@@ -237,7 +240,7 @@ def _follow_in(
                 if verdict != end_run.LIMIT:
                     states.outcome[path] = end_run.LOST
                     # A trial at a limit takes one step, and no path is to be lost for that.
-                    may_go_on = states.steps[path] < states.most or not states.tried[path]
+                    may_go_on = states.steps[path] < states.most[path] or not states.tried[path]
                     hopeful = verdict == end_run.OPEN and may_go_on
                     (again if hopeful else later).append(path)
             elif outcome == end_run.REGULAR:
@@ -281,17 +284,20 @@ def _limit(states: States, limits: Limits, path: int, found: np.ndarray, need: f
         states.limits[path] = limit
         states.winding[path] = limit.winding
         return end_run.LIMIT
-    shrink = 1e-3
-    if limit is not None:
-        # The last term of the series is about the power of r of its order.
-        shrink = min(0.1, max(1e-8, (need / limit.residual) ** (w / ORDER)))
-    states.latest[path] = t * shrink
     noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
     # Where no digits are gained on the way in, rounding errors are what is left.
     residual, last = np.inf if limit is None else limit.residual, states.residuals.get(path, np.inf)
     states.residuals[path] = residual
     stuck = noise > 1e-3 * need or GAINED * last < residual < NEARLY
-    return end_run.LOST if stuck and limits.words == 2 else end_run.OPEN
+    if stuck and limits.words == 2:
+        # Rounding errors do not say how far in a limit is to be looked for.
+        return end_run.LOST
+    shrink = 1e-3
+    if limit is not None:
+        # The last term of the series is about the power of r of its order.
+        shrink = min(0.1, max(1e-8, (need / limit.residual) ** (w / ORDER)))
+    states.latest[path] = t * shrink
+    return end_run.OPEN
 
 
 def _paths(homotopy: Homotopy, states: States) -> Paths:
