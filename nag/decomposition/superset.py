@@ -91,7 +91,7 @@ def _excluded(
     # The least accurate first: what it may stand for, others of its place may as well.
     doubtful: dict[int, bool] = {}
     for i in singular[np.argsort(-ends.accuracy[singular], kind="stable")].tolist():
-        twin = None if len(rows) else _conjugate(ends, i, doubtful)
+        twin = _twin(ends, i, doubtful, real=not len(rows))
         known = doubtful.get(twin) if twin is not None else None
         if known is None:
             known = _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
@@ -99,16 +99,18 @@ def _excluded(
     return result, unclear + sum(doubtful.values())
 
 
-def _conjugate(ends: Moved, i: int, others: Iterable[int]) -> int | None:
-    """The end among ``others`` whose conjugate an end is, as far as both are known.
+def _twin(ends: Moved, i: int, others: Iterable[int], real: bool) -> int | None:
+    """The end among ``others`` that an end is as well, or whose conjugate, as far as is known.
 
-    Equations are real, and what is true of a zero of theirs alone is of its conjugate as well.
+    Several paths end at a singular zero. Equations are real, and what is true of a zero of theirs
+    alone is of its conjugate as well: so with ``real``, where no slice passes through it.
     """
-    z = ends.points[i].conj()
+    z = ends.points[i]
     for j in others:
         error = max(ends.accuracy[j], ROUNDED) * (1 + np.linalg.norm(z))
-        if np.linalg.norm(ends.points[j] - z) <= error:
-            return j
+        for same in (z, z.conj()) if real else (z,):
+            if np.linalg.norm(ends.points[j] - same) <= error:
+                return j
     return None
 
 
