@@ -83,8 +83,14 @@ def _excluded(
     evaluator = Evaluator.of(nonzero, cut.n)
     result[result] = forbidden(evaluator, ends.points[result, : cut.n], ends.accuracy[result])
     regular = np.flatnonzero(result & ends.regular)
-    each = [vanishing(cut, g, rows, ends.points[regular]) for g in nonzero]
-    for i, *answers in zip(regular, *each, strict=True):
+    small = (evaluator.residuals(ends.points[regular, : cut.n]) < ON).any(axis=0)
+    each = [
+        vanishing(cut, g, rows, ends.points[regular])
+        for g, may in zip(nonzero, small, strict=True)
+        if may
+    ]
+    for k, i in enumerate(regular):
+        answers = [own[k] for own in each]
         result[i] = True in answers or None in answers
         unclear += True not in answers and None in answers
     singular = np.flatnonzero(result & ~ends.regular)
