@@ -82,7 +82,8 @@ class Batch(NamedTuple):
     ``errors``: rounding errors of the coordinates, shape (count, N). ``curvature``: estimate of
     Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
     contraction of Newton's method after it; ``tail``: largest last term of a power series that is
-    taken to converge. ``max_steps``: of each path.
+    taken to converge. ``max_steps``: of each path, 0 for those
+    that are only tried.
     """
 
     count: int
@@ -231,7 +232,10 @@ def _rejected(s, r, f, lane, b):
     """A step or a finish that failed: a shorter step, or none if there is none."""
     if f[8 * MODE + lane] == FINISH:
         if f[8 * BASE + lane] < 0.5:
-            _begin(s, r, f, lane, b)
+            if b.max_steps[int(f[8 * PATH + lane])] == 0:
+                _close(s, r, f, lane, b, LOST, r.base)
+            else:
+                _begin(s, r, f, lane, b)
             return
         f[8 * MODE + lane] = STEP
     elif f[8 * BASE + lane] < 0.5:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,9 +37,9 @@ class States:
     """Where the paths are, and what is known of their ends.
 
     ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
-    ``found``: regular ends; ``limits``: others. ``straight``: 0 where Newton's method at t = 0 is
-    of no use; ``regular``: where the first trial needs no proof; ``asked``: in how many words it
-    was tried at a limit; ``residuals``: of the last limits that were looked at; ``most``: steps.
+    ``found``: regular ends; ``limits``: others, or where they are tried as regular ones first.
+    ``straight``: 0 where Newton's method at t = 0 is of no use; ``regular``: where the first trial
+    needs no proof; ``residuals``: of the last limits that were looked at; ``most``: steps.
     """
 
     where: np.ndarray
@@ -51,7 +52,6 @@ class States:
     tried: np.ndarray
     straight: np.ndarray
     regular: np.ndarray
-    asked: np.ndarray
     outcome: np.ndarray
     winding: np.ndarray
     steps: np.ndarray
@@ -88,7 +88,6 @@ class States:
             np.where(reached, 0, 1),
             np.ones(P, dtype=np.int64),
             np.zeros(P, dtype=bool),
-            np.zeros(P, dtype=np.int64),
             *whole,
             np.zeros((P, N)),
             {},
@@ -101,11 +100,6 @@ class States:
         """Coordinates where the path is, as doubles."""
         parts = self.found.get(path, self.where[path]).sum(axis=-1)
         return parts[:, 0] + 1j * parts[:, 1]
-
-    def may_be_simple(self, path: int, limit: Limit) -> bool:
-        """Whether a limit may be a regular zero, and has not been tried in as many digits."""
-        words = self.where.shape[-1]
-        return limit.winding == 1 and self.asked[path] < words
 
     def known(self, path: int) -> np.ndarray:
         """Which coordinates exceed their rounding errors."""
@@ -230,13 +224,13 @@ def _follow_in(
         again: list[int] = []
         for k, path in enumerate(pending.tolist()):
             states.digits[path] = DIGITS[words]
-            outcome = states.outcome[path]
-            if outcome == end_run.LOST:
+            outcome, at_limit = states.outcome[path], path in states.limits
+            if at_limit and outcome != end_run.REGULAR:
+                states.outcome[path] = end_run.LIMIT
+            elif outcome == end_run.LOST:
                 later.append(path)
             elif outcome == end_run.LIMIT:
-                winding = int(states.winding[path])
-                doublings = (winding & -winding).bit_length() - 1
-                verdict = _limit(states, limits, path, found[k], needs[doublings])
+                verdict = _limit(states, limits, path, found[k], needs)
                 if verdict != end_run.LIMIT:
                     states.outcome[path] = end_run.LOST
                     # A trial at a limit takes one step, and no path is to be lost for that.
@@ -249,14 +243,17 @@ def _follow_in(
                 if not trusted and not proved(terms, centre, states.errors[path]):
                     # Newton's method converged, but not to a regular zero: go on without it.
                     states.straight[path] = 0
-                    again.append(path)
+                    states.outcome[path] = end_run.LIMIT if at_limit else end_run.LOST
+                    if not at_limit:
+                        again.append(path)
                 elif _ambiguous(homotopy, states, path, needs[0], fine):
                     states.ends[path], states.tried[path] = centre, 0
+                    states.limits.pop(path, None)
+                    states.outcome[path] = end_run.LOST
                     later.append(path)
                 else:
                     continue
                 del states.found[path]
-                states.outcome[path] = end_run.LOST
         pending = np.array(again, dtype=np.int64)
     return np.array(sorted(later), dtype=np.int64)
 
@@ -269,21 +266,22 @@ def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, fine:
     return not at_infinity(fine, states.found[path], far)
 
 
-def _limit(states: States, limits: Limits, path: int, found: np.ndarray, need: float) -> int:
+def _limit(
+    states: States, limits: Limits, path: int, found: np.ndarray, needs: Sequence[float]
+) -> int:
     """`LIMIT` if the equations agree, `OPEN` if further in they may, `LOST` in more digits."""
     from nag.tracking.ends import end_run
 
     known, t, w = states.known(path), states.t[path, 0], int(states.winding[path])
     limit = limits.of(states.where[path], found, known, states.t[path], w)
-    if limit is not None and limit.residual <= need and states.may_be_simple(path, limit):
-        # No branch point at t = 0: Newton's method is tried at the limit before it counts.
-        states.ends[path], states.tried[path] = limit.centre, 0
-        states.asked[path] = limits.words
-        return end_run.OPEN
+    need = needs[(w & -w).bit_length() - 1]
     if limit is not None and limit.residual <= need:
         states.limits[path] = limit
-        states.winding[path] = limit.winding
-        return end_run.LIMIT
+        if limit.winding > 1:
+            return end_run.LIMIT
+        # No branch point at t = 0: Newton's method is tried at the limit before it counts.
+        states.ends[path], states.tried[path] = limit.centre, 0
+        return end_run.OPEN
     noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
     # Where no digits are gained on the way in, rounding errors are what is left.
     residual, last = np.inf if limit is None else limit.residual, states.residuals.get(path, np.inf)
@@ -319,7 +317,7 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
             balls[path] = Ball(states.found[path], states.errors[path])
         elif states.outcome[path] == end_run.LIMIT:
             limit = states.limits[path]
-            points[path] = limit.point
+            points[path], states.winding[path] = limit.point, limit.winding
             branches[path] = Branch(limit.winding, limit.orders, limit.branch, limit.bends)
             finite = bool((limit.point[infinite] != 0).all())
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY

@@ -89,7 +89,7 @@ def _batch(
         np.zeros(count * N * 4 * 2 * words),
         np.zeros(count * N),
         states.curvature[own],
-        states.most[own],
+        np.where([path in states.limits for path in own.tolist()], 0, states.most[own]),
         MAX_WINDING,
         ACCURACY * settings.tolerance,
         CONTRACTION * settings.contraction,
