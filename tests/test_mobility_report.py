@@ -86,6 +86,14 @@ def test_another_configuration_may_be_given() -> None:
         nag.mobility(mechanism, [2, 0, 1, 0], formulation="E", detail="local")
 
 
+def test_an_isolated_configuration_is_none_of_those_that_are_far_off() -> None:
+    # One of the 16 configurations has a half-angle of tangent -161.
+    points = [(1, 4, -1), (0, 1, -4), (1, 0, -4), (3, -4, 3), (3, -3, 5), (-1, 0, -1)]
+    axes = [(-3, 4, 2), (2, -3, -1), (1, 1, 4), (1, -2, -1), (1, 2, -2), (-3, 2, -4)]
+    report = nag.mobility(loop(points, axes))
+    assert report.components == ((0, 1),) and report.status == "rigid"
+
+
 # Local dimension, tangent dimension, status, and what another formulation is.
 GENERAL = {
     "spatial/bennett": (1, 1, "overconstrained", "E"),
