@@ -10,7 +10,7 @@ import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branches import branches
-from nag.algebra.elimination import eliminate_linear
+from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import (
@@ -74,19 +74,29 @@ class _Component:
             return self.zero.vanishes(f)
         if (Evaluator.of([f], f.n).residuals(self.witness.points) > NONZERO).any():
             return False
-        elimination = eliminate_linear(self.system, graphs=False)
-        image = f.compose(elimination.images)
-        if not elimination.system.polynomials and f.exact:
+        image = f.compose(self._elimination.images)
+        if not self._elimination.system.polynomials and f.exact:
             return not image
-        if follows(image, elimination):
+        if follows(image, self._elimination):
             return True
-        try:
-            fibre = component_fibres(self.system, self.witness)[0]
-        except ValueError:
+        fibre = self._fibre
+        if fibre is None:
             # Doubles do not see that the points are regular.
             return vanishes_at_all(self._zeros, f)
         answer = vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0]
         return vanishes_at_all(self._zeros, f) if answer is None else answer
+
+    @cached_property
+    def _elimination(self) -> Elimination:
+        return eliminate_linear(self.system, graphs=False)
+
+    @cached_property
+    def _fibre(self) -> Fibre | None:
+        """The points with equations that cut them; None where these are not regular zeros."""
+        try:
+            return component_fibres(self.system, self.witness)[0]
+        except ValueError:
+            return None
 
     @cached_property
     def _zeros(self) -> tuple[SingularEnd, ...]:

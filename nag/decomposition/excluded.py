@@ -11,7 +11,7 @@ from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.zero_values import possible_zeros
 from nag.witness.confirm import vanishing
-from nag.witness.cutting import Cut
+from nag.witness.cutting import ON, Cut
 from nag.witness.fibres import Moved
 from nag.witness.slices import padded
 
@@ -39,15 +39,21 @@ def excluded(
     evaluator = Evaluator.of(nonzero, cut.n)
     result[result] = forbidden(evaluator, ends.points[result, : cut.n], ends.accuracy[result])
     regular = np.flatnonzero(result & ends.regular)
-    each = [vanishing(cut, g, rows, ends.points[regular]) for g in nonzero]
-    for i, *answers in zip(regular, *each, strict=True):
+    small = (evaluator.residuals(ends.points[regular, : cut.n]) < ON).any(axis=0)
+    each = [
+        vanishing(cut, g, rows, ends.points[regular])
+        for g, may in zip(nonzero, small, strict=True)
+        if may
+    ]
+    for k, i in enumerate(regular):
+        answers = [own[k] for own in each]
         result[i] = True in answers or None in answers
         unclear += True not in answers and None in answers
     singular = np.flatnonzero(result & ~ends.regular)
     # The least accurate first: what it may stand for, others of its place may as well.
     doubtful: dict[int, bool] = {}
     for i in singular[np.argsort(-ends.accuracy[singular], kind="stable")].tolist():
-        twin = None if len(rows) else _conjugate(ends, i, doubtful)
+        twin = _twin(ends, i, doubtful, real=not len(rows))
         known = doubtful.get(twin) if twin is not None else None
         if known is None:
             known = _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
@@ -55,16 +61,18 @@ def excluded(
     return result, unclear + sum(doubtful.values())
 
 
-def _conjugate(ends: Moved, i: int, others: Iterable[int]) -> int | None:
-    """The end among ``others`` whose conjugate an end is, as far as both are known.
+def _twin(ends: Moved, i: int, others: Iterable[int], real: bool) -> int | None:
+    """The end among ``others`` that an end is as well, or whose conjugate, as far as is known.
 
-    Equations are real, and what is true of a zero of theirs alone is of its conjugate as well.
+    Several paths end at a singular zero. Equations are real, and what is true of a zero of theirs
+    alone is of its conjugate as well: so with ``real``, where no slice passes through it.
     """
-    z = ends.points[i].conj()
+    z = ends.points[i]
     for j in others:
         error = max(ends.accuracy[j], ROUNDED) * (1 + np.linalg.norm(z))
-        if np.linalg.norm(ends.points[j] - z) <= error:
-            return j
+        for same in (z, z.conj()) if real else (z,):
+            if np.linalg.norm(ends.points[j] - same) <= error:
+                return j
     return None
 
 

@@ -200,6 +200,9 @@ def memberships(
         return (Membership.FOREIGN,) * len(decomposition.components)
     answers = []
     for component in decomposition.components:
+        if component.dimension == 0 and _far(component, point, accuracy):
+            answers.append(Membership.FOREIGN)
+            continue
         try:
             fibres = component_fibres(system, component)
         except ValueError:
@@ -208,6 +211,12 @@ def memberships(
         answer, _ = is_member(point, accuracy, fibres, component.slice.rows, rng, tracker)
         answers.append(answer)
     return tuple(answers)
+
+
+def _far(isolated: WitnessSet, point: np.ndarray, accuracy: float) -> bool:
+    """Whether a point is none of some isolated ones, which no slice has to move for."""
+    distances = np.linalg.norm(isolated.points - point, axis=1) / (1 + np.linalg.norm(point))
+    return not np.any(compared(distances, max(accuracy, isolated.accuracy)))
 
 
 class UndecidedError(ValueError):

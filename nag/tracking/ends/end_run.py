@@ -82,7 +82,8 @@ class Batch(NamedTuple):
     ``errors``: rounding errors of the coordinates, shape (count, N). ``curvature``: estimate of
     Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
     contraction of Newton's method after it; ``tail``: largest last term of a power series that is
-    taken to converge.
+    taken to converge. ``max_steps``: of each path, 0 for those
+    that are only tried.
     """
 
     count: int
@@ -103,7 +104,7 @@ class Batch(NamedTuple):
     limits: Reals
     errors: Reals
     curvature: Reals
-    max_steps: int
+    max_steps: Wholes
     max_winding: int
     accuracy: float
     contraction: float
@@ -231,7 +232,10 @@ def _rejected(s, r, f, lane, b):
     """A step or a finish that failed: a shorter step, or none if there is none."""
     if f[8 * MODE + lane] == FINISH:
         if f[8 * BASE + lane] < 0.5:
-            _begin(s, r, f, lane, b)
+            if b.max_steps[int(f[8 * PATH + lane])] == 0:
+                _close(s, r, f, lane, b, LOST, r.base)
+            else:
+                _begin(s, r, f, lane, b)
             return
         f[8 * MODE + lane] = STEP
     elif f[8 * BASE + lane] < 0.5:
@@ -271,7 +275,7 @@ def _advance(s, r, f, lane, b, best, winding):
     if f[8 * WINDING + lane] != winding:
         f[8 * WAITED + lane] = min(f[8 * WAITED + lane], 1.0)
     f[8 * WINDING + lane] = winding
-    if f[8 * TAKEN + lane] >= b.max_steps or f[8 * T + lane] < 1e-280:
+    if f[8 * TAKEN + lane] >= b.max_steps[path] or f[8 * T + lane] < 1e-280:
         _close(s, r, f, lane, b, TOO_LONG, r.base)
         return
     goal = min(b.accuracy, b.contraction / curvature)
