@@ -13,8 +13,6 @@ from nag.witness.points import Points
 from nag.witness.slices import random_rows, rows_through, unit_complex
 from nag.witness.witness import PathCounts
 
-ATTEMPTS = 3
-
 
 @dataclass(frozen=True, eq=False)
 class Start:
@@ -97,13 +95,8 @@ class CommonSlices:
 def _on_rows(
     fibre: Fibre, rows: np.ndarray, target: np.ndarray, rng: np.random.Generator, tracker: Tracker
 ) -> tuple[np.ndarray | None, PathCounts]:
-    """The point of a fibre of one on the common slice of its dimension."""
-    counts = PathCounts()
+    """The point of a fibre of one on the common slice of its dimension; None if a path fails."""
     if fibre.dimension == 0:
-        return fibre.points[0], counts
-    for _ in range(ATTEMPTS):
-        there, spent = carried([fibre], rows, target, complex(unit_complex(rng)), tracker)
-        counts += spent
-        if there is not None:
-            return there[0].points[0], counts
-    return None, counts
+        return fibre.points[0], PathCounts()
+    there, counts = carried([fibre], rows, target, complex(unit_complex(rng)), tracker)
+    return None if there is None else there[0].points[0], counts

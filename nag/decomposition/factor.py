@@ -15,8 +15,6 @@ from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts, WitnessSet
 
-ATTEMPTS = 4
-
 
 class IntersectionError(ValueError):
     """Sets that cannot be intersected; the message is one line."""
@@ -89,15 +87,12 @@ def on_flag(
     """Fibres on the slice ``rows`` carried to the leading rows of a generic flag.
 
     Raises:
-        IntersectionError: if paths fail again and again.
+        IntersectionError: if a path fails.
     """
-    counts = PathCounts()
     if len(rows) == 0:
-        return fibres, counts
-    for _attempt in range(ATTEMPTS):
-        gamma = complex(unit_complex(rng))
-        there, spent = carried(fibres, rows, flag[: len(rows)], gamma, tracker)
-        counts += spent
-        if there is not None:
-            return there, counts
-    raise IntersectionError("the witness points could not be moved to a generic slice")
+        return fibres, PathCounts()
+    gamma = complex(unit_complex(rng))
+    there, counts = carried(fibres, rows, flag[: len(rows)], gamma, tracker)
+    if there is None:
+        raise IntersectionError("the witness points could not be moved to a generic slice")
+    return there, counts

@@ -36,7 +36,6 @@ from nag.witness.witness import WitnessSet
 NEAR, NEARER = 1e-3, 1e-5
 # Norms fall with a power of the distance that is a ratio of orders.
 LARGEST_ORDER, UNCLEAR = 6, 0.03
-ATTEMPTS = 3
 
 
 _Kind = tuple[tuple[str, int], ...]
@@ -224,18 +223,12 @@ class _Ends:
         size, turn = abs(root) + 1e-3, complex(unit_complex(self.rng))
         result = []
         for fibre in self.fibres:
-            for _ in range(ATTEMPTS):
-                gamma = complex(unit_complex(self.rng))
-                start, goal = (self._rows(i, root + turn * size * r) for r in (NEAR, NEARER))
-                first = move(fibre, self.component.slice.rows, start, gamma, self.tracker, True)
-                if first.failed.any():
-                    continue
-                points = first.points[first.regular]
-                there = Fibre(fibre.cut, 1, points)
-                second = move(there, start, goal, 1.0, self.tracker)
-                if second.regular.all():
-                    break
-            else:
+            gamma = complex(unit_complex(self.rng))
+            start, goal = (self._rows(i, root + turn * size * r) for r in (NEAR, NEARER))
+            first = move(fibre, self.component.slice.rows, start, gamma, self.tracker, True)
+            points = first.points[first.regular]
+            second = move(Fibre(fibre.cut, 1, points), start, goal, 1.0, self.tracker)
+            if first.failed.any() or not second.regular.all():
                 raise BondError("paths to the ends of the curve failed")
             for x, y in zip(points, second.points, strict=True):
                 result.append(self._vanishing(x[: self.n], y[: self.n]))

@@ -33,7 +33,6 @@ NEAR = 1e-7
 # A deflation of more steps that add unknowns has not been met in the literature's examples.
 MOST_DEFLATIONS = 4
 # A random choice of null vectors may be an unlucky one.
-ATTEMPTS = 3
 # Gradients below this, relative to what their degree lets them have, are not scaled up further.
 FLAT = 1e-4
 # Newton's method from the end point of a path must arrive within this many steps.
@@ -238,11 +237,7 @@ def find_cut(
     end = _End(rows, x, accuracy)
     if not deflate:
         return end.regular_subset(_not_deflated(equations), x, rng)
-    for _ in range(ATTEMPTS):
-        found = _deflated_cut(equations, end, rng)
-        if found is not None:
-            return found
-    return None
+    return _deflated_cut(equations, end, rng)
 
 
 def _not_deflated(equations: Equations) -> Deflated:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -113,12 +113,6 @@ class Tracker:
         """Tell of the step ``done`` of ``total``; 0 if their number is not known."""
         if self.progress is not None:
             self.progress(stage, done, total)
-
-    def attempts(self, count: int) -> Iterator[Tracker]:
-        """How to track where paths may fail: as asked for, and then with the careful settings."""
-        yield self
-        for _ in range(count - 1):
-            yield replace(self, settings="careful")
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,6 @@ from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres, move
 from nag.witness.slices import padded, rows_through, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
-ATTEMPTS = 4
 # What rounding may do to a point that is close to others, and how much further the next one is.
 SPREAD = 10.0
 
@@ -51,30 +50,25 @@ def is_member(
         return Membership.FOREIGN, counts
     dimension = fibres[0].dimension
     scale = 1 + float(np.linalg.norm(point))
-    for _ in range(ATTEMPTS):
-        target = rows_through(rng, dimension, point)
-        gamma = complex(unit_complex(rng))
-        unclear = False
-        for fibre in fibres:
-            ends = move(fibre, flag[:dimension], target, gamma, tracker, endgame=True)
-            counts += ends.counts.repeatable
-            if ends.fine:
-                answers = [
-                    _at_end(point, accuracy * scale, fibre, ends, i, target) for i in ends.fine
-                ]
-                if Membership.MEMBER in answers:
-                    return Membership.MEMBER, counts
-                unclear |= Membership.UNDECIDED in answers
-                ends = ends.without(ends.fine)
-            x = ends.points[ends.finite, : fibre.cut.n]
-            distances = np.linalg.norm(x - point, axis=1) / scale
-            if compared(distances, accuracy)[0].any():
+    target = rows_through(rng, dimension, point)
+    gamma = complex(unit_complex(rng))
+    unclear = False
+    for fibre in fibres:
+        ends = move(fibre, flag[:dimension], target, gamma, tracker, endgame=True)
+        counts += ends.counts.repeatable
+        if ends.fine:
+            answers = [_at_end(point, accuracy * scale, fibre, ends, i, target) for i in ends.fine]
+            if Membership.MEMBER in answers:
                 return Membership.MEMBER, counts
-            errors = np.maximum(accuracy, ends.accuracy[ends.finite])
-            unclear |= bool(ends.failed.any() or np.any(compared(distances, errors)))
-        if not unclear:
-            return Membership.FOREIGN, counts
-    return Membership.UNDECIDED, counts
+            unclear |= Membership.UNDECIDED in answers
+            ends = ends.without(ends.fine)
+        x = ends.points[ends.finite, : fibre.cut.n]
+        distances = np.linalg.norm(x - point, axis=1) / scale
+        if compared(distances, accuracy)[0].any():
+            return Membership.MEMBER, counts
+        errors = np.maximum(accuracy, ends.accuracy[ends.finite])
+        unclear |= bool(ends.failed.any() or np.any(compared(distances, errors)))
+    return Membership.UNDECIDED if unclear else Membership.FOREIGN, counts
 
 
 def _at_end(

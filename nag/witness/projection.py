@@ -21,7 +21,6 @@ from nag.witness.moving import arrival
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import Slice, WitnessSet
 
-ATTEMPTS = 3
 # Slices on which the numbers of points must agree.
 SLICES = 2
 # Newton's last step, relative to the point, at points that are compared.
@@ -128,17 +127,17 @@ def _pseudo_witness(
 ) -> tuple[int, int, np.ndarray, np.ndarray]:
     """Degree of the image and of the fibre, the slice's rows, and the points on it."""
     rows, d = component.slice.rows, component.dimension
-    reason = "paths failed"
-    for how in tracker.attempts(ATTEMPTS):
-        target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
-        there = arrival(fibres, rows, target, rng, how)
-        # Finite points of a generic slice are regular (Bertini's theorem).
-        if there.irregular or not there.accuracy < SHARP:
-            continue
-        x = there.x
-        images = clusters(x[:, list(coordinates)], np.full(len(x), there.accuracy))
-        sizes = {len(image) for image in images}
-        if len(sizes) == 1:
-            return len(images), sizes.pop(), target, x
-        reason = "the fibres over the image's points differ in degree"
-    raise ProjectionError(f"{reason}; the component may not be irreducible")
+    target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
+    there = arrival(fibres, rows, target, rng, tracker)
+    # Finite points of a generic slice are regular (Bertini's theorem).
+    if there.irregular or not there.accuracy < SHARP:
+        raise ProjectionError("paths failed; the component may not be irreducible")
+    x = there.x
+    images = clusters(x[:, list(coordinates)], np.full(len(x), there.accuracy))
+    sizes = {len(image) for image in images}
+    if len(sizes) > 1:
+        raise ProjectionError(
+            "the fibres over the image's points differ in degree; the component may not be "
+            "irreducible"
+        )
+    return len(images), sizes.pop(), target, x
