@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -74,7 +74,9 @@ class Factor:
         images += [Polynomial.variable(self.n + aux, i) for i in unknowns]
         rows = [f.compose(images) for f in fibre.cut.polynomials]
         points = np.hstack([fibre.x[:, self.reduction.kept], fibre.points[:, fibre.cut.n :]])
-        return Fibre(Cut(self.n, aux, tuple(f for f in rows if f)), fibre.dimension, points)
+        kept = [*self.reduction.kept, *range(fibre.cut.n, fibre.cut.n + aux)]
+        fine = {i: replace(each, words=each.words[kept]) for i, each in fibre.fine.items()}
+        return Fibre(Cut(self.n, aux, tuple(f for f in rows if f)), fibre.dimension, points, fine)
 
 
 def on_flag(

@@ -23,7 +23,6 @@ from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts
 
 
-
 @dataclass(frozen=True, eq=False)
 class Action:
     """A symmetry in the coordinates y of the decomposition, an affine map ``y -> M y + m``.

@@ -27,8 +27,9 @@ from nag.mechanism.axes import direction, dot
 from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Tracker, move
 from nag.witness.membership import component_fibres
+from nag.witness.points import with_fine
 from nag.witness.slices import unit_complex
 from nag.witness.witness import WitnessSet
 
@@ -226,12 +227,17 @@ class _Ends:
             gamma = complex(unit_complex(self.rng))
             start, goal = (self._rows(i, root + turn * size * r) for r in (NEAR, NEARER))
             first = move(fibre, self.component.slice.rows, start, gamma, self.tracker, True)
-            points = first.points[first.regular]
-            second = move(Fibre(fibre.cut, 1, points), start, goal, 1.0, self.tracker)
-            if first.failed.any() or not second.regular.all():
+            regular = np.flatnonzero(first.regular)
+            if first.failed.any():
                 raise BondError("paths to the ends of the curve failed")
-            for x, y in zip(points, second.points, strict=True):
-                result.append(self._vanishing(x[: self.n], y[: self.n]))
+            if not len(regular):
+                continue
+            (near,) = with_fine([first.fibre(fibre.cut, 1, regular)], start)
+            second = move(near, start, goal, 1.0, self.tracker)
+            if not second.regular.all():
+                raise BondError("paths to the ends of the curve failed")
+            for x, y in zip(near.x, second.points, strict=True):
+                result.append(self._vanishing(x, y[: self.n]))
         return result
 
     def _rows(self, i: int, value: complex) -> np.ndarray:

@@ -17,7 +17,7 @@ from nag.numerics.coincidence import clusters
 from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
-from nag.witness.moving import arrival
+from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import Slice, WitnessSet
 
@@ -44,6 +44,7 @@ class Projection:
         slice: the pseudo-witness slice; its first ``dimension`` equations contain no other
             variables than those projected to.
         points: the component's points on it, shape ``(degree * fibre_degree, n)``.
+        accuracy: largest estimated relative error of these.
     """
 
     coordinates: tuple[int, ...]
@@ -53,6 +54,7 @@ class Projection:
     fibre_degree: int
     slice: Slice
     points: np.ndarray
+    accuracy: float
 
     def __repr__(self) -> str:
         return (
@@ -109,12 +111,14 @@ def project(
     r = _image_dimension(fibres[0], chosen)
     tracker = Tracker(settings, threads)
     found = [_pseudo_witness(fibres, component, chosen, r, rng, tracker) for _ in range(SLICES)]
-    degrees = {(degree, fibre_degree) for degree, fibre_degree, *_ in found}
+    degrees = {numbers for numbers, *_ in found}
     if len(degrees) > 1:
         raise ProjectionError("the numbers of points differ between two slices")
-    degree, fibre_degree, rows, points = found[0]
+    (degree, fibre_degree), rows, there = found[0]
+    points = there.x
     points.setflags(write=False)
-    return Projection(chosen, r, degree, d - r, fibre_degree, to_slice(rows), points)
+    cut = to_slice(rows)
+    return Projection(chosen, r, degree, d - r, fibre_degree, cut, points, there.accuracy)
 
 
 def _pseudo_witness(
@@ -124,8 +128,8 @@ def _pseudo_witness(
     r: int,
     rng: np.random.Generator,
     tracker: Tracker,
-) -> tuple[int, int, np.ndarray, np.ndarray]:
-    """Degree of the image and of the fibre, the slice's rows, and the points on it."""
+) -> tuple[tuple[int, int], np.ndarray, Arrival]:
+    """Degrees of the image and of the fibre, the slice's rows, and the points on it."""
     rows, d = component.slice.rows, component.dimension
     target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
     there = arrival(fibres, rows, target, rng, tracker)
@@ -140,4 +144,4 @@ def _pseudo_witness(
             "the fibres over the image's points differ in degree; the component may not be "
             "irreducible"
         )
-    return len(images), sizes.pop(), target, x
+    return (len(images), sizes.pop()), target, there

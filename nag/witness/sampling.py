@@ -72,7 +72,7 @@ def sample(
     for k in range(count):
         _, there = at_random(fibres, component.slice.rows, rng, tracker)
         x = there.x
-        if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max() < ON):
+        if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
             some = _samples(evaluator, points[:k], accuracy)
             raise SamplingError(f"point {k + 1} of {count}: the path to it failed", some)
         points[k], accuracy = x[0], max(accuracy, there.accuracy)
