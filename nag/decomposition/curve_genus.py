@@ -34,6 +34,8 @@ from nag.witness.witness import WitnessSet
 CORNERS, NEAR = 8, 0.4
 # Distance of the base point, relative to that of the branch points.
 OUTSIDE = 2.0
+# Distance from a branch point at the end of a leg of the way there, beside that at its beginning.
+SHRINK = 1e-2
 
 
 class GenusError(ValueError):
@@ -183,9 +185,14 @@ class _Cover:
         result = []
         for v in self.values:
             others = [abs(v - w) for w in [*self.values, self.sheets.base] if w != v]
-            away = (self.sheets.base - v) / abs(self.sheets.base - v) * NEAR * min(others)
-            circle = [v + away * np.exp(2j * np.pi * k / CORNERS) for k in range(CORNERS)]
-            result.append(self._carried([*circle, circle[0]]))
+            radius, away = NEAR * min(others), self.sheets.base - v
+            shrink = radius / abs(away)
+            # Steps are in proportion to the leg that they are on.
+            legs = max(1, round(np.log(shrink) / np.log(SHRINK)))
+            inwards = [v + away * shrink ** (k / legs) for k in range(1, legs)]
+            turns = np.exp(2j * np.pi * np.arange(CORNERS + 1) / CORNERS)
+            circle = [complex(v + away * shrink * turn) for turn in turns]
+            result.append(self._carried([*inwards, *circle, *inwards[::-1]]))
         return result
 
     def round_all(self) -> np.ndarray:
