@@ -28,6 +28,8 @@ from nag.witness.slices import complex_normal
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 STARTS = 100
+# Relative error of a solution of linear equations.
+ROUNDED = 1e-15
 # Residuals to which points of non-reduced components are brought before they are deflated.
 DEEP = 1e-14
 # Points that no deflation made regular, after which no more are tried: each costs seconds.
@@ -125,7 +127,7 @@ class _Search:
             d = equations.n
             cut = self.slices.points[d].cuts[0] if d in self.slices.points else Cut(d, 0, ())
             point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
-            self.slices, place = self.slices.with_point(cut, point, d)
+            self.slices, place = self.slices.with_point(cut, point, d, ROUNDED)
             return d, place
         zero = polish(equations.evaluator, x)
         if not zero.converged:
