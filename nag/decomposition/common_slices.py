@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.numerics.coincidence import coincident
-from nag.witness.cutting import ON, Cut, Equations
+from nag.numerics.small_values import ON
+from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre, Tracker, admit, move
 from nag.witness.points import Points
 from nag.witness.slices import random_rows, rows_through, unit_complex

@@ -44,11 +44,6 @@ class Factor:
         cut = self.component.slice
         return orthonormal_rows(self.reduction.frame.pulled_back(cut.A, cut.b))
 
-    @property
-    def accuracy(self) -> float:
-        """Relative error of the points, not below what paths leave."""
-        return max(self.component.accuracy, 1e-12)
-
     def fibres(self, rng: np.random.Generator) -> list[Fibre]:
         """The witness points with cuts, deflated ones if the component is not reduced.
 
@@ -61,7 +56,7 @@ class Factor:
         deflate = self.component.multiplicity != 1
         points = self.component.points[:, self.reduction.kept]
         equations = self.reduction.equations
-        fibres = cut_fibres(points, self.accuracy, equations, self.rows, rng, deflate)
+        fibres = cut_fibres(points, self.component.accuracy, equations, self.rows, rng, deflate)
         if fibres is None:
             raise IntersectionError("the witness points are no regular zeros of the system")
         return fibres

@@ -23,7 +23,8 @@ from nag.decomposition.superset import (
     intersection_order,
     witness_superset,
 )
-from nag.witness.cutting import NEARLY_SINGULAR, ON, Equations, numerical_corank
+from nag.numerics.small_values import ON
+from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
 from nag.witness.fibres import Fibre, Progress, Tracker, admit
 from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows

@@ -18,7 +18,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.rank_drop import new_names, product
-from nag.witness.cutting import ON
+from nag.numerics.small_values import ON
 from nag.witness.expansion import expanded
 from nag.witness.sampling import SamplingError, sample
 from nag.witness.witness import PathCounts

@@ -17,9 +17,10 @@ from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.hypersurface import Crossing, Sections, crossing
 from nag.numerics.coincidence import clusters, coincident
+from nag.numerics.small_values import ON
 from nag.numerics.zero_values import possible_zeros
 from nag.witness.confirm import vanishing
-from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
+from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.slices import padded

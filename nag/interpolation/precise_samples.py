@@ -17,7 +17,8 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.digits import number
-from nag.witness.cutting import ON, Cut, Equations, find_cut
+from nag.numerics.small_values import ON
+from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
 from nag.witness.sampling import at_random

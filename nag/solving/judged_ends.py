@@ -11,13 +11,12 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import ZeroCount
 from nag.numerics.coincidence import clusters, conjugates_present
 from nag.numerics.singular_point import Place, analyse
+from nag.numerics.small_values import ON
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
 from nag.tracking.paths import Paths, PathStatus
 
-# |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
-ON = 1e-9
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
 # Points evaluated at once.

@@ -17,6 +17,7 @@ from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.numerics.coincidence import meeting
+from nag.numerics.small_values import NONZERO
 from nag.solving.kantorovich import Confirmation, Confirmed
 from nag.solving.parameter_line import ParameterLine, parameter_line
 from nag.solving.solution_classes import invariants
@@ -32,8 +33,6 @@ from nag.tracking.track import track
 FEW = 0.1
 # Steps of a path from a member of a class other than the last that is tried.
 MOST_STEPS = 1500
-# Largest residual of an image of a solution under a symmetry.
-ROUGHLY_ZERO = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +93,7 @@ def solved_by_monodromy(
     members = smallest_members(symmetric, found.points, found.values)
     evaluator = Evaluator.of(symmetric.family.polynomials, symmetric.family.polynomials[0].n)
     values = np.broadcast_to(found.values, (members[:, 0].shape[0], len(found.values)))
-    if evaluator.residuals(np.hstack([members[:, 0], values])).max() > ROUGHLY_ZERO:
+    if evaluator.residuals(np.hstack([members[:, 0], values])).max() > NONZERO:
         raise MapError("the maps do not carry solutions to solutions")
     sharp = Confirmation(symmetric.family)(members[0], found.values, threads)
     repeated = _repeated(symmetric, sharp, 1.0, found.values)

@@ -14,11 +14,9 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import sharp_zero, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.small_values import NONZERO
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.solving.start.target import Target
-
-# Values, beside their terms, of polynomials that certainly do not vanish.
-NONZERO = 1e-6
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,8 +12,9 @@ from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
+from nag.numerics.small_values import NONZERO, ON
 from nag.witness.close_points import DIGITS, Fine, distance
-from nag.witness.cutting import ON, Cut, Equations
+from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres, move
 from nag.witness.slices import padded, rows_through, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
@@ -160,7 +161,7 @@ def _cut(
                 continue
             fibres = cut_fibres(
                 component.points,
-                max(component.accuracy, 1e-12),
+                component.accuracy,
                 equations,
                 component.slice.rows,
                 np.random.default_rng(0),
@@ -190,7 +191,7 @@ def memberships(
     tracker = Tracker(settings, threads)
     point = np.asarray(point, dtype=complex)
     system = decomposition.system
-    if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > 1e-6:
+    if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > NONZERO:
         return (Membership.FOREIGN,) * len(decomposition.components)
     answers = []
     for component in decomposition.components:

@@ -9,7 +9,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.witness.cutting import ON
+from nag.numerics.small_values import ON
 from nag.witness.error_radii import Sharp, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres

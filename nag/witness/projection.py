@@ -14,6 +14,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
+from nag.numerics.small_values import SINGULAR
 from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
@@ -70,7 +71,7 @@ def _image_dimension(fibre: Fibre, coordinates: Sequence[int]) -> int:
     _, _, vh = np.linalg.svd(fibre.cut.evaluator.balanced_jacobian(z))
     tangent, _ = np.linalg.qr(vh[len(z) - fibre.dimension :].conj().T[: fibre.cut.n])
     s = np.linalg.svd(tangent[list(coordinates)], compute_uv=False)
-    return fibre.dimension - numerical_corank(s, fibre.dimension, 1e-9)
+    return fibre.dimension - numerical_corank(s, fibre.dimension, SINGULAR)
 
 
 def _special_rows(

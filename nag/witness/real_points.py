@@ -15,7 +15,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import coincident
-from nag.witness.cutting import ON
+from nag.numerics.small_values import ON
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import descend, polish
 from nag.witness.membership import Membership, component_fibres, is_member

@@ -9,7 +9,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.witness.cutting import ON
+from nag.numerics.small_values import ON
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
 from nag.witness.moving import Arrival, arrival
