@@ -21,6 +21,7 @@ from nag.decomposition.common_slices import CommonSlices, Start
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import forbidden
 from nag.decomposition.symmetric_images import in_orbits
+from nag.numerics.small_values import LEAST
 from nag.witness.cutting import NEARLY_SINGULAR, Cut
 from nag.witness.fibres import Progress, Tracker
 from nag.witness.gauss_newton import CLOSE, descend, polish
@@ -132,7 +133,7 @@ class _Search:
         zero = polish(equations.evaluator, x)
         if not zero.converged:
             return None
-        return self._brought(Start(zero.x, 1e-12, [zero.corank], False))
+        return self._brought(Start(zero.x, LEAST, [zero.corank], False))
 
     def _multiple(self, x: np.ndarray) -> tuple[int, int] | None:
         """The same from a point near a component that is not reduced."""

@@ -16,7 +16,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.hypersurface import Crossing, Sections, crossing
-from nag.numerics.coincidence import clusters, coincident
+from nag.numerics.coincidence import SAFETY, clusters, coincident
 from nag.numerics.small_values import ON
 from nag.numerics.zero_values import possible_zeros
 from nag.witness.confirm import vanishing
@@ -28,6 +28,8 @@ from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
+# Values of polynomials that must not vanish, at points where they seem to.
+FORBIDDEN = 1e-8
 # Other flags on which a doubtful intersection is tried again.
 ELSEWHERE = 1
 # Doubles are no more accurate than this, relative to the point.
@@ -67,7 +69,7 @@ def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
 def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
     """Which points seem to lie where a polynomial that must not vanish does."""
     residuals = nonzero.residuals(x)
-    limit = np.maximum(1e-8, 1e2 * accuracy)
+    limit = np.maximum(FORBIDDEN, SAFETY * accuracy)
     return (residuals < limit[:, None]).any(axis=1)
 
 
@@ -254,7 +256,7 @@ class _Stage:
 
         A component that is multiple for the first equations may be a simple one for all.
         """
-        limit = max(ON, 1e2 * accuracy)
+        limit = max(ON, SAFETY * accuracy)
         later = Equations(self.after, self.n).evaluator.residuals(x[None])[0] < limit
         more = [g for g, vanishes in zip(self.after, later, strict=True) if vanishes]
         return Equations((*so_far.polynomials, *more), self.n) if more else so_far

@@ -22,6 +22,11 @@ from nag.tracking.paths import Paths, PathStatus, Reason
 from nag.tracking.projective import meeting
 from nag.tracking.settings import Settings, named, tighter
 
+# Newton's method may move the end of a path by so many of its errors, and by this much, or by this
+# part of the smallest singular value there.
+STRAYED, LEAST, BASIN = 1e3, 1e-11, 0.1
+# Errors of ends that Newton's method found: of a regular end, and of one of a generic system.
+SHARP, ROUGH = 1e-12, 1e-8
 # Smallest homogenising coordinate of a finite zero of a generic system.
 AT_INFINITY = 1e-10
 # Least ratio of a singular value to a Newton step that proves a regular zero.
@@ -119,7 +124,7 @@ def track_regular(
     ended = np.flatnonzero(raw.reason == Reason.NONE)
     # A row may be small at a point near infinity, so that singular values would say nothing.
     sharp = refine(homotopy, None, raw.points[ended])
-    good = (sharp.moved <= 1e3 * raw.error[ended] + 1e-11) & (sharp.error < 1e-8)
+    good = (sharp.moved <= STRAYED * raw.error[ended] + LEAST) & (sharp.error < ROUGH)
     points = homotopy.normalized(sharp.points)
     good &= np.abs(points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf) > AT_INFINITY
     return RegularEnds(points[good], ended[good], sharp.error[good])
@@ -260,9 +265,9 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
         sharp = refine(homotopy, None, points[ended])
         # Newton's method proves a regular zero where its steps are far smaller than the singular
         # values, which hardly change on the way.
-        near = (sharp.moved <= 1e3 * error + 1e-11) | (sharp.moved <= 0.1 * sharp.smallest)
+        near = (sharp.moved <= STRAYED * error + LEAST) | (sharp.moved <= BASIN * sharp.smallest)
         proved = near & (sharp.smallest > 0.5 * sharp.before)
-        proved &= (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
+        proved &= (sharp.error < SHARP) & (sharp.smallest > PROOF * sharp.error)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
         known = sizes * np.maximum(sharp.smallest, 1e-300) > RESIDUAL
         points[ended] = sharp.points
