@@ -12,8 +12,9 @@ from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.known import Known
-from nag.tracking.newton import aligned_difference, refine
+from nag.tracking.newton import refine
 from nag.tracking.paths import PathStatus, Reason
+from nag.tracking.projective import aligned_difference
 from nag.tracking.settings import Settings
 from nag.tracking.track import collisions, track
 
@@ -54,7 +55,7 @@ def cyclic(n):
 
 
 def distances(homotopy, first, second):
-    return np.linalg.norm(aligned_difference(homotopy, first, second), axis=1)
+    return np.linalg.norm(aligned_difference(homotopy.groups, first, second), axis=1)
 
 
 def test_ends_agree_with_a_tracker_in_plain_python():

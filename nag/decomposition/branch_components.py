@@ -24,6 +24,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.singular_point import SingularEnd
+from nag.numerics.small_values import NONZERO, ON, SINGULAR, widened
 from nag.numerics.zero_values import (
     alike,
     multiplicity_of_all,
@@ -31,7 +32,7 @@ from nag.numerics.zero_values import (
     vanishes_at_all,
 )
 from nag.witness.confirm import vanishing
-from nag.witness.cutting import ON, Cut, numerical_corank
+from nag.witness.cutting import Cut, numerical_corank
 from nag.witness.error_radii import framed, sharpened
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.frame import Frame
@@ -41,10 +42,6 @@ from nag.witness.multiplicity import ACCURACY, multiplicity
 from nag.witness.slices import padded, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
-# Values, relative to their terms, above which a polynomial certainly does not vanish at a point.
-NONZERO = 1e-6
-# Singular values of a Jacobian, relative to its size, that count as zero.
-ZERO = 1e-9
 # Relative error of a zero that is known by its written digits.
 WRITTEN = 1e-90
 
@@ -251,7 +248,7 @@ def _vanishes_at(f: Polynomial, zero: AlgebraicZero) -> bool:
 
 def _corank(evaluator: Evaluator, x: np.ndarray) -> int:
     s = np.linalg.svd(evaluator.balanced_jacobian(x), compute_uv=False)
-    return numerical_corank(s, len(x), ZERO)
+    return numerical_corank(s, len(x), SINGULAR)
 
 
 def _joined(
@@ -360,8 +357,7 @@ def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
     def independent(polynomials: Sequence[Polynomial]) -> bool:
         if component.zero is not None and all(f.exact for f in polynomials):
             return component.zero.independent(polynomials)
-        error = max(1e3 * witness.accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
-        return independent_gradients(polynomials, x, error)
+        return independent_gradients(polynomials, x, widened(x, witness.accuracy))
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int:
         rows, rng = witness.slice.rows, np.random.default_rng(0)

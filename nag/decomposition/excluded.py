@@ -9,12 +9,16 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.coincidence import SAFETY
+from nag.numerics.small_values import ON
 from nag.numerics.zero_values import possible_zeros
 from nag.witness.confirm import vanishing
-from nag.witness.cutting import ON, Cut
+from nag.witness.cutting import Cut
 from nag.witness.fibres import Moved
 from nag.witness.slices import padded
 
+# Values of polynomials that must not vanish, at points where they seem to.
+FORBIDDEN = 1e-8
 # Doubles are no more accurate than this, relative to the point.
 ROUNDED = 1e-15
 
@@ -22,7 +26,7 @@ ROUNDED = 1e-15
 def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
     """Which points seem to lie where a polynomial that must not vanish does."""
     residuals = nonzero.residuals(x)
-    limit = np.maximum(1e-8, 1e2 * accuracy)
+    limit = np.maximum(FORBIDDEN, SAFETY * accuracy)
     return (residuals < limit[:, None]).any(axis=1)
 
 

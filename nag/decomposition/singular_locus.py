@@ -21,7 +21,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.intersection import intersect_components
 from nag.decomposition.linear_hull import within_hull
-from nag.decomposition.rank_drop import rank_drop
+from nag.decomposition.rank_drop import SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
@@ -33,8 +33,8 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
-# Relative errors of isolated points that were found as ends of paths.
-ACCURACY = 1e-8
+# Relative error of points that are known to the last digit of doubles.
+ROUNDED = 1e-15
 # What is further from a linear space than a point's error by this factor is not on it.
 SURELY = 10.0
 
@@ -102,9 +102,7 @@ class SingularLocus:
 class _Candidate:
     """Points where something may be singular, and the component or pair that it was found from."""
 
-    dimension: int
-    degree: int
-    points: np.ndarray
+    found: SetOfPoints
     source: tuple[int, ...]
 
 
@@ -142,7 +140,7 @@ class _Search:
             self.examined.append(i)
         if found.proved:
             self.proved.append(i)
-        self.candidates += [_Candidate(*one, (i,)) for one in found.sets]
+        self.candidates += [_Candidate(one, (i,)) for one in found.sets]
 
     def of_pair(self, i: int, j: int) -> None:
         """The intersection of two components that no common equations show."""
@@ -155,7 +153,8 @@ class _Search:
         self.counts += found.paths
         self.notes += [f"components {i + 1} and {j + 1}: {note}" for note in found.notes]
         self.candidates += [
-            _Candidate(c.dimension, c.degree, c.points, (i, j)) for c in found.components
+            _Candidate(SetOfPoints(c.dimension, c.degree, c.points, c.accuracy), (i, j))
+            for c in found.components
         ]
 
     def unseen(self, i: int, j: int) -> bool:
@@ -228,17 +227,17 @@ def _judged_sets(
     search: _Search, rng: np.random.Generator, tracker: Tracker
 ) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
-    known = np.zeros((0, search.whole.system.n), dtype=complex)
+    known, errors = np.zeros((0, search.whole.system.n), dtype=complex), np.zeros(0)
     others: dict[tuple[object, ...], dict[tuple[int, ...], list[SingularSet]]] = {}
     for candidate in search.candidates:
-        x = candidate.points[0]
-        if candidate.dimension == 0 and coincident(known, x, ACCURACY).any():
+        found, x = candidate.found, candidate.found.points[0]
+        if found.dimension == 0 and coincident(known, x, np.maximum(errors, found.error)).any():
             continue
-        judged = _judged(search, candidate, rng, tracker)
+        judged = _judged(search, found, rng, tracker)
         if judged is None:
             continue
-        if candidate.dimension == 0:
-            known = np.vstack([known, x])
+        if found.dimension == 0:
+            known, errors = np.vstack([known, x]), np.append(errors, found.error)
             points.append(judged)
             continue
         key = (judged.dimension, judged.degree, tuple(judged.multiplicities.items()))
@@ -250,21 +249,21 @@ def _judged_sets(
 
 
 def _judged(
-    search: _Search, candidate: _Candidate, rng: np.random.Generator, tracker: Tracker
+    search: _Search, found: SetOfPoints, rng: np.random.Generator, tracker: Tracker
 ) -> SingularSet | None:
     """What a candidate is; None if the components are smooth there and do not meet."""
-    whole, x = search.whole, candidate.points[0]
-    local = local_dimension(whole.system, x, accuracy=ACCURACY)
-    if candidate.dimension == 0 and local.tangent_dimension is not None:
+    whole, x, error = search.whole, found.points[0], max(found.error, ROUNDED)
+    local = local_dimension(whole.system, x, accuracy=error)
+    if found.dimension == 0 and local.tangent_dimension is not None:
         if local.tangent_dimension == local.dimension:
             return None
-        if coincident(x[None], local.point, ACCURACY).any():
-            x = local.point
+        if coincident(x[None], local.point, error).any():
+            x, error = local.point, ROUNDED
     multiplicities = {}
     for i, component in enumerate(whole.components):
-        if _outside_hull(search.own[i][0], x):
+        if _outside_hull(search.own[i][0], x, error):
             continue
-        m = _multiplicity(whole.system, component, x, rng, tracker)
+        m = _multiplicity(whole.system, component, x, error, rng, tracker)
         if m is None:
             search.notes.append(f"the multiplicity of component {i + 1} at a point is not known")
         elif m:
@@ -272,15 +271,15 @@ def _judged(
     if len(multiplicities) < 2 and max(multiplicities.values(), default=1) == 1:
         return None
     cone = None
-    points = candidate.points
-    if candidate.dimension == 0:
-        cone, points = tangent_cone(whole.system, x, accuracy=ACCURACY), x[None]
-    return SingularSet(candidate.dimension, candidate.degree, points, multiplicities, local, cone)
+    points = found.points
+    if found.dimension == 0:
+        cone, points = tangent_cone(whole.system, x, accuracy=error), x[None]
+    return SingularSet(found.dimension, found.degree, points, multiplicities, local, cone)
 
 
-def _outside_hull(system: PolynomialSystem, x: np.ndarray) -> bool:
+def _outside_hull(system: PolynomialSystem, x: np.ndarray, accuracy: float) -> bool:
     """Whether a point is further from the zeros of a linear equation than it may be off."""
-    error = SURELY * ACCURACY * (1 + float(np.linalg.norm(x)))
+    error = SURELY * accuracy * (1 + float(np.linalg.norm(x)))
     for f in system.polynomials:
         if f.degree == 1:
             slopes = sum(abs(complex(c)) for e, c in f.terms.items() if any(e))
@@ -293,6 +292,7 @@ def _multiplicity(
     system: PolynomialSystem,
     component: WitnessSet,
     x: np.ndarray,
+    error: float,
     rng: np.random.Generator,
     tracker: Tracker,
 ) -> int | None:
@@ -300,4 +300,4 @@ def _multiplicity(
         fibres = component_fibres(system, component)
     except ValueError:
         return None
-    return multiplicity_at(x, 1e-12, fibres, component.slice.rows, rng, tracker)
+    return multiplicity_at(x, error, fibres, component.slice.rows, rng, tracker)

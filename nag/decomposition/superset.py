@@ -16,9 +16,10 @@ from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.excluded import excluded
 from nag.decomposition.hypersurface import Crossing, Sections, crossing
-from nag.numerics.coincidence import clusters, coincident
+from nag.numerics.coincidence import SAFETY, clusters, coincident
+from nag.numerics.small_values import ON
 from nag.witness.close_to_sets import among, meant, regular_fibre
-from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
+from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.witness import PathCounts
@@ -190,7 +191,7 @@ class _Stage:
 
         A component that is multiple for the first equations may be a simple one for all.
         """
-        limit = max(ON, 1e2 * accuracy)
+        limit = max(ON, SAFETY * accuracy)
         later = Equations(self.after, self.n).evaluator.residuals(x[None])[0] < limit
         more = [g for g, vanishes in zip(self.after, later, strict=True) if vanishes]
         return Equations((*so_far.polynomials, *more), self.n) if more else so_far

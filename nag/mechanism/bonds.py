@@ -31,6 +31,7 @@ from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
+from nag.witness.points import with_fine
 from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import WitnessSet
 
@@ -38,7 +39,6 @@ from nag.witness.witness import WitnessSet
 NEAR, NEARER = 1e-3, 1e-5
 # Norms fall with a power of the distance that is a ratio of orders.
 LARGEST_ORDER, UNCLEAR = 6, 0.03
-ATTEMPTS = 3
 
 
 _Kind = tuple[tuple[str, int], ...]
@@ -230,24 +230,21 @@ class _Ends:
         size, turn = abs(root) + 1e-3, complex(unit_complex(self.rng))
         result = []
         for fibre in self.fibres:
-            for _ in range(ATTEMPTS):
-                gamma = complex(unit_complex(self.rng))
-                start, goal = (self._rows(i, root + turn * size * r) for r in (NEAR, NEARER))
-                first = move(fibre, self.component.slice.rows, start, gamma, self.tracker, True)
-                if first.failed.any():
-                    continue
-                points = first.points[first.regular]
-                there = Fibre(fibre.cut, 1, points)
-                second = move(there, start, goal, 1.0, self.tracker)
-                if second.regular.all():
-                    break
-            else:
+            gamma = complex(unit_complex(self.rng))
+            start, goal = (self._rows(i, root + turn * size * r) for r in (NEAR, NEARER))
+            first = move(fibre, self.component.slice.rows, start, gamma, self.tracker, True)
+            regular = np.flatnonzero(first.regular)
+            if first.failed.any():
                 raise BondError("paths to the ends of the curve failed")
-            for x, y in zip(points, second.points, strict=True):
-                first_norms = self._norms(self._precise(fibre, start, x))
-                result.append(
-                    self._vanishing(first_norms, self._norms(self._precise(fibre, goal, y)))
-                )
+            if not len(regular):
+                continue
+            (near,) = with_fine([first.fibre(fibre.cut, 1, regular)], start)
+            second = move(near, start, goal, 1.0, self.tracker)
+            if not second.regular.all():
+                raise BondError("paths to the ends of the curve failed")
+            for x, y in zip(near.points, second.points, strict=True):
+                norms = self._norms(self._precise(fibre, start, x))
+                result.append(self._vanishing(norms, self._norms(self._precise(fibre, goal, y))))
         return result
 
     def _precise(self, fibre: Fibre, rows: np.ndarray, z: np.ndarray) -> list[Any]:

@@ -40,6 +40,8 @@ HIGHEST = 400
 MOST_DIGITS = 2000
 # Written digits of a point.
 WRITTEN = 100
+# Of these, how many may differ in two points that are one.
+REPEATED = 20.0
 # Clusters of clusters are not resolved further than this.
 DEEPEST = 3
 
@@ -202,7 +204,7 @@ def _resolved(
                 continue
             place = point(one.digits)
             apart = (log_norm(a - b for a, b in zip(place, p, strict=True)) for p in known)
-            if all(distance > 20.0 - WRITTEN for distance in apart):
+            if all(distance > REPEATED - WRITTEN for distance in apart):
                 known.append(place)
                 result.append(one)
     return result if component is None else [*result, component]

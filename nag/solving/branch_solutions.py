@@ -29,6 +29,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
 from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
+from nag.numerics.small_values import NONZERO, SLACK, widened
 from nag.numerics.zero_values import (
     alike,
     multiplicity_of_all,
@@ -38,8 +39,6 @@ from nag.numerics.zero_values import (
 from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
-# Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
-NONZERO = 1e-6
 # Solutions that may be the same, found in two branches: relative distance.
 NEAR = 1e-7
 # Bits of the coordinates of exact zeros whose local rings are looked at.
@@ -347,9 +346,8 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
             return each.zero.independent(polynomials)
         if each.solution.precision >= DIGITS:
             # Each coordinate is known to rounding, however small it is beside the others.
-            return independent_gradients(*scaled_at(polynomials, x), 1e3 * accuracy)
-        error = max(1e3 * accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
-        return independent_gradients(polynomials, x, error)
+            return independent_gradients(*scaled_at(polynomials, x), SLACK * accuracy)
+        return independent_gradients(polynomials, x, widened(x, accuracy))
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
         at, error = x, accuracy

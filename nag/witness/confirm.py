@@ -11,8 +11,9 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import DIGITS, vanish, vanish_at, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, analyse
+from nag.numerics.small_values import ON
 from nag.witness.close_points import Fine, zero_from
-from nag.witness.cutting import ON, Cut
+from nag.witness.cutting import Cut
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded
 

@@ -35,6 +35,8 @@ from nag.tracking.known import Known
 MOST_TERMS = 10_000
 # Largest integer such that doubles hold all up to it.
 LARGEST_WHOLE = 2**53
+# Pivots below this belong to linear equations that depend on others.
+DEPENDENT = 1e-10
 # Start points are kept in memory.
 MOST_PATHS = 4_000_000
 
@@ -64,7 +66,7 @@ def _linear_rows(target: Target) -> tuple[list[int], np.ndarray, list[int]]:
     for k in range(len(indices)):
         row = rest[k]
         pivot = int(np.abs(row).argmax())
-        if abs(row[pivot]) < 1e-10:
+        if abs(row[pivot]) < DEPENDENT:
             return [], matrix[:0], []
         solved.append(pivot)
         rest[k + 1 :] -= np.outer(rest[k + 1 :, pivot] / row[pivot], row)

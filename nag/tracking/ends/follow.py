@@ -14,8 +14,9 @@ from nag.tracking.ends.limits import Limit, Limits
 from nag.tracking.ends.runs import MAX_STEPS, MAX_WINDING, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.newton import ROUNDING, refine
+from nag.tracking.newton import refine
 from nag.tracking.paths import Ball, Branch, Paths, PathStatus, Reason
+from nag.tracking.projective import ROUNDING
 from nag.tracking.settings import Settings
 
 # Digits of numbers of as many words.
