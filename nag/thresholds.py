@@ -60,8 +60,13 @@ numerics.pivots.CLEAR                       0.5     Decimal logarithm of a pivot
 numerics.rational_relations.SHARP           0.4     Share of the digits to which a relation must
                                                     hold to be one; the others show in further
                                                     points.
+numerics.deflation.SPARE                    20      Digits that rounding may have taken from
+                                                    coefficients beside those that each degree
+                                                    loses: smaller ones are zero.
 numerics.scaling.DEPENDENT                  1e-12   Singular values of rows, over the largest, that
                                                     are not made orthogonal.
+numerics.series_zeros.REGULAR               1e-5    Singular values beside the largest one that are
+                                                    those of a regular zero.
 numerics.sharpening.ZERO                    -100    Decimal logarithm of what vanishes at a singular
                                                     point, of 150 digits.
 numerics.sharpening.ARRIVED                 -125    The same of Newton's last step.
@@ -69,6 +74,13 @@ numerics.sharpening.LARGEST_INVERSE         70      The same of an inverse that 
                                                     not regular after all.
 numerics.tangent_cone.NOTHING               -90     Decimal logarithm of coefficients that are zero,
                                                     of 150 digits.
+numerics.zero_values.ALIKE                  1e-6    Relative difference of the coordinates of zeros
+                                                    that a point of doubles may stand for, where it
+                                                    is near several.
+numerics.zero_values.NOTHING                1e-60   Coordinates beside the largest that count as
+                                                    zero in this.
+numerics.zero_values.WRITTEN                1e-90   Relative error of a zero that is known by its
+                                                    written digits, of a hundred.
 tracking.projective.SAFETY *                1e3     Errors that two ends of paths may be apart, of
                                                     all errors that Newton's method estimates with
                                                     residuals in double-double, and be one: one of
@@ -128,6 +140,8 @@ tracking.ends.limits.WHOLE *                1e-3    How far an order of a coordi
 tracking.ends.inclusion.WIDER               64      Rounding errors in the radius of the box in
                                                     which Krawczyk's test proves one zero; it must
                                                     hold the errors of the values there.
+tracking.ends.inclusion.STEPS               16      Newton's steps in that radius, at least: the box
+                                                    need not be larger where these are small.
 tracking.ends.corrector.STAGNANT            100     Rounding errors in a correction that need not
                                                     contract any more.
 tracking.ends.corrector.FLOOR               1e-9    Coordinates that a start in doubles does not
@@ -179,6 +193,11 @@ solving.start.scalings.ZERO                 1e-9    Singular values of matrices 
                                                     that are zero.
 solving.start.total_degree.DEPENDENT        1e-10   Pivots of linear equations, of norm one, that
                                                     depend on others.
+witness.close_to_sets.CLOSE                 1e-9    Ends of regular paths nearer than this to a zero
+                                                    are compared with it in digits.
+witness.close_to_sets.SAME                  -80     Decimal logarithm of the distance of points that
+                                                    are one, of 100 digits.
+witness.close_to_sets.ZERO                  -80     The same of a pivot that is none.
 witness.close_points.CLOSE                  1e-4    Relative distance of points that are tracked in
                                                     more digits: corrections that need not contract
                                                     any more may be as large as a hundredth of it.
@@ -239,6 +258,8 @@ decomposition.trace.SMALL                   1e-9    Sums of traces, beside their
                                                     that are looked at in those digits.
 decomposition.splitting.MOST_LOOPS *        100     Loops before points are left undecided; 23 were
                                                     the most needed.
+decomposition.singular_locus.SURELY         10      Errors of a point that it may be off a linear
+                                                    equation, and be a point of the component.
 decomposition.excluded.FORBIDDEN            1e-8    Values, beside their terms, of polynomials that
                                                     must not vanish and may: looked at more closely.
 decomposition.branch_points.NOTHING         -90     Decimal logarithm of a pivot of the Loewner
@@ -260,20 +281,20 @@ numerics.rational_relations: LOG10_2; numerics.scaling: INERTIA, NEARLY_ORTHOGON
 numerics.sharpening: ROUNDING, NEARLY; numerics.small_values: LEAST; tracking.certified_paths:
 ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME;
 tracking.close_paths: STEEP; tracking.ends.branch: LONGEST; tracking.ends.corrector: DOUBLES;
-tracking.ends.end_run: RESIDUAL, SECOND; tracking.ends.lane_scalars: IDLE, STEP, FINISH;
-tracking.ends.limits: LOG_2; tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY,
-CONTRACTION; tracking.numbers.complex_numbers: HALVED; tracking.numbers.double_double: EPSILON,
-SMALL; tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
-tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
-solving.kantorovich: EPS, SMALL, PROMISING; solving.missing_zeros: NEAR; solving.solution_classes:
-STEP; solving.start.centring: FAR, CONVERGED; solving.start.choice: WORK;
-solving.start.family_monodromy: SHARP; solving.start.multihomogeneous: EXACT;
-solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR;
-witness.at_prompt: EXACT, INEXACT; witness.cutting: FLAT, ROUNDING; witness.error_radii: ENOUGH,
-ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT; witness.fibres: STEEPER;
-witness.frame: EPS; witness.gauss_newton: CLOSE; witness.real_points: SPREAD;
-decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK;
-decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
-decomposition.hypersurface: NEARER; decomposition.singular_locus: ROUNDED; decomposition.superset:
-REGULAR, ROUNDED.
+tracking.ends.end_run: RESIDUAL, SECOND; tracking.ends.inclusion: TINY; tracking.ends.lane_scalars:
+IDLE, STEP, FINISH; tracking.ends.limits: LOG_2; tracking.ends.linear_algebra: PHASE;
+tracking.ends.runs: ACCURACY, CONTRACTION; tracking.numbers.complex_numbers: HALVED;
+tracking.numbers.double_double: EPSILON, SMALL; tracking.numbers.quad_double: EPSILON, SMALL;
+tracking.predictor: PREDICT, CORRECT; tracking.projective: ROUNDING; tracking.track: LEAST, BASIN;
+solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero:
+WRITTEN; solving.missing_zeros: NEAR; solving.solution_classes: STEP; solving.start.centring: FAR,
+CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy: SHARP;
+solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH;
+solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT, INEXACT; witness.close_to_sets:
+ROUNDED; witness.cutting: FLAT, ROUNDING; witness.error_radii: ENOUGH, ESTIMATE, CORRECTION;
+witness.exact_points: STEP, BITS_PER_DIGIT; witness.fibres: STEEPER; witness.frame: EPS;
+witness.gauss_newton: CLOSE; witness.real_points: SPREAD; decomposition.branch_points: ARRIVED;
+decomposition.curve_genus: NEAR, OUTSIDE, SHRINK; decomposition.discovery: ROUNDED, DEEP;
+decomposition.given_points: ROUGH; decomposition.hypersurface: NEARER; decomposition.singular_locus:
+ROUNDED; decomposition.excluded: ROUNDED; decomposition.superset: REGULAR, ROUNDED.
 """

@@ -26,6 +26,7 @@ from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.small_values import NONZERO, ON, SINGULAR, widened
 from nag.numerics.zero_values import (
+    WRITTEN,
     alike,
     multiplicity_of_all,
     possible_zeros,
@@ -41,9 +42,6 @@ from nag.witness.moving import witness_at
 from nag.witness.multiplicity import ACCURACY, multiplicity
 from nag.witness.slices import padded, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
-
-# Relative error of a zero that is known by its written digits.
-WRITTEN = 1e-90
 
 Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
 

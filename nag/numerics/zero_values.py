@@ -16,6 +16,8 @@ from nag.numerics.singular_point import Place, SingularEnd, analyse
 
 # Relative difference of coordinates that agree, and coordinates beside the largest that are zero.
 ALIKE, NOTHING = 1e-6, 1e-60
+# Relative error of a zero that is known by its written digits.
+WRITTEN = 1e-90
 
 
 def possible_zeros(

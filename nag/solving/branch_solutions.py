@@ -31,6 +31,7 @@ from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.small_values import NONZERO, SLACK, widened
 from nag.numerics.zero_values import (
+    WRITTEN,
     alike,
     multiplicity_of_all,
     possible_zeros,
@@ -43,8 +44,8 @@ from nag.solving.solutions import PathStatistics, Solution, SolveResult
 NEAR = 1e-7
 # Bits of the coordinates of exact zeros whose local rings are looked at.
 BITS = 400
-# Relative error of a zero that is known by its written digits, and digits to compute with.
-WRITTEN, WORKING = 1e-90, 120
+# Digits to compute with.
+WORKING = 120
 
 Tracked = Callable[[PolynomialSystem], SolveResult]
 
