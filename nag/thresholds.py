@@ -296,5 +296,5 @@ witness.exact_points: STEP, BITS_PER_DIGIT; witness.fibres: STEEPER; witness.fra
 witness.gauss_newton: CLOSE; witness.real_points: SPREAD; decomposition.branch_points: ARRIVED;
 decomposition.curve_genus: NEAR, OUTSIDE, SHRINK; decomposition.discovery: ROUNDED, DEEP;
 decomposition.given_points: ROUGH; decomposition.hypersurface: NEARER; decomposition.singular_locus:
-ROUNDED; decomposition.excluded: ROUNDED; decomposition.superset: REGULAR, ROUNDED.
+ROUNDED; decomposition.excluded: ROUNDED; decomposition.superset: REGULAR.
 """
