@@ -127,6 +127,26 @@ def vanishing(x, correction):
     return select_less(size, splat(number.SMALL), gone, splat(0.0))
 
 
+def _vanishing_step(s, r):
+    """The largest correction of coordinates that are taken away, those that `vanishing` finds."""
+    most = splat(0.0)
+    for j in range(s.N):
+        x, correction = z.read(r.slots, j), z.read(r.right, j)
+        most = z.largest(most, vanishing(x, correction) * z.magnitude(correction))
+    return most
+
+
+def _gone(x, correction, beside):
+    """`vanishing`, and corrections that are as nothing beside those of coordinates that vanish.
+
+    A product of two such coordinates is a tiny coordinate that changes as much as it is large.
+    """
+    step = z.magnitude(correction)
+    idle = select_less(step, beside * splat(number.SMALL), splat(1.0), splat(0.0))
+    idle = select_less(z.magnitude(x), splat(number.SMALL), idle, splat(0.0))
+    return z.largest(vanishing(x, correction), idle)
+
+
 def make_noise(s, r):
     """Rounding errors of the rows; phases that grow as squares cancel no smooth vector."""
     for i in range(s.N):
@@ -155,6 +175,7 @@ def newton_correction(s, r, floor, rough):
     excess = zero
     known = zero
     whole = zero
+    beside = _vanishing_step(s, r)
     for j in range(n):
         size = z.magnitude(z.read(r.slots, j))
         step = z.magnitude(z.read(r.right, j))
@@ -164,7 +185,7 @@ def newton_correction(s, r, floor, rough):
         # Taylor coefficients are rounding errors as well, and larger.
         unresolved = z.largest(thousand * error, splat(number.SMALL))
         weight = select_less(thousand * error, size, size, unresolved)
-        gone = vanishing(z.read(r.slots, j), z.read(r.right, j))
+        gone = _gone(z.read(r.slots, j), z.read(r.right, j), beside)
         weight = select_less(half, gone, splat(number.SMALL), weight)
         error = select_less(half, gone, z.largest(error, step), error)
         most = rough * error
