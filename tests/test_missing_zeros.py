@@ -127,3 +127,15 @@ def test_a_point_beyond_the_powers_of_doubles_is_not_sharpened_but_not_an_error(
     far = np.array([1e120 + 0j, 1e130])
     with np.errstate(all="ignore"):
         assert not sharpen(evaluator, np.zeros((0, 3)), far).converged
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_two_multiple_zeros_at_what_seems_one_place_are_both_found(seed: int) -> None:
+    # Double zeros with y = 7e-7 i and -7e-7 i beside x = -4e5.
+    equations = (
+        "-1/100000*y*z - 9*y*w + 99/100000*z*w",
+        "30000*x^3*z^2 - 1/1250*x^2*w^3 - 5*x*y^3*z + 1600*x^2*y^2 - 5000*y^4 + 1/5*y*w^2 + 1/125",
+        "80000*y*w^2 + 83/200000*x + 80*w + 41",
+        "7000*x*z^2 + 2000*w^3",
+    )
+    assert multiplicities(solve(system("x y z w", *equations), seed=seed)) == {1: 31, 2: 4}

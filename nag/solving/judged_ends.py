@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from nag.tracking.paths import Paths, PathStatus
 ON = 1e-9
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
+# Zeros in many digits that differ by more are two.
+TWO = Fraction(1, 10**80)
 # Points evaluated at once.
 BLOCK = 2048
 
@@ -89,12 +92,14 @@ class _Zeros:
 class _Place:
     """Where an end lies; None where it is no solution at all.
 
-    ``close``: whether it may be several solutions close together.
+    ``close``: whether it may be several solutions close together; ``digits``: of an isolated
+    zero that is not a regular end.
     """
 
     place: Place | None
     isolated: IsolatedZero | None = None
     close: bool = False
+    digits: tuple[tuple[str, str], ...] = ()
 
 
 def judged_ends(
@@ -123,12 +128,13 @@ def judged_ends(
     else:
         isolated = _simple(zeros, zeros.alone(), paths)
     for group in groups:
-        best = int(group[np.argmin(zeros.accuracy[group])])
-        found = _place(problem, zeros, best, paths, evaluator, rng)
+        by_multiplicity = begin.complete and not problem.squared
+        best, places = _together(problem, zeros, group, paths, evaluator, rng, by_multiplicity)
+        found = places[0]
         if found.isolated is not None:
-            multiplicity = found.isolated.multiplicity
-            isolated.append(found.isolated)
-            if begin.complete and not problem.squared and multiplicity != len(group):
+            isolated += [each.isolated for each in places]
+            multiplicity = sum(each.isolated.multiplicity for each in places)
+            if by_multiplicity and multiplicity != len(group):
                 unclear.append(
                     f"{len(group)} paths end at a solution of multiplicity {multiplicity}"
                 )
@@ -228,7 +234,41 @@ def _place(
     multiple = IsolatedZero(
         end.point, end.multiplicity, residual, end.accuracy, end.condition, precision
     )
-    return _Place(Place.ISOLATED, multiple)
+    return _Place(Place.ISOLATED, multiple, digits=end.digits)
+
+
+def _together(
+    problem: SquareProblem,
+    zeros: _Zeros,
+    group: np.ndarray,
+    paths: Paths,
+    evaluator: Evaluator,
+    rng: np.random.Generator,
+    by_multiplicity: bool,
+) -> tuple[int, list[_Place]]:
+    """The best known one of ends at one place, and where it lies.
+
+    Ends count as at one place within many times their errors. Where more lead to an isolated zero
+    than its multiplicity explains, others beside it are looked for, which digits tell from it.
+    """
+    best = int(group[np.argmin(zeros.accuracy[group])])
+    found = [_place(problem, zeros, best, paths, evaluator, rng)]
+    if not by_multiplicity or found[0].isolated is None:
+        return best, found
+    again = np.random.default_rng(0)
+    for i in group.tolist():
+        if sum(each.isolated.multiplicity for each in found) >= len(group):
+            break
+        other = _place(problem, zeros, i, paths, evaluator, again) if i != best else found[0]
+        if other.isolated is not None and all(apart(other.digits, f.digits) for f in found):
+            found.append(other)
+    return best, found
+
+
+def apart(x: Sequence[tuple[str, str]], y: Sequence[tuple[str, str]]) -> bool:
+    """Whether zeros that are written to many digits are two."""
+    pairs = zip((v for z in x for v in z), (v for z in y for v in z), strict=True)
+    return any(abs(Fraction(a) - Fraction(b)) > TWO for a, b in pairs)
 
 
 def _solutions(
