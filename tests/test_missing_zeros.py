@@ -15,6 +15,7 @@ import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.isolated import counted
+from nag.numerics.coincidence import conjugates_present
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.solving.tropical_zeros import tropical_zeros
@@ -139,3 +140,12 @@ def test_two_multiple_zeros_at_what_seems_one_place_are_both_found(seed: int) ->
         "7000*x*z^2 + 2000*w^3",
     )
     assert multiplicities(solve(system("x y z w", *equations), seed=seed)) == {1: 31, 2: 4}
+
+
+def test_points_close_together_are_conjugates_each_of_one() -> None:
+    upper = np.array([[1j, 1.0], [1j, 1.0 + 1e-13], [1j, 1.0 - 1e-13]])
+    for order in ([0, 1, 2, 3, 4, 5], [0, 3, 1, 2, 4, 5], [3, 0, 4, 5, 1, 2]):
+        points = np.vstack([upper, upper.conj()])[order]
+        rest = np.full(6, 1e-15), np.ones(6, dtype=int), np.zeros(6, dtype=bool)
+        assert conjugates_present(points, *rest)
+        assert not conjugates_present(points[:5], *(r[:5] for r in rest))
