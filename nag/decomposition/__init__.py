@@ -23,6 +23,7 @@ monodromy.ROUGH          1e-8   Errors that ends of loops may have, whatever the
 trace.EVIDENCE           18     Digits to which a trace must be linear beside the points' motion;
 .ROUND_NUMBERS           6      one more for each digit of the coefficients beyond so many: what is
                                 nearly reducible has long ones. Points get 28 to 240 digits for it.
+                                Where the points that are left bend less, more are asked of all.
 splitting.MOST_LOOPS *   100    Loops before points are left undecided; 23 were the most needed.
 isolated.NONZERO         1e-6   Values beside their terms that are certainly not zero; smaller ones
                                 are computed to 100 digits, or leave the answer to another way.
