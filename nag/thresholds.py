@@ -159,6 +159,9 @@ solving.solve.INFINITE                      2e-12   Homogenising coordinates of 
                                                     beside what is proved of them.
 solving.solve.ROUGHLY_INFINITE              1e-7    The same of ends that are not known to more
                                                     digits.
+solving.isolated_zero.TWO                   1e-80   Distance, beside their size, of zeros in 100
+                                                    digits that are two: those that the ends at one
+                                                    place stand for.
 solving.judged_ends.NEARLY                  1e-5    Values, beside their terms, of ends that are no
                                                     zeros, however badly they are known.
 solving.judged_ends.REAL *                  1e-10   Imaginary parts, beside a point's size, of real

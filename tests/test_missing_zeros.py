@@ -15,6 +15,7 @@ import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.isolated import counted
+from nag.numerics.coincidence import conjugates_present
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.solving.tropical_zeros import tropical_zeros
@@ -127,3 +128,24 @@ def test_a_point_beyond_the_powers_of_doubles_is_not_sharpened_but_not_an_error(
     far = np.array([1e120 + 0j, 1e130])
     with np.errstate(all="ignore"):
         assert not sharpen(evaluator, np.zeros((0, 3)), far).converged
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_two_multiple_zeros_at_what_seems_one_place_are_both_found(seed: int) -> None:
+    # Double zeros with y = 7e-7 i and -7e-7 i beside x = -4e5.
+    equations = (
+        "-1/100000*y*z - 9*y*w + 99/100000*z*w",
+        "30000*x^3*z^2 - 1/1250*x^2*w^3 - 5*x*y^3*z + 1600*x^2*y^2 - 5000*y^4 + 1/5*y*w^2 + 1/125",
+        "80000*y*w^2 + 83/200000*x + 80*w + 41",
+        "7000*x*z^2 + 2000*w^3",
+    )
+    assert multiplicities(solve(system("x y z w", *equations), seed=seed)) == {1: 31, 2: 4}
+
+
+def test_points_close_together_are_conjugates_each_of_one() -> None:
+    upper = np.array([[1j, 1.0], [1j, 1.0 + 1e-13], [1j, 1.0 - 1e-13]])
+    for order in ([0, 1, 2, 3, 4, 5], [0, 3, 1, 2, 4, 5], [3, 0, 4, 5, 1, 2]):
+        points = np.vstack([upper, upper.conj()])[order]
+        rest = np.full(6, 1e-15), np.ones(6, dtype=int), np.zeros(6, dtype=bool)
+        assert conjugates_present(points, *rest)
+        assert not conjugates_present(points[:5], *(r[:5] for r in rest))

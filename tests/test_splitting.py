@@ -10,6 +10,7 @@ from cuts import curve, fibre, points_on
 from systems import system
 
 from nag.algebra.evaluation import Evaluator
+from nag.decomposition.components import decompose
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class, split
@@ -135,3 +136,16 @@ def test_points_that_do_not_satisfy_all_equations_are_not_reported_as_a_componen
     made = checked(POINTS, Reduction.of(system("x y", CUBIC, CIRCLE)))
     assert made.status is Status.UNDECIDED and made.residual > 1e-3 and made.degree == 3
     assert "a point does not satisfy all equations" in made.note
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_points_that_bend_by_1e_50_are_no_lines(seed: int) -> None:
+    # Two of the twenty points of an irreducible curve move along a line to 50 digits.
+    texts = (
+        "15619296875*x^3*y*w + 368050176*w^5 - 135837941100900*w^4 - 28308556765671875*w^3"
+        " - 2211788000000000000*w^2 - 76799966530078125000*w - 1000000000000000000000",
+        "x^4 - 160000*x^2*w^2 - 18000000000",
+    )
+    answer = decompose(system("x y w", *texts), seed=seed)
+    assert answer.complete
+    assert [(c.dimension, c.degree) for c in answer.components] == [(1, 20)]

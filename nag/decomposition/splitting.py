@@ -182,11 +182,29 @@ def _united(state: _State, open_points: np.ndarray) -> None:
     if len(waiting) > MOST_CLASSES:
         return
     unions, state.trace = state.trace.smallest_unions(state.points, waiting)
+    if not unions:
+        _doubted(state, open_points)
     for union in unions:
         joined = np.concatenate([waiting[c] for c in union])
         first = int(state.labels[joined].min())
         state.labels[joined] = first
         state.verdicts[first, len(joined)] = True
+
+
+def _doubted(state: _State, open_points: np.ndarray) -> None:
+    """Open classes again that only seemed to be linear, where the other points are not together.
+
+    All points of a set together have a linear trace; what others bend, these bend as well.
+    """
+    answer, trace = state.trace.linear(state.points, open_points)
+    if answer is not False:
+        return
+    state.trace = trace.finer(open_points)
+    for label in set(state.labels.tolist()) - set(state.labels[open_points].tolist()):
+        own = state.indices(label)
+        if set(own.tolist()) <= set(state.trace.ends):
+            answer, state.trace = state.trace.linear(state.points, own)
+            state.verdicts[label, len(own)] = answer
 
 
 def _looped(

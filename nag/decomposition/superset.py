@@ -18,7 +18,7 @@ from nag.decomposition.excluded import excluded
 from nag.decomposition.hypersurface import Crossing, Sections, crossing
 from nag.numerics.coincidence import SAFETY, clusters, coincident
 from nag.numerics.small_values import ON
-from nag.witness.close_to_sets import among, meant, regular_fibre
+from nag.witness.close_to_sets import Meant, among, meant, regular_fibre
 from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
@@ -240,8 +240,8 @@ class _Stage:
 
     def beside(
         self, cluster: _Cluster, so_far: Equations, own: list[Fibre], rows: np.ndarray
-    ) -> list[str]:
-        """Add the isolated zeros among ends that seem to lie on a larger set."""
+    ) -> tuple[list[str], Meant]:
+        """Add the isolated zeros that ends in doubles may stand for; doubts, and what was found."""
         notes, found = [], meant(cluster, so_far, rows, self.rng)
         for zero in found.zeros:
             known = among(zero, own, rows)
@@ -252,7 +252,7 @@ class _Stage:
                 notes.append("a point close to a larger set could not be made regular")
             else:
                 own.append(fibre)
-        return notes
+        return notes, found
 
     def add(
         self,
@@ -271,8 +271,10 @@ class _Stage:
                 admit(other, error, kept[d], so_far, rows, rng, deflate=False)
             return [], PathCounts()
         answer, counts = self.larger(x, accuracy, d, kept, flag)
-        if answer is Membership.MEMBER:
-            return self.beside(cluster, so_far, kept[d], rows), counts
+        if answer is not Membership.FOREIGN:
+            doubts, found = self.beside(cluster, so_far, kept[d], rows)
+            if found.decided or answer is Membership.MEMBER:
+                return doubts, counts
         holding = self.holding(so_far, x, accuracy)
         if answer is Membership.FOREIGN and admit(
             x, accuracy, kept[d], holding, rows, rng, deflate=False
@@ -286,6 +288,10 @@ class _Stage:
             admit(x, accuracy, kept[d], each, rows, rng, deflate=True)
             for each in dict.fromkeys((holding, so_far))
         ):
+            return [], counts
+        # Zeros so close together that doubles can neither tell nor cut them.
+        doubts, found = self.beside(cluster, so_far, kept[d], rows)
+        if found.decided and found.zeros and not doubts:
             return [], counts
         return [f"a singular point of dimension {d} could not be made regular"], counts
 

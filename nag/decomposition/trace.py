@@ -24,6 +24,8 @@ from nag.witness.witness import PathCounts
 # Digits to which a trace must be linear, beside the points' motion: so many, and one more for each
 # digit of the system's coefficients beyond those of round numbers.
 EVIDENCE, ROUND_NUMBERS = 18, 6
+# Digits more than those in which points are seen to bend, to see whether others do.
+BEYOND = 4
 # Points get twice the digits so often, from those of double-double on.
 DIGITS = (FEWEST, 60, 120, 240)
 # Bits behind the point of an offset of a slice, beyond those of the points.
@@ -180,11 +182,26 @@ class Trace:
                 return answer, trace
         return None, trace
 
-    def _decided(self, indices: Sequence[int]) -> bool | None:
+    def finer(self, indices: Sequence[int]) -> Trace:
+        """The trace with evidence by which points are not linear that bend no less than these.
+
+        Args:
+            indices: points whose trace is not linear.
+        """
+        size, motion = self._bend(indices), max(self.known[i].motion for i in indices)
+        digits = int(np.ceil(np.log10(motion / size))) + BEYOND
+        return replace(self, evidence=max(self.evidence, digits))
+
+    def _bend(self, indices: Sequence[int]) -> float:
+        """The largest second difference of the sum of points."""
         known = [self.known[i] for i in indices]
         bits = max(d.bits for d in known)
         total = sum(d.total << (bits - d.bits) for d in known)
-        size = _float(max(map(abs, total), default=0), bits)
+        return _float(max(map(abs, total), default=0), bits)
+
+    def _decided(self, indices: Sequence[int]) -> bool | None:
+        known, size = [self.known[i] for i in indices], self._bend(indices)
+        bits = max(d.bits for d in known)
         error = sum(d.radius for d in known) + 2.0**-bits * len(known)
         if size > 4 * error:
             return False

@@ -128,5 +128,8 @@ def conjugates_present(
         distance = np.linalg.norm(points[i] - points[j].conj(), axis=1)
         pair = (distance <= np.maximum(tolerance[i], tolerance[j])) & ~taken[i] & ~taken[j]
         pair &= multiplicity[i] == multiplicity[j]
-        taken[i[pair]] = taken[j[pair]] = True
+        for a, b in zip(i[pair].tolist(), j[pair].tolist(), strict=True):
+            # Of points close together each is the conjugate of one only.
+            if not taken[a] and not taken[b]:
+                taken[a] = taken[b] = True
     return bool(taken.all())

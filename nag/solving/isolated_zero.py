@@ -16,6 +16,8 @@ from nag.tracking.paths import Ball
 # Digits in which the quotients of projective coordinates are worked out, and errors of points that
 # are written to 100 digits.
 DIGITS, WRITTEN = 110, 1e-95
+# Least distance, beside their size or one, of zeros that are two.
+TWO = 1e-80
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,3 +73,11 @@ class IsolatedZero:
         """An end that was judged to be one."""
         numbers = residual, end.accuracy, end.condition, precision
         return cls(end.point, end.multiplicity, *numbers, FinePoint.of_end(end))
+
+    def is_apart_from(self, other: IsolatedZero) -> bool:
+        """Whether two zeros are two, in the digits that both are known to."""
+        if self.fine is None or other.fine is None:
+            return False
+        error = max(TWO, self.fine.error + other.fine.error)
+        pairs = zip(self.fine.coordinates, other.fine.coordinates, strict=True)
+        return any(float(abs(a - b).mid()) > error * (1 + float(abs(a).mid())) for a, b in pairs)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -86,6 +86,7 @@ class _Place:
     place: Place | None
     isolated: tuple[IsolatedZero, ...] = ()
     close: bool = False
+    digits: tuple[tuple[str, str], ...] = ()
 
 
 def judged_ends(
@@ -113,11 +114,14 @@ def judged_ends(
         groups = [*zeros.alone()[:, None], *groups]
     else:
         isolated = _simple(begin, zeros, zeros.alone(), paths)
+
+    def judge(i: int) -> _Place:
+        return _place(problem, begin, zeros, i, paths, evaluator, rng)
+
     for group in groups:
-        best = int(group[np.argmin(zeros.accuracy[group])])
-        found = _place(problem, begin, zeros, best, paths, evaluator, rng)
-        multiplicity = sum(zero.multiplicity for zero in found.isolated)
         whole = begin.complete and not problem.squared
+        best, found = _together(judge, zeros, group, whole)
+        multiplicity = sum(zero.multiplicity for zero in found.isolated)
         # Of a cluster with as many zeros as paths, each is the end of its own.
         met = found.place is Place.CLUSTER and whole and multiplicity == len(group)
         if met or found.place is Place.ISOLATED:
@@ -185,9 +189,6 @@ def _zeros(
 def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
     """Regular ends as zeros of the equations."""
 
-    def fine(i: int) -> FinePoint | None:
-        return FinePoint.of_ball(begin, paths.balls[i]) if i in paths.balls else None
-
     path = zeros.path[chosen]
     columns = (
         zeros.residual[chosen],
@@ -240,6 +241,32 @@ def _place(
         if z.place is Place.ISOLATED
     )
     return _Place(end.place, isolated, end.place is Place.UNDECIDED)
+
+
+def _together(
+    judge: Callable[[int], _Place], zeros: _Zeros, group: np.ndarray, whole: bool
+) -> tuple[int, _Place]:
+    """The best known one of ends at one place, and where it lies.
+
+    Ends count as at one place within many times their errors. Where more lead to an isolated zero
+    than its multiplicity explains, others beside it are looked for, which digits tell from it.
+
+    Args:
+        judge: where an end lies.
+        whole: whether as many paths lead to a zero as its multiplicity is.
+    """
+    best = int(group[np.argmin(zeros.accuracy[group])])
+    found = judge(best)
+    if not whole or found.place is not Place.ISOLATED:
+        return best, found
+    isolated = list(found.isolated)
+    for i in group[group != best].tolist():
+        if sum(zero.multiplicity for zero in isolated) >= len(group):
+            break
+        other = judge(i)
+        if other.place is Place.ISOLATED:
+            isolated += [z for z in other.isolated if all(map(z.is_apart_from, isolated))]
+    return best, replace(found, isolated=tuple(isolated))
 
 
 def _points(ends: Sequence[SingularEnd]) -> np.ndarray:
