@@ -119,6 +119,14 @@ def test_a_common_factor_of_the_equations_is_a_hypersurface(at: tuple) -> None:
     assert found.dimension == 2 and "common factor" in found.reason
 
 
+@pytest.mark.parametrize("seed", [5, 11, 18])
+def test_a_singular_zero_that_costs_too_much_is_not_passed_over(seed: int) -> None:
+    """Beside it there are regular zeros within the point's error."""
+    point = SETS["a line that touches a surface to order 12"]
+    found, _ = judged(point, seed)
+    assert right(point, found)
+
+
 @pytest.mark.parametrize("digits", [30, 50, 90])
 def test_what_only_long_coefficients_tell_from_zero_is_not_zero(digits: int) -> None:
     x, y, small = "(2*u - v - 1/3)", "(u + 3*v + 2/3)", f"1/10^{digits}"

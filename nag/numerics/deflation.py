@@ -73,6 +73,10 @@ class NotDeflated(Exception):
     """Deflation did not succeed, for the reason that the text says."""
 
 
+class SeriesTooLong(NotDeflated):
+    """Deflation would cost too much: there may be a singular zero within reach."""
+
+
 def lowest_order(
     ring: SeriesRing, series: Sequence[Series], reach: float, inverse: float = 0.0
 ) -> int | None:
@@ -198,7 +202,7 @@ def _lowest_terms(
         if order < min(least, ORDERS[-1]):
             continue
         if work(len(point) - len(rounds[0].columns), total_order(rounds, order), rounds) > most:
-            raise NotDeflated(f"its series in {left} variables are too long at order {order}")
+            raise SeriesTooLong(f"its series in {left} variables are too long at order {order}")
         descent = descend(system, DIGITS, point, rounds, order)
         assert descent is not None
         found = lowest_order(descent.ring, descent.remaining, reach, descent.inverse)

@@ -14,7 +14,7 @@ import numpy as np
 from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.curves import is_exact_zero
-from nag.numerics.deflation import Deflated, NotDeflated, deflate, regular_block
+from nag.numerics.deflation import Deflated, NotDeflated, SeriesTooLong, deflate, regular_block
 from nag.numerics.descent import Round
 from nag.numerics.digits import doubles, middle, number
 from nag.numerics.exact_system import ExactSystem
@@ -123,12 +123,18 @@ def _exact_zero(
             found = Deflated(y, (replace(block, order=2),), 0, ZERO, 0.0)
         return Zero(system, found, block, tuple(known)), ""
     reasons = []
+    # Less reach than what may hold a singular zero shows no other that stands for the point.
+    least = -np.inf
     for more in REACHES:
+        if more < least:
+            continue
         reach = min(error + more, max(FURTHEST, error))
         try:
             found = deflate(system, y, max(reach, ROUNDING - DIGITS), rng)
         except NotDeflated as reason:
             reasons.append(str(reason))
+            if isinstance(reason, SeriesTooLong):
+                least = more
             continue
         if is_exact_zero(system, found):
             block = regular_block(
