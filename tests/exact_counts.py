@@ -19,7 +19,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.zero_set import Components, ZeroSet
 
-PRIME = 2**61 - 1
+PRIME = 1902797279921331653
 ORDER = flint.Ordering.degrevlex
 RATIONAL = flint.fmpq_mpoly_ctx.get(("x", "y"), ORDER)
 MODULAR = flint.nmod_mpoly_ctx.get(("x", "y"), PRIME, ORDER)

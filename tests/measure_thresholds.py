@@ -3,9 +3,9 @@
     python tests/measure_thresholds.py [--decompose] [--case FILE ...] [--seeds 0:3]
 
 Solves the systems by paths, or decomposes them, and prints for each threshold with a star in the
-table of `nag.tracking`, or of `nag.decomposition`, how many values it let pass and how many not,
-how many decades the nearest of each lie from it, and how many lie within a decade of it. A
-threshold is a good one where hardly any do: then another value of it would give the same answers.
+table of `nag.thresholds` how many values it let pass and how many not, how many decades the nearest
+of each lie from it, and how many lie within a decade of it. A threshold is a good one where hardly
+any do: then another value of it would give the same answers.
 """
 
 from __future__ import annotations
@@ -27,11 +27,13 @@ from nag.decomposition import components, discovery, intersection, splitting  # 
 from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.files.problem import system_of
-from nag.numerics import coincidence
+from nag.numerics import coincidence, small_values
 from nag.solving import judged_ends
 from nag.solving import solve as solving
+from nag.tracking import projective
 from nag.tracking import track as tracking
 from nag.tracking.ends import follow, limits
+from nag.tracking.homotopy import norms
 from nag.tracking.paths import PathStatus
 from nag.witness import confirm, cutting
 
@@ -137,7 +139,20 @@ def watched(measured: Measured) -> ExitStack:
         measured.add("WHOLE", limits.WHOLE, off[: found - least + 1] if found else off)
 
     def values(found: np.ndarray, *_: Any) -> None:
-        measured.add("ON", judged_ends.ON, found)
+        measured.add("ON", small_values.ON, found)
+
+    def met(_: Any, groups: Any, points: np.ndarray, errors: np.ndarray) -> None:
+        if len(points) < MOST_PAIRED:
+            radii = projective.SAFETY * np.maximum(projective.ROUNDING, errors)
+            first, second = np.triu_indices(len(points), 1)
+            apart = norms(projective.aligned_difference(groups, points[first], points[second]))
+            measured.add("SAFETY (of ends)", 1.0, apart / np.maximum(radii[first], radii[second]))
+
+    def real(found: tuple[Any, ...], *_: Any) -> None:
+        for one in found[0]:
+            size = 1 + np.abs(one.point).max(initial=0.0)
+            imaginary = np.abs(one.point.imag).max(initial=0.0)
+            measured.add("REAL", judged_ends.REAL, imaginary / size)
 
     def judged(paths: Any, *_: Any) -> None:
         regular = paths.status == PathStatus.REGULAR
@@ -151,6 +166,8 @@ def watched(measured: Measured) -> ExitStack:
         (limits.Limits, "of", initial_forms),
         (limits, "_denominator", denominator),
         (judged_ends, "_residuals", values),
+        (judged_ends, "_solutions", real),
+        (tracking, "meeting", met),
     ]:
         stack.enter_context(patch.object(owner, name, around(getattr(owner, name), note)))
     return stack
@@ -185,9 +202,9 @@ def watched_decomposition(measured: Measured) -> ExitStack:
         measured.add("HIT (over errors)", 1.0, distances / same)
         measured.add("MISS (over errors)", 1.0, distances / other)
 
-    def vanishing(_: Any, cut: Any, f: Any, __: Any, points: np.ndarray) -> None:
+    def vanishing(_: Any, cut: Any, f: Any, __: Any, points: np.ndarray, *___: Any) -> None:
         evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
-        measured.add("ON", cutting.ON, evaluator.residuals(x))
+        measured.add("ON", small_values.ON, evaluator.residuals(x))
         terms = np.maximum(evaluator.absolute(x), NONE)
         measured.add("CERTAIN", confirm.CERTAIN, np.abs(evaluator.values(x)) / terms)
 

@@ -126,6 +126,12 @@ ON_COMPONENTS = {
     "lines through an irrational point": Zero.of(
         "x y z", "x^2 - 2, (y - x)*(z - x), (y - x)*(y + z)", [ROOT2] * 3, 0
     ),
+    "a line that meets a curve, an equation that says nothing": Zero.of(
+        "x y z",
+        "y - x^2, (z - x^3)*(2*y - 1), (y - x^2)*(z - x^3)",
+        [ROOT2 / 2, 0.5, ROOT2 / 4],
+        0,
+    ),
     "a circle": Zero.of("x y", "x^2 + y^2 - 1", [0.6, 0.8], 0),
     "a triple circle": Zero.of("x y", "(x^2 + y^2 - 1)^3", [0.6, 0.8], 0),
     "a triple circle, of two equations": Zero.of(

@@ -54,6 +54,10 @@ def table(old: str, new: str) -> str:
 
 BROKEN: dict[str, tuple[str, str]] = {
     # name: (content, what the line says after the name of the file)
+    "plates in a framework": (
+        FRAMEWORK.replace("bars", 'plates = [["A", "B", "C"]]\nbars', 1),
+        'plates: plates are links of kind = "linkage": [[link]] with pins and their shape',
+    ),
     "unknown kind": (
         DH.replace('"dh"', '"dhh"'),
         "kind: 'dhh' is no kind of case; write one of system, mechanism, dh, framework, linkage",

@@ -11,7 +11,7 @@ from linkages import CASES, case
 import nag
 from nag.cli import main
 from nag.files.schemas import schema
-from nag.mechanism.bonds import BondError, Bonds, bonds
+from nag.mechanism.bonds import Bonds, bonds
 
 
 def of_case(name: str) -> Bonds:
@@ -30,6 +30,8 @@ DIAGRAMS = {
     "spatial/myard-5r": "J1-J3-J4 of orders 2, 1, 1, J2-J5",
     "spatial/bricard-line-symmetric": "J1-J4 (2), J2-J5 (2), J3-J6 (2)",
     "spatial/bricard-plane-symmetric": "J1-J4 (4), J2-J6 (2), J3-J5 (2)",
+    "spatial/sarrus": "J1-J2-J3-J4-J5-J6 of orders 1, 2, 1, 1, 2, 1 (2), J1-J3 (2), J4-J6 (2)",
+    "spatial/sarrus-kinematotropic": "A1-A2-A3-B3-B2-B1 of orders 1, 2, 1, 1, 2, 1 (2)",
     "bricard-cube": "J0-J2-J4 (2), J1-J3-J5 (2)",
 }
 
@@ -46,11 +48,6 @@ def test_goldberg_s_linkage_moves_all_its_joints() -> None:
         assert {joint for bond in of_case(name).bonds for joint in bond.joints} == {
             "J1", "J2", "J3", "J4", "J5"
         }  # fmt: skip
-
-
-def test_parallel_axes_are_left_open() -> None:
-    with pytest.raises(BondError, match="not clear"):
-        of_case("spatial/sarrus")
 
 
 def test_other_models_have_no_bonds() -> None:

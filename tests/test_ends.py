@@ -87,6 +87,24 @@ def test_solutions_far_out_are_not_taken_for_ends_at_infinity(power: int) -> Non
     assert len(paths.balls) == 4
 
 
+def test_paths_that_were_lost_on_the_way_may_take_more_steps_than_an_end() -> None:
+    # x^3 = (y^2 + e) ((y - 1/10)^2 + e) .. for y = t - 1/20: the zeros meet, but for e, each time.
+    x, y = Polynomial.variables(2)
+    cube, e = Polynomial.constant(2, 1), Fraction(1, 10**16)
+    for k in range(10):
+        cube = cube * ((y - Fraction(k, 10)) ** 2 + e)
+    homotopy = Homotopy(
+        compile_rows([x**3 - cube * 10**9]), np.array([[0.05, 0, 1]]), np.array([[-1.0, 0, 0]])
+    )
+    start, end = (float(cube((0, Fraction(y)))) ** (1 / 3) for y in ("19/20", "-1/20"))
+    starts = homotopy.normalized(np.array([[1, 1e3 * start, 0.95]]))
+    no = np.zeros(1, dtype=bool)
+    paths = follow(homotopy, Unfinished(starts, no, no, starts, np.ones(1)), Settings())
+    assert paths.status[0] == PathStatus.REGULAR
+    assert paths.steps[0] > 300
+    assert abs(paths.points[0, 1] / paths.points[0, 0] - 1e3 * end) < 1e-9 * end
+
+
 def test_zeros_that_are_not_regular_are_not_proved() -> None:
     (x,) = Polynomial.variables(1)
     centre = np.zeros((2, 2, 2))

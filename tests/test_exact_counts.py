@@ -105,6 +105,12 @@ IN_THE_PLANE = [k for k in range(100) if small_system(3, k).system.n == 2]
 
 
 @needs_singular
+def test_primes_are_of_no_special_form() -> None:
+    # Modulo 2^29 - 3 the first polynomial has a double root.
+    quartic = system("x y z", "64*x^4 - x^3 + 72", "y^3", "z + x*y")
+    assert standard_zero_set(3, quartic.polynomials).components == {(0, 1, 3): 4}
+
+
 @pytest.mark.parametrize("number", IN_THE_PLANE)
 def test_resultants_and_standard_bases_agree(number: int) -> None:
     system = small_system(3, number).system

@@ -110,6 +110,30 @@ def test_it_is_the_dimension_of_the_component_at_its_generic_points(name: str) -
         assert at_witness_point(system, component).dimension == component.dimension
 
 
+@pytest.mark.parametrize("at", [(0, 0, 0), (1, -1, Fraction(1, 2)), (2**0.5, 1.0, 2**-0.5)])
+def test_a_common_factor_of_the_equations_is_a_hypersurface(at: tuple) -> None:
+    """Points of a surface, isolated and embedded ones among them."""
+    surface = "(x - y*z*(x^2 - 1))*(x*y^2 - 2*z)^2"
+    system = nag.system([f"{surface}*({f})^2" for f in ("x - y", "y + z", "x + y*z")], "x y z")
+    found = nag.local_dimension(system, at)
+    assert found.dimension == 2 and "common factor" in found.reason
+
+
+@pytest.mark.parametrize("digits", [30, 50, 90])
+def test_what_only_long_coefficients_tell_from_zero_is_not_zero(digits: int) -> None:
+    x, y, small = "(2*u - v - 1/3)", "(u + 3*v + 2/3)", f"1/10^{digits}"
+    at = (Fraction(1, 21), Fraction(-5, 21))
+    nearly_a_curve = [f"({y} - {x}^2)^2", f"({y} - {x}^2)*{x} - {small}*{x}^3"]
+    nearly_triple = [f"{x}^3 + {small}*{x}^2", f"{y} - {x}"]
+    isolated = nag.local_dimension(nag.system(nearly_a_curve, "u v"), at)
+    assert as_known(isolated) == (2, 0, 6)
+    for equations, multiplicity in ((nearly_a_curve, 6), (nearly_triple, 2)):
+        beside = np.array([float(c) + 1e-10 for c in at])
+        found = nag.local_dimension(nag.system(equations, "u v"), beside)
+        assert not found.decided or (found.dimension, found.multiplicity) == (0, multiplicity)
+        assert found.lower == 0
+
+
 def test_a_cluster_of_zeros_is_left_undecided() -> None:
     system = plain(polynomials("x y", "x^3 + 1/10^20*x^2", "y - x"))
     found = nag.local_dimension(system, np.array([1e-9, 1e-9]))

@@ -86,6 +86,55 @@ def test_another_configuration_may_be_given() -> None:
         nag.mobility(mechanism, [2, 0, 1, 0], formulation="E", detail="local")
 
 
+def test_an_isolated_configuration_is_none_of_those_that_are_far_off() -> None:
+    # One of the 16 configurations has a half-angle of tangent -161.
+    points = [(1, 4, -1), (0, 1, -4), (1, 0, -4), (3, -4, 3), (3, -3, 5), (-1, 0, -1)]
+    axes = [(-3, 4, 2), (2, -3, -1), (1, 1, 4), (1, -2, -1), (1, 2, -2), (-3, 2, -4)]
+    report = nag.mobility(loop(points, axes))
+    assert report.components == ((0, 1),) and report.status == "rigid"
+
+
+# Local dimension, tangent dimension, status, and what another formulation is.
+GENERAL = {
+    "spatial/bennett": (1, 1, "overconstrained", "E"),
+    "spatial/assembled-5r": (0, 0, "rigid", "E"),
+    "planar/henneberg-6": (0, 0, "rigid", "coordinates (x, y)"),
+}
+
+
+@pytest.mark.parametrize("name", sorted(GENERAL))
+def test_parts_are_taken_at_a_general_configuration_in_any_formulation(
+    name: str, tmp_path, capsys
+) -> None:
+    file = tmp_path / "mobility.json"
+    path = str(CASES / f"{name}.toml")
+    assert main(["mobility", path, "--check", "--json", str(file), "--quiet"]) == 0
+    document = json.loads(file.read_text())
+    jsonschema.validate(document, schema("nag-mobility"))
+    keys = ("local_dimension", "tangent_dimension", "status")
+    assert (*(document[key] for key in keys), document["check"]["formulation"]) == GENERAL[name]
+    assert document["check"]["agrees"]
+    capsys.readouterr()
+
+
+def test_a_framework_by_lengths_is_placed_by_x_and_y(tmp_path, capsys) -> None:
+    file = tmp_path / "framework.toml"
+    file.write_text(
+        """
+title = "A rhombus"
+kind = "framework"
+points = ["A", "B", "C", "D"]
+bars = [["A", "B"], ["B", "C"], ["C", "D"], ["D", "A"]]
+lengths = [2, 2, 2, 2]
+"""
+    )
+    at = ["--at", "x_C = 8/5, y_C = 4/5, x_D = 3/5, y_D = 4/5", "--check", "--quiet"]
+    assert main(["mobility", str(file), *at]) == 0
+    assert "it moves with 1 freedom" in capsys.readouterr().out
+    assert main(["mobility", str(file), "--at", "x_C = 2, y_C = 1, x_D = 0, y_D = 0"]) == 2
+    assert "is no configuration" in capsys.readouterr().err
+
+
 def test_the_command_writes_what_its_schema_says(tmp_path, capsys) -> None:
     file = tmp_path / "mobility.json"
     arguments = ["mobility", "--quiet", "--json", str(file)]

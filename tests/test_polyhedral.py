@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from math import prod
 from pathlib import Path
@@ -152,7 +151,7 @@ def test_paths_lost_in_the_degeneration_are_found_by_monodromy(
 ) -> None:
     def half(*arguments: Any) -> tuple[GenericSystem, int]:
         system, spent = by_degeneration(*arguments)
-        return replace(system, points=system.points[::2]), spent
+        return system.holding(system.points[::2], system.errors[::2]), spent
 
     monkeypatch.setattr("nag.solving.start.polyhedral.by_degeneration", half)
     start = start_system("cyclic-5", 0)
@@ -163,7 +162,7 @@ def test_paths_lost_in_the_degeneration_are_found_by_monodromy(
 def test_solutions_that_stay_lost_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     def half(*arguments: Any) -> tuple[GenericSystem, int]:
         system, spent = by_degeneration(*arguments)
-        return replace(system, points=system.points[::2]), spent
+        return system.holding(system.points[::2], system.errors[::2]), spent
 
     def nothing(system: GenericSystem, *_: Any) -> tuple[GenericSystem, int, bool]:
         return system, 0, False

@@ -78,7 +78,7 @@ def test_paths_that_fail_end_the_sampling_with_what_was_found(monkeypatch) -> No
         return ends
 
     monkeypatch.setattr(moving, "move", failing)
-    with pytest.raises(SamplingError, match="point 3 of 5: 4 paths failed") as error:
+    with pytest.raises(SamplingError, match="point 3 of 5: the path to it failed") as error:
         sample(circle, component, 5)
     assert error.value.found.points.shape == (2, 2)
 

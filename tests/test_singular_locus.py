@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable
 from fractions import Fraction
 
@@ -14,11 +15,15 @@ from local_points import plain
 from singular_zeros import polynomials
 
 import nag
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.expression import parse_number
 from nag.cli import main
+from nag.decomposition.linear_hull import within_hull
+from nag.decomposition.reduction import Reduction
 from nag.decomposition.singular_locus import SingularLocus, singular_locus
 from nag.files.schemas import schema
 from nag.numerics.tangent_cone import tangent_cone
+from nag.witness.fibres import Tracker
 
 
 def locus_of(name: str) -> tuple[nag.PolynomialSystem, SingularLocus]:
@@ -51,6 +56,32 @@ def test_the_curves_of_the_rhombus_are_smooth_and_meet_in_pairs() -> None:
     assert places(locus) == {(1, 0, 1, 0, 1, 0), (-1, 0, 1, 0, -1, 0), (1, 0, -1, 0, -1, 0)}
     assert all(one.intersection and not one.essential for one in locus.sets)
     assert {tuple(one.multiplicities) for one in locus.sets} == {(0, 1), (0, 2), (1, 2)}
+    assert locus.proved == (0, 1, 2)
+
+
+def test_components_of_two_rhombi_meet_in_circles_and_points() -> None:
+    _, locus = locus_of("double-rhombus")
+    assert locus.complete and locus.proved == locus.smooth == tuple(range(9))
+    found = Counter((one.dimension, one.degree, len(one.multiplicities)) for one in locus.sets)
+    assert found == {(1, 2, 2): 18, (0, 1, 4): 9}
+    assert {(one.local.tangent_dimension, one.local.dimension) for one in locus.sets} == {
+        (3, 2),
+        (4, 2),
+    }
+
+
+def test_a_component_is_cut_by_the_equations_of_its_linear_hull() -> None:
+    answer = nag.decompose(["(x - y)*(x^2 + y^2 - 1)", "z^2 - x^2 - 3*x*(x - y)"])
+    rng, tracker = np.random.default_rng(3), Tracker("default", 1)
+    found = [within_hull(answer.system, c, rng, tracker) for c in answer.components]
+    left = [Reduction.of(system).n for system, _ in found]
+    assert sorted(zip(left, [c.degree for c in answer.components], strict=True)) == [
+        (1, 1),
+        (1, 1),
+        (3, 4),
+    ]
+    for (system, _), component in zip(found, answer.components, strict=True):
+        assert Evaluator.of(system.polynomials, 3).residuals(component.points).max() < 1e-14
 
 
 @pytest.mark.parametrize("name", ["bricard-variety", "bennett-variety"])

@@ -73,6 +73,28 @@ def test_two_zeros_close_together_are_not_one_double_zero(power: int) -> None:
     assert {z.rational for z in end.nearby} == {(1 + apart, 0), (1 - apart, 0)}
 
 
+@pytest.mark.parametrize("power", [120, 145])
+def test_zeros_nearer_than_all_digits_are_not_called_one_multiple_zero(power: int) -> None:
+    texts = (f"(x + 2*y)^2 - 1/10^{2 * power} + y - 3*x", "y - 3*x")
+    end = analyse(polynomials("x y", *texts), np.zeros(2), 1e-9, np.random.default_rng(0))
+    assert end.place is Place.UNDECIDED
+    # A third equation that the double zero of two others only nearly satisfies.
+    texts = ("(x - 1)^2", "y - x", f"x + y - 2 - 1/10^{power}")
+    end = analyse(polynomials("x y", *texts), np.ones(2), 1e-9, np.random.default_rng(0))
+    assert end.place is Place.UNDECIDED
+
+
+def test_an_isolated_zero_beside_a_line_is_found_with_it() -> None:
+    # The line x = z = -y, and a point at a distance of 1e-20 from it.
+    line, point = ("(x - z)", "(y + z)"), ("(x - z - 1/10^20)", "(y + z)", "(x + 2*y - 1)")
+    texts = [f"{a}*{b}" for a in line for b in point]
+    rng = np.random.default_rng(0)
+    end = analyse(polynomials("x y z", *texts), np.array([-1, 1, -1]), 1e-15, rng)
+    assert (end.place, end.dimension) == (Place.CLUSTER, 1)
+    far = 1 - Fraction(1, 10**20)
+    assert [(z.multiplicity, z.rational) for z in end.nearby] == [(1, (1 - 2 * far, far, -far))]
+
+
 def test_a_double_zero_close_to_a_simple_one_is_told_from_a_triple_one() -> None:
     system = polynomials("x y", "(x - 1)^2*(x - 1 - 1/10^20) - y", "y - y^2")
     end = analyse(system, np.array([1, 0]), 1e-6, np.random.default_rng(0))

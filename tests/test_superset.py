@@ -91,3 +91,33 @@ def test_equations_are_met_in_an_order_that_brings_in_few_variables_at_a_time() 
     products = ("a*c + b*d - 2", "c*e + d*f - 2", "a*e + b*f - 3")
     equations = polynomials("a b c d e f", *circles, *products, "a + e")
     assert intersection_order(equations) == [6, 0, 2, 5, 1, 3, 4]
+
+
+@pytest.mark.parametrize("power", [9, 12, 16, 20])
+def test_a_point_close_to_a_conic_is_none_of_its_points(power: int) -> None:
+    u, v, w = "(2*x - y + z)", "(x + 3*y - 2*z - 1)", "(y - x + 4*z + 2)"
+    conic, near = (f"({u}^2 + {v}^2 - 1)", w), f"1/10^{power}"
+    point = (f"({u} - 3/5)", f"({v} - 4/5 - {near})", f"({w} - {near})")
+    generators = polynomials("x y z", *(f"{a}*{b}" for a in conic for b in point))
+    weights = np.random.default_rng(1).integers(-4, 5, (6, 6)).tolist()
+    zero = generators[0] * 0
+    equations = [
+        sum((g * c for g, c in zip(generators, row, strict=True)), zero) for row in weights
+    ]
+    answer = decompose(PolynomialSystem(("x", "y", "z"), tuple(equations)))
+    assert answer.complete
+    found = [(c.dimension, c.degree, c.multiplicity) for c in answer.components]
+    assert found == [(1, 2, 1), (0, 1, 1)]
+
+
+def test_points_closer_to_a_conic_than_doubles_tell_are_isolated() -> None:
+    texts = (
+        "3*z^4*w - 3*x*z*w^2",
+        "4300*x^2*z^2 + 19/10*x*y*w^2 + 100*x*z^2*w - 7/10*x*z*w^2 + 910*x^2*w - 63*z",
+        "5/4*x*y + 2*x*z + 2/5*x - 900",
+        "-7/10*x*w^2 + 800*y^2*z",
+    )
+    answer = decompose(PolynomialSystem(tuple("xyzw"), polynomials("x y z w", *texts)))
+    assert answer.complete
+    found = Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components)
+    assert found == {(1, 2, 1): 1, (0, 1, 1): 26, (0, 1, 2): 2}

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
+from nag.algebra.factoring import factored
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -30,6 +32,12 @@ class Elimination:
     original_variables: tuple[str, ...]
     kept: tuple[int, ...]
     images: tuple[Polynomial, ...]
+
+    @cached_property
+    def irreducible(self) -> frozenset[Polynomial]:
+        """Irreducible polynomials that are zero exactly where an equation of the system is."""
+        known = [factored(f) for f in self.system.polynomials]
+        return frozenset(factors[0][0] for factors in known if len(factors) == 1)
 
     def lift(self, point: Sequence[Any]) -> Any:
         """The point of the original space above ``point``.

@@ -5,7 +5,7 @@ FLINT is loaded when the first polynomial is factored, and not before.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -64,6 +64,7 @@ def ring(n: int) -> Ring:
 Factors = tuple[tuple[Polynomial, int], ...]
 
 
+@lru_cache(maxsize=4096)
 def factored(f: Polynomial) -> Factors:
     """The distinct irreducible factors of ``f`` over the rationals, with their exponents.
 
@@ -83,3 +84,20 @@ def product(factors: Iterable[Polynomial], n: int) -> Polynomial:
     for p in factors:
         result = result * p
     return result
+
+
+def common_factor(polynomials: Sequence[Polynomial]) -> Polynomial | None:
+    """The greatest common divisor of exact polynomials, not all zero; None if it is a constant.
+
+    None as well where coefficients are irrational.
+    """
+    given = sorted((f for f in polynomials if f), key=lambda f: len(f.terms))
+    if not given or not all(f.exact for f in given):
+        return None
+    over = ring(given[0].n)
+    common = over.of(given[0])
+    for f in given[1:]:
+        if common.is_constant():
+            break
+        common = common.gcd(over.of(f))
+    return None if common.is_constant() else over.factor_polynomial(common)

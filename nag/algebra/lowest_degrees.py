@@ -7,6 +7,7 @@ two circles and two spheres do, equations of mechanisms often share what is high
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from math import lcm, prod
@@ -24,7 +25,7 @@ def of_lowest_degrees(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ..
     rational, if the degrees cannot be lowered, or if that makes more terms.
     """
     given = tuple(polynomials)
-    if len(given) < 2 or not all(f.exact and f.terms for f in given):
+    if len(given) < 2 or not all(f.exact and f.terms for f in given) or _surely_lowest(given):
         return given
     rows = _echelon(given)
     if len(rows) < len(given) or prod(f.degree for f in rows) == prod(f.degree for f in given):
@@ -39,6 +40,21 @@ def of_lowest_degrees(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ..
                 chosen.append(f)
     shorter = sum(len(f.terms) for f in chosen) <= sum(len(f.terms) for f in given)
     return tuple(chosen) if shorter else given
+
+
+def _surely_lowest(polynomials: Sequence[Polynomial]) -> bool:
+    """Whether, one after another, each has a term of its degree that none of those left has.
+
+    No combination of these is then of a lower degree than the highest of theirs.
+    """
+    left = [{e for e in f.terms if sum(e) == f.degree} for f in polynomials]
+    while left:
+        counts = Counter(e for top in left for e in top)
+        rest = [top for top in left if all(counts[e] > 1 for e in top)]
+        if len(rest) == len(left):
+            return False
+        left = rest
+    return True
 
 
 def _echelon(polynomials: Sequence[Polynomial]) -> list[Polynomial]:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
-from nag.algebra.number import Irrational, Number, is_zero, number_text
+from nag.algebra.number import Irrational, Number, decimal_digits, is_zero, number_text
 
 Exponents = tuple[int, ...]
 
@@ -145,6 +146,11 @@ class Polynomial:
     def exact(self) -> bool:
         """Whether every coefficient is rational."""
         return all(isinstance(c, Fraction) for c in self.terms.values())
+
+    @cached_property
+    def digits(self) -> int:
+        """Most decimal digits of a rational coefficient's numerator or denominator."""
+        return max(map(decimal_digits, self.terms.values()), default=0)
 
     def derivative(self, index: int) -> Polynomial:
         terms = {}

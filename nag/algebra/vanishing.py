@@ -36,6 +36,4 @@ def follows(image: Polynomial, elimination: Elimination) -> bool:
 
     That is seen where it is zero, or has a factor that is one of the irreducible equations.
     """
-    known = [factored(f) for f in elimination.system.polynomials]
-    irreducible = {factors[0][0] for factors in known if len(factors) == 1}
-    return not image or any(p in irreducible for p, _ in factored(image))
+    return not image or any(p in elimination.irreducible for p, _ in factored(image))

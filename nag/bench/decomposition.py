@@ -5,18 +5,16 @@ from __future__ import annotations
 import json
 import re
 import shutil
-import tempfile
 import time
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.bench.peers import call, plain_texts
+from nag.bench.peers import in_macaulay2, plain_texts
 from nag.decomposition import decompose
 from nag.files.cases import Truth
 from nag.report.agreement import Verdict, compare
@@ -112,21 +110,14 @@ def macaulay2_installed() -> bool:
 def macaulay2(system: PolynomialSystem, truth: Sequence[Truth], limit: float) -> PeerDecomposed:
     """Decompose ``system`` with Macaulay2 on one thread, for at most ``limit`` seconds."""
     names, equations = plain_texts(system)
-    script = (
-        'needsPackage "NumericalAlgebraicGeometry";\n'
-        f"R = CC_53[{', '.join(names)}];\n"
-        f"F = {{{', '.join(equations)}}};\n"
+    rest = (
         "t = cpuTime();\n"
         "S = numericalIrreducibleDecomposition ideal F;\n"
         'print("result " | toString(cpuTime() - t));\n'
         'for d in keys S do for w in S#d do print("component " | toString d | " " '
         "| toString(degree w));\n"
-        "exit 0\n"
     )
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "system.m2"
-        file.write_text(script, "utf-8")
-        process, output = call(["M2", "--script", str(file)], folder, limit)
+    process, output = in_macaulay2(names, equations, rest, limit)
     if output is None:
         return PeerDecomposed(None, process, None, f"no answer in {limit:.0f} s")
     result = re.search(r"result (\S+)", output)

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -67,20 +68,33 @@ def call(command: list[str], folder: str, limit: float) -> tuple[float, str | No
     return time.perf_counter() - begin, done.stdout
 
 
-def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
-    names, texts = plain_texts(system)
+def in_macaulay2(
+    names: Sequence[str], equations: Sequence[str], rest: str, limit: float
+) -> tuple[float, str | None]:
+    """Seconds of a Macaulay2 process, and what it printed; None if it took too long.
+
+    Args:
+        rest: what is done with the equations ``F`` over the ring ``R``.
+    """
     script = (
         'needsPackage "NumericalAlgebraicGeometry";\n'
         f"R = CC_53[{', '.join(names)}];\n"
-        f"F = {{{', '.join(texts)}}};\n"
-        "t = elapsedTiming (S = solveSystem F);\n"
-        'print("result " | toString(t#0) | " " | toString(#S));\n'
+        f"F = {{{', '.join(equations)}}};\n"
+        f"{rest}"
         "exit 0\n"
     )
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "system.m2"
         file.write_text(script, "utf-8")
-        process, output = call(["M2", "--script", str(file)], folder, limit)
+        return call(["M2", "--script", str(file)], folder, limit)
+
+
+def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
+    rest = (
+        "t = elapsedTiming (S = solveSystem F);\n"
+        'print("result " | toString(t#0) | " " | toString(#S));\n'
+    )
+    process, output = in_macaulay2(*plain_texts(system), rest, limit)
     if output is None:
         return Peer("M2", None, process, None, f"no answer in {limit:.0f} s")
     found = re.search(r"result (\S+) (\d+)", output)

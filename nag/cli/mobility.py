@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
@@ -35,7 +36,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--at",
         metavar="VALUES",
         help="a configuration in the variables of `nag model`: 'c1 = 3/5, s1 = 4/5', all of them "
-        "(default: the reference configuration)",
+        "(default: the reference configuration; of parts that are not assembled a general one); of "
+        "a framework in the plane the points' x_P and y_P, the first bar from (0, 0) to (1, 0)",
     )
     parser.add_argument(
         "--local",
@@ -67,8 +69,8 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     at = None if options.at is None else point_at(options.at, variables)
     if options.check and not _has_another(case, made, at):
         raise UsageError(
-            "--check: is for reference configurations that have two formulations, and for "
-            "closings of a table in half-angles, given by --at"
+            "--check: is for reference configurations that have two formulations, for tables in "
+            "half-angles, and for frameworks in the plane"
         )
     from nag.cli.progress import compilation_notice
     from nag.mechanism.mobility_report import MobilityStatus
@@ -110,8 +112,11 @@ def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
             reason = obstacle(case.assembly)
             if reason:
                 raise UsageError(f"{options.case}: its parts have no real assembly: {reason}")
-            raise UsageError(f"{options.case}: its parts are not assembled: give --at as well")
-        return case, None
+            if options.local:
+                raise UsageError(
+                    f"{options.case}: its parts are not assembled: give --at, or leave out --local"
+                )
+        return (case if options.at is None else _with_real_coordinates(case)), None
     from nag.mechanism.loops import loop_structure
 
     if not loop_structure(case.mechanism).loops:
@@ -121,11 +126,25 @@ def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
     return read_problem(options)
 
 
+def _with_real_coordinates(case: Case) -> Case:
+    """A framework that is given by lengths in coordinates in which a placement is real."""
+    from nag.mechanism.framework_model import FrameworkModel, cartesian_model
+
+    if not isinstance(case.assembly, FrameworkModel):
+        return case
+    return replace(case, assembly=cartesian_model(case.assembly.framework))
+
+
 def _has_another(case: Case, made: Model | None, at: tuple[Number, ...] | None) -> bool:
     """Whether the configuration is known in another formulation as well."""
     from nag.mechanism.dh import DHModel
+    from nag.mechanism.framework_model import FrameworkModel
 
-    return at is None if made is not None else isinstance(case.assembly, DHModel)
+    if made is not None:
+        return at is None
+    if isinstance(case.assembly, FrameworkModel):
+        return case.assembly.framework.dimension == 2
+    return isinstance(case.assembly, DHModel)
 
 
 def _variables(case: Case, made: Model | None) -> tuple[str, ...]:
@@ -167,19 +186,36 @@ def _others(
 ) -> Iterator[tuple[str, MobilityReport]]:
     """What other formulations say, each with its name."""
     from nag.mechanism.formulation_names import FORMULATIONS
+    from nag.mechanism.framework_model import FrameworkModel
     from nag.mechanism.model import ModelError
 
+    if isinstance(case.assembly, FrameworkModel):
+        yield _framework_otherwise(options, case, at)
+        return
     if case.mechanism is None:
         from nag.files.dh_case import in_formulation
 
         other = in_formulation(case, "E")
-        there = other.assembly.of_half_angles(case.assembly, at)
-        yield "E", _report(options, other, "auto", tuple(there))
+        there = None
+        if at is not None:
+            there = tuple(other.assembly.of_half_angles(case.assembly, at))
+        yield "formulation E", _report(options, other, "auto", there)
         return
     for formulation in FORMULATIONS:
         if report.formulation != f"formulation {formulation}":
             with suppress(ModelError):
-                yield formulation, _report(options, case, formulation, None)
+                yield f"formulation {formulation}", _report(options, case, formulation, None)
+
+
+def _framework_otherwise(
+    options: argparse.Namespace, case: Case, at: tuple[Number, ...] | None
+) -> tuple[str, MobilityReport]:
+    """A framework in the plane in the coordinates x and y, without isotropic ones."""
+    from nag.mechanism.framework_model import FrameworkModel, cartesian_model
+
+    assert isinstance(case.assembly, FrameworkModel)
+    plain = replace(cartesian_model(case.assembly.framework), smaller=None)
+    return "coordinates (x, y)", _report(options, replace(case, assembly=plain), "auto", at)
 
 
 def _compared(
@@ -189,14 +225,14 @@ def _compared(
     for formulation, other in _others(options, case, report, at):
         agree = other.same_motion(report)
         text = (
-            f"formulation {formulation}, {other.equations} equations in {other.variables} "
+            f"{formulation}, {other.equations} equations in {other.variables} "
             f"unknowns, {'agrees' if agree else 'DISAGREES'}: local dimension "
             f"{other.local_dimension}, tangent dimension {other.tangent_dimension}"
         )
         if other.open:
             text += f"; its components are not known: {other.open}"
         found = {
-            "formulation": formulation,
+            "formulation": formulation.removeprefix("formulation "),
             "tangent_dimension": other.tangent_dimension,
             "local_dimension": other.local_dimension,
             "agrees": agree,

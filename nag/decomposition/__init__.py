@@ -6,33 +6,7 @@ Read in this order: `components` (the whole); `isolated` (finite sets, solved at
 `discovery` and `given_points` (on `common_slices`) and `intersection` begin elsewhere and end
 alike. `branch_components` follows what exact factoring decides.
 
-What decides, beside the errors of points. ``python tests/measure_thresholds.py --decompose``
-measures how far what is compared with those that are marked with a star lies from them.
-
-=======================  =====  ====================================================================
-name                     value  what it decides, and why there
-=======================  =====  ====================================================================
-numerics.coincidence     1e-11  Least relative error of a point in doubles; balls of a hundred times
-.LEAST *                        the errors that meet are one point. The same ones lay within 1e-15,
-                                others beyond 0.05, where systems are not made to have close ones.
-.HIT *                   1e-8   Ends of paths that may have led to a known point: such as had lay
-.MISS *                  1e-5   within 5e-11, others beyond 7e-4; what falls between is asked again
-                                on another slice.
-monodromy.ROUGH          1e-8   Errors that ends of loops may have, whatever the tracker thinks: a
-                                jump to a close point must not join components.
-trace.EVIDENCE           18     Digits to which a trace must be linear beside the points' motion;
-.ROUND_NUMBERS           6      one more for each digit of the coefficients beyond so many: what is
-                                nearly reducible has long ones. Points get 28 to 240 digits for it.
-splitting.MOST_LOOPS *   100    Loops before points are left undecided; 23 were the most needed.
-isolated.NONZERO         1e-6   Values beside their terms that are certainly not zero; smaller ones
-                                are computed to 100 digits, or leave the answer to another way.
-witness.cutting.ON *     1e-9   Values beside their terms at a sharpened point that may be zero:
-                                zeros lie below 2.5e-13, others above 2e-6 in all systems measured.
-witness.cutting.GAP *    1e3    Quotient of neighbouring singular values at which a rank is read:
-                                others lay below 130, ranks above 1e13.
-witness.confirm          1e-14  Values that are rounding where coefficients have at most six digits;
-.CERTAIN *                      with longer ones, zeros are computed to 100 digits.
-=======================  =====  ====================================================================
+What decides, beside the errors of points, stands in `nag.thresholds`.
 
 What can be done with components, beside what they can do themselves (`nag.WitnessSet`):
 

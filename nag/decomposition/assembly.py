@@ -15,6 +15,7 @@ from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.trace import digits_of_evidence
+from nag.numerics.small_values import LEAST
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import Membership, is_member
 from nag.witness.points import Points
@@ -131,7 +132,7 @@ def _on_larger_set(
         return False, counts
     for d in sorted({piece.component.dimension for piece in pieces}):
         higher = [f for piece in pieces for f in piece.fibres if f.dimension == d]
-        answer, spent = is_member(fibre.x[0], 1e-12, higher, points[d].rows, rng, tracker)
+        answer, spent = is_member(fibre.x[0], LEAST, higher, points[d].rows, rng, tracker)
         counts += spent
         if answer is Membership.MEMBER:
             return True, counts

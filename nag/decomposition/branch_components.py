@@ -10,7 +10,7 @@ import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branches import branches
-from nag.algebra.elimination import eliminate_linear
+from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import (
@@ -24,22 +24,24 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.zero_values import possible_zeros, vanishes_at_all
+from nag.numerics.small_values import NONZERO, ON, SINGULAR, widened
+from nag.numerics.zero_values import (
+    WRITTEN,
+    alike,
+    multiplicity_of_all,
+    possible_zeros,
+    vanishes_at_all,
+)
 from nag.witness.confirm import vanishing
-from nag.witness.cutting import ON, Cut, numerical_corank
+from nag.witness.cutting import Cut, numerical_corank
 from nag.witness.error_radii import framed, sharpened
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, component_fibres, is_member
 from nag.witness.moving import witness_at
 from nag.witness.multiplicity import ACCURACY, multiplicity
-from nag.witness.slices import random_rows, to_slice
+from nag.witness.slices import padded, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
-
-# Values, relative to their terms, above which a polynomial certainly does not vanish at a point.
-NONZERO = 1e-6
-# Singular values of a Jacobian, relative to its size, that count as zero.
-ZERO = 1e-9
 
 Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
 
@@ -67,19 +69,29 @@ class _Component:
             return self.zero.vanishes(f)
         if (Evaluator.of([f], f.n).residuals(self.witness.points) > NONZERO).any():
             return False
-        elimination = eliminate_linear(self.system, graphs=False)
-        image = f.compose(elimination.images)
-        if not elimination.system.polynomials and f.exact:
+        image = f.compose(self._elimination.images)
+        if not self._elimination.system.polynomials and f.exact:
             return not image
-        if follows(image, elimination):
+        if follows(image, self._elimination):
             return True
-        try:
-            fibre = component_fibres(self.system, self.witness)[0]
-        except ValueError:
+        fibre = self._fibre
+        if fibre is None:
             # Doubles do not see that the points are regular.
             return vanishes_at_all(self._zeros, f)
         answer = vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0]
         return vanishes_at_all(self._zeros, f) if answer is None else answer
+
+    @cached_property
+    def _elimination(self) -> Elimination:
+        return eliminate_linear(self.system, graphs=False)
+
+    @cached_property
+    def _fibre(self) -> Fibre | None:
+        """The points with equations that cut them; None where these are not regular zeros."""
+        try:
+            return component_fibres(self.system, self.witness)[0]
+        except ValueError:
+            return None
 
     @cached_property
     def _zeros(self) -> tuple[SingularEnd, ...]:
@@ -90,7 +102,8 @@ class _Component:
             # Of what was sharpened by a deflation no more is known.
             accuracy = max(accuracy, ACCURACY)
         rng = np.random.default_rng(0)
-        return possible_zeros(self.system.polynomials, x, accuracy, rng, rows)
+        zeros = possible_zeros(self.system.polynomials, x, accuracy, rng, rows)
+        return alike(zeros, x) if len(zeros) > 1 else zeros
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,7 +246,7 @@ def _vanishes_at(f: Polynomial, zero: AlgebraicZero) -> bool:
 
 def _corank(evaluator: Evaluator, x: np.ndarray) -> int:
     s = np.linalg.svd(evaluator.balanced_jacobian(x), compute_uv=False)
-    return numerical_corank(s, len(x), ZERO)
+    return numerical_corank(s, len(x), SINGULAR)
 
 
 def _joined(
@@ -342,11 +355,16 @@ def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
     def independent(polynomials: Sequence[Polynomial]) -> bool:
         if component.zero is not None and all(f.exact for f in polynomials):
             return component.zero.independent(polynomials)
-        error = max(1e3 * witness.accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
-        return independent_gradients(polynomials, x, error)
+        return independent_gradients(polynomials, x, widened(x, witness.accuracy))
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int:
-        return multiplicity(generators, witness.slice.rows, x, np.random.default_rng(0))
+        rows, rng = witness.slice.rows, np.random.default_rng(0)
+        zeros = () if component.zero is not None else component._zeros
+        if len(zeros) != 1:
+            return multiplicity(generators, rows, x, rng)
+        # Zeros of other branches may be close to it.
+        there = possible_zeros(generators, zeros[0].digits, WRITTEN, rng, padded(rows, 1 + n))
+        return multiplicity_of_all(there) or 0
 
     codimension = n - witness.dimension
     return generic_multiplicity(

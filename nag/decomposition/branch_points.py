@@ -31,7 +31,6 @@ ARRIVED, NOTHING = -180.0, -90.0
 NEWTON_STEPS = 14
 # Values that are added at a time.
 BATCH = 12
-ATTEMPTS = 3
 
 
 class BranchPointError(ValueError):
@@ -93,12 +92,9 @@ def _sum_of_squares(
     with working(DIGITS):
         total = flint.acb(0)
     for fibre in sheets.fibres:
-        for _ in range(ATTEMPTS):
-            gamma = complex(unit_complex(rng))
-            ends = move(fibre, sheets.rows(sheets.base), sheets.rows(t), gamma, tracker)
-            if ends.regular.all():
-                break
-        else:
+        gamma = complex(unit_complex(rng))
+        ends = move(fibre, sheets.rows(sheets.base), sheets.rows(t), gamma, tracker)
+        if not ends.regular.all():
             raise BranchPointError("paths to another slice failed")
         system = ExactSystem.of(
             fibre.cut.polynomials, ends.points[0], _padded(sheets.rows(t), fibre)

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.witness.cutting import ON, Cut, Equations
-from nag.witness.fibres import Fibre, Tracker, admit, carried
+from nag.numerics.coincidence import coincident
+from nag.numerics.small_values import ON
+from nag.witness.cutting import Cut, Equations
+from nag.witness.fibres import Fibre, Tracker, admit, move
 from nag.witness.points import Points
 from nag.witness.slices import random_rows, rows_through, unit_complex
 from nag.witness.witness import PathCounts
-
-ATTEMPTS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,25 +40,28 @@ class CommonSlices:
         equations: those that hold on the components.
         flag: shape ``(n, 1 + n)``.
         points: by dimension.
+        errors: relative errors of the points of each dimension, shape ``(P,)``.
     """
 
     equations: Equations
     flag: np.ndarray
     points: Mapping[int, Points]
+    errors: Mapping[int, np.ndarray]
 
     @classmethod
     def random(cls, equations: Equations, rng: np.random.Generator) -> CommonSlices:
         """A generic flag, without points."""
-        return cls(equations, random_rows(rng, equations.n, equations.n), {})
+        return cls(equations, random_rows(rng, equations.n, equations.n), {}, {})
 
-    def with_point(self, cut: Cut, z: np.ndarray, d: int) -> tuple[CommonSlices, int]:
+    def with_point(self, cut: Cut, z: np.ndarray, d: int, error: float) -> tuple[CommonSlices, int]:
         """With a point of dimension ``d``, unless it is there, and its index."""
-        known = self.points.get(d, Points(self.flag[:d]))
-        place = known.place(z[: cut.n])
-        if place is not None:
-            return self, place
+        known, errors = self.points.get(d, Points(self.flag[:d])), self.errors.get(d, np.zeros(0))
+        there = coincident(known.x, z[: cut.n], np.maximum(errors, error))
+        if there.any():
+            return self, int(there.argmax())
         points = {**self.points, d: known.with_point(cut, z)}
-        return replace(self, points=points), len(known)
+        errors = {**self.errors, d: np.append(errors, error)}
+        return replace(self, points=points, errors=errors), len(known)
 
     def with_start(
         self, start: Start, rng: np.random.Generator, tracker: Tracker
@@ -72,11 +75,17 @@ class CommonSlices:
             return self, None, PathCounts()
         fibre, rows = local
         d = fibre.dimension
-        z, counts = _on_rows(fibre, rows, self.flag[:d], rng, tracker)
+        z, error, counts = fibre.points[0], start.accuracy, PathCounts()
+        if d:
+            gamma = complex(unit_complex(rng))
+            ends = move(fibre, rows, self.flag[:d], gamma, tracker)
+            z, error, counts = ends.points[0], float(ends.accuracy[0]), ends.counts.repeatable
+            if not ends.regular.all():
+                return self, None, counts
         # A cut that leaves out an equation which only seems to hold gives itself away elsewhere.
-        if z is None or self._residual(z[: fibre.cut.n]) > ON:
+        if self._residual(z[: fibre.cut.n]) > ON:
             return self, None, counts
-        slices, place = self.with_point(fibre.cut, z, d)
+        slices, place = self.with_point(fibre.cut, z, d, error)
         return slices, (d, place), counts
 
     def _residual(self, x: np.ndarray) -> float:
@@ -92,18 +101,3 @@ class CommonSlices:
                 (fibre,) = (f for f in fibres if len(f))
                 return fibre, rows
         return None
-
-
-def _on_rows(
-    fibre: Fibre, rows: np.ndarray, target: np.ndarray, rng: np.random.Generator, tracker: Tracker
-) -> tuple[np.ndarray | None, PathCounts]:
-    """The point of a fibre of one on the common slice of its dimension."""
-    counts = PathCounts()
-    if fibre.dimension == 0:
-        return fibre.points[0], counts
-    for _ in range(ATTEMPTS):
-        there, spent = carried([fibre], rows, target, complex(unit_complex(rng)), tracker)
-        counts += spent
-        if there is not None:
-            return there[0].points[0], counts
-    return None, counts

@@ -24,19 +24,18 @@ from nag.decomposition.branch_points import BranchPointError, Sheets, branch_poi
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.rank_drop import rank_drop
-from nag.numerics.coincidence import clusters
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Tracker, carried
 from nag.witness.membership import component_fibres
+from nag.witness.points import with_fine
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import WitnessSet
 
-# Errors of the values at cusps, relative to the largest.
-ACCURACY = 1e-9
 # Corners of a circle, and its radius beside the distance of the next branch point.
 CORNERS, NEAR = 8, 0.4
 # Distance of the base point, relative to that of the branch points.
 OUTSIDE = 2.0
-ATTEMPTS = 3
+# Distance from a branch point at the end of a leg of the way there, beside that at its beginning.
+SHRINK = 1e-2
 
 
 class GenusError(ValueError):
@@ -84,21 +83,17 @@ def genus(
     """
     if component.dimension != 1:
         raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
-    reason = ""
-    for attempt, tracker in enumerate(Tracker(settings, threads).attempts(ATTEMPTS)):
-        rng = np.random.default_rng([seed, 9, attempt])
-        try:
-            sheets = _sheets(system, component, rng, tracker)
-            values = branch_points(sheets, rng, tracker)
-            if attempt:
-                # Sheets that are exchanged round a cusp have bounded derivatives there.
-                cusps = rank_drop(system, component, seed=seed, threads=threads).sets
-                values = _distinct([*values, *(complex(sheets.normal @ x[0]) for *_, x in cusps)])
-            cover = _Cover(sheets, values, rng, tracker)
-            return _riemann_hurwitz(cover.permutations(), cover.round_all(), component.degree)
-        except (GenusError, BranchPointError, IntersectionError) as error:
-            reason = str(error)
-    raise GenusError(reason)
+    rng, tracker = np.random.default_rng([seed, 9, 0]), Tracker(settings, threads)
+    try:
+        sheets = _sheets(system, component, rng, tracker)
+        values = branch_points(sheets, rng, tracker)
+        # Sheets that are exchanged round a cusp have bounded derivatives there.
+        cusps = rank_drop(system, component, seed=seed, threads=threads, settings=settings)
+        values += [complex(v) for v in cusps.isolated() @ sheets.normal]
+        cover = _Cover(sheets, values, rng, tracker)
+        return _riemann_hurwitz(cover.permutations(), cover.round_all(), component.degree)
+    except (BranchPointError, IntersectionError) as error:
+        raise GenusError(str(error)) from None
 
 
 def _sheets(
@@ -107,20 +102,12 @@ def _sheets(
     """The curve's points over a random value of a random form."""
     row = random_rows(rng, 1, system.n)
     gamma = complex(unit_complex(rng))
-    fibres = []
-    for fibre in component_fibres(system, component):
-        ends = move(fibre, component.slice.rows, row, gamma, tracker)
-        if not ends.regular.all():
-            raise GenusError("paths to the first slice failed")
-        fibres.append(Fibre(fibre.cut, fibre.dimension, ends.points))
-    return Sheets(tuple(fibres), row[0, 1:], complex(-row[0, 0]))
-
-
-def _distinct(values: Sequence[complex]) -> list[complex]:
-    size = 1 + max(map(abs, values), default=0.0)
-    points = np.array(values, dtype=complex)[:, None] / size
-    groups = clusters(points, np.full(len(points), ACCURACY))
-    return [values[int(group[0])] for group in groups]
+    fibres, _ = carried(
+        component_fibres(system, component), component.slice.rows, row, gamma, tracker
+    )
+    if fibres is None:
+        raise GenusError("paths to the first slice failed")
+    return Sheets(tuple(with_fine(fibres, row)), row[0, 1:], complex(-row[0, 0]))
 
 
 def _riemann_hurwitz(permutations: list[np.ndarray], all_: np.ndarray, sheets: int) -> Genus:
@@ -171,31 +158,24 @@ class _Cover:
         inwards = self.centre - base
         # Seen from outside, one after the other from the right to the left.
         self.values = sorted(values, key=lambda v: np.angle((v - base) / inwards))
-        fibres = []
-        for fibre in sheets.fibres:
-            gamma = complex(unit_complex(rng))
-            ends = move(fibre, sheets.rows(sheets.base), sheets.rows(base), gamma, tracker)
-            if not ends.regular.all():
-                raise GenusError("paths to the base point failed")
-            fibres.append(Fibre(fibre.cut, 1, ends.points))
-        self.sheets = Sheets(tuple(fibres), sheets.normal, base)
+        gamma, rows = complex(unit_complex(rng)), sheets.rows
+        fibres, _ = carried(sheets.fibres, rows(sheets.base), rows(base), gamma, tracker)
+        if fibres is None:
+            raise GenusError("paths to the base point failed")
+        self.sheets = Sheets(tuple(with_fine(fibres, rows(base))), sheets.normal, base)
 
     def _carried(self, corners: Sequence[complex]) -> np.ndarray:
         """Where each sheet over the base point is carried along a closed polygon from there."""
-        ends_of: list[np.ndarray] = []
-        rows, base = self.sheets.rows, self.sheets.base
-        for fibre in self.sheets.fibres:
-            points, last = fibre.points, base
-            for t in [*corners, base]:
-                there = Fibre(fibre.cut, 1, points)
-                ends = move(there, rows(last), rows(t), 1.0, self.tracker)
-                if not ends.regular.all():
-                    raise GenusError("paths round a branch point failed")
-                points, last = ends.points, t
-            ends_of.append(points[:, : fibre.cut.n])
+        rows, last = self.sheets.rows, self.sheets.base
+        fibres = list(self.sheets.fibres)
+        for t in [*corners, self.sheets.base]:
+            there, _ = carried(fibres, rows(last), rows(t), 1.0, self.tracker)
+            if there is None:
+                raise GenusError("paths round a branch point failed")
+            # Near a cusp sheets are closer to each other than to the value.
+            fibres, last = with_fine(there, rows(t)), t
         start = np.vstack([fibre.x for fibre in self.sheets.fibres])
-        end = np.vstack(ends_of)
-        images = places_among(end, start)
+        images = places_among(np.vstack([fibre.x for fibre in fibres]), start)
         if images is None or sorted(images.tolist()) != list(range(len(start))):
             raise GenusError("sheets were mixed up on the way")
         return images
@@ -205,9 +185,14 @@ class _Cover:
         result = []
         for v in self.values:
             others = [abs(v - w) for w in [*self.values, self.sheets.base] if w != v]
-            away = (self.sheets.base - v) / abs(self.sheets.base - v) * NEAR * min(others)
-            circle = [v + away * np.exp(2j * np.pi * k / CORNERS) for k in range(CORNERS)]
-            result.append(self._carried([*circle, circle[0]]))
+            radius, away = NEAR * min(others), self.sheets.base - v
+            shrink = radius / abs(away)
+            # Steps are in proportion to the leg that they are on.
+            legs = max(1, round(np.log(shrink) / np.log(SHRINK)))
+            inwards = [v + away * shrink ** (k / legs) for k in range(1, legs)]
+            turns = np.exp(2j * np.pi * np.arange(CORNERS + 1) / CORNERS)
+            circle = [complex(v + away * shrink * turn) for turn in turns]
+            result.append(self._carried([*inwards, *circle, *inwards[::-1]]))
         return result
 
     def round_all(self) -> np.ndarray:

@@ -18,13 +18,13 @@ import numpy as np
 
 from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
+from nag.decomposition.excluded import ROUNDED, forbidden
 from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import ROUNDED, forbidden
 from nag.numerics.coincidence import clusters, coincident, compared
 from nag.numerics.zero_values import possible_zeros
-from nag.witness.cutting import NEAR, Cut, regular_on, sharpen
+from nag.witness.cutting import Cut, is_end, regular_on, sharpen
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.moving import orthonormal_rows
@@ -160,8 +160,8 @@ def _regular(cut: Cut, rows: np.ndarray, ends: Moved, chosen: np.ndarray) -> tup
     points, lost = [ends.points[chosen & ends.regular]], 0
     for i in np.flatnonzero(chosen & ~ends.regular):
         z = ends.points[i]
-        sharpened, scale = sharpen(cut.evaluator, rows, z), 1 + np.linalg.norm(z)
-        near = np.linalg.norm(sharpened.z - z) < max(1e3 * ends.accuracy[i], NEAR) * scale
+        sharpened = sharpen(cut.evaluator, rows, z)
+        near = is_end(z, ends.accuracy[i], sharpened.z)
         alone = not coincident(np.vstack(points), sharpened.z, sharpened.step).any()
         if sharpened.converged and near and alone and regular_on(cut.evaluator, rows, sharpened):
             points.append(sharpened.z[None])
@@ -213,7 +213,7 @@ class _Diagonal:
 
     def take_those_on_it(self, fibres: Sequence[Fibre]) -> None:
         """Add the pairs of isolated points that are equal."""
-        accuracy = max(self.product.first.accuracy, self.product.second.accuracy)
+        accuracy = max(f.component.accuracy for f in (self.product.first, self.product.second))
         z = np.vstack([fibre.x for fibre in fibres])
         near, _ = compared(self.product.gaps(z), accuracy)
         self.take(z[near], np.full(int(near.sum()), accuracy), 0)

@@ -18,9 +18,10 @@ from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Assembly, Known, assembled
 from nag.decomposition.common_slices import CommonSlices, Start
+from nag.decomposition.excluded import forbidden
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import forbidden
 from nag.decomposition.symmetric_images import in_orbits
+from nag.numerics.small_values import LEAST
 from nag.witness.cutting import NEARLY_SINGULAR, Cut
 from nag.witness.fibres import Progress, Tracker
 from nag.witness.gauss_newton import CLOSE, descend, polish
@@ -28,6 +29,8 @@ from nag.witness.slices import complex_normal
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 STARTS = 100
+# Relative error of a solution of linear equations.
+ROUNDED = 1e-15
 # Residuals to which points of non-reduced components are brought before they are deflated.
 DEEP = 1e-14
 # Points that no deflation made regular, after which no more are tried: each costs seconds.
@@ -125,12 +128,12 @@ class _Search:
             d = equations.n
             cut = self.slices.points[d].cuts[0] if d in self.slices.points else Cut(d, 0, ())
             point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
-            self.slices, place = self.slices.with_point(cut, point, d)
+            self.slices, place = self.slices.with_point(cut, point, d, ROUNDED)
             return d, place
         zero = polish(equations.evaluator, x)
         if not zero.converged:
             return None
-        return self._brought(Start(zero.x, 1e-12, [zero.corank], False))
+        return self._brought(Start(zero.x, LEAST, [zero.corank], False))
 
     def _multiple(self, x: np.ndarray) -> tuple[int, int] | None:
         """The same from a point near a component that is not reduced."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,8 +14,6 @@ from nag.witness.fibres import Fibre, Tracker, carried, cut_fibres
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts, WitnessSet
-
-ATTEMPTS = 4
 
 
 class IntersectionError(ValueError):
@@ -46,11 +44,6 @@ class Factor:
         cut = self.component.slice
         return orthonormal_rows(self.reduction.frame.pulled_back(cut.A, cut.b))
 
-    @property
-    def accuracy(self) -> float:
-        """Relative error of the points, not below what paths leave."""
-        return max(self.component.accuracy, 1e-12)
-
     def fibres(self, rng: np.random.Generator) -> list[Fibre]:
         """The witness points with cuts, deflated ones if the component is not reduced.
 
@@ -63,7 +56,7 @@ class Factor:
         deflate = self.component.multiplicity != 1
         points = self.component.points[:, self.reduction.kept]
         equations = self.reduction.equations
-        fibres = cut_fibres(points, self.accuracy, equations, self.rows, rng, deflate)
+        fibres = cut_fibres(points, self.component.accuracy, equations, self.rows, rng, deflate)
         if fibres is None:
             raise IntersectionError("the witness points are no regular zeros of the system")
         return fibres
@@ -76,7 +69,9 @@ class Factor:
         images += [Polynomial.variable(self.n + aux, i) for i in unknowns]
         rows = [f.compose(images) for f in fibre.cut.polynomials]
         points = np.hstack([fibre.x[:, self.reduction.kept], fibre.points[:, fibre.cut.n :]])
-        return Fibre(Cut(self.n, aux, tuple(f for f in rows if f)), fibre.dimension, points)
+        kept = [*self.reduction.kept, *range(fibre.cut.n, fibre.cut.n + aux)]
+        fine = {i: replace(each, words=each.words[kept]) for i, each in fibre.fine.items()}
+        return Fibre(Cut(self.n, aux, tuple(f for f in rows if f)), fibre.dimension, points, fine)
 
 
 def on_flag(
@@ -89,15 +84,12 @@ def on_flag(
     """Fibres on the slice ``rows`` carried to the leading rows of a generic flag.
 
     Raises:
-        IntersectionError: if paths fail again and again.
+        IntersectionError: if a path fails.
     """
-    counts = PathCounts()
     if len(rows) == 0:
-        return fibres, counts
-    for _attempt in range(ATTEMPTS):
-        gamma = complex(unit_complex(rng))
-        there, spent = carried(fibres, rows, flag[: len(rows)], gamma, tracker)
-        counts += spent
-        if there is not None:
-            return there, counts
-    raise IntersectionError("the witness points could not be moved to a generic slice")
+        return fibres, PathCounts()
+    gamma = complex(unit_complex(rng))
+    there, counts = carried(fibres, rows, flag[: len(rows)], gamma, tracker)
+    if there is None:
+        raise IntersectionError("the witness points could not be moved to a generic slice")
+    return there, counts

@@ -9,8 +9,9 @@ import numpy as np
 
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
+from nag.numerics.small_values import ON, SINGULAR
 from nag.witness.confirm import confirmed
-from nag.witness.cutting import ON, Equations, numerical_corank
+from nag.witness.cutting import Equations, numerical_corank
 from nag.witness.error_radii import Sharp, framed, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.frame import Frame
@@ -73,7 +74,7 @@ def _coranks(
             result.append(d)
             continue
         s = np.linalg.svd(equations.evaluator.balanced_jacobian(point), compute_uv=False)
-        corank = numerical_corank(s, len(point), 1e-9)
+        corank = numerical_corank(s, len(point), SINGULAR)
         if regular and corank != d and multiplicity(equations.polynomials, rows, point, rng) == 1:
             corank = d
         result.append(corank)

@@ -18,6 +18,7 @@ from nag.decomposition.common_slices import CommonSlices, Start
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.sign_orbits import keeps, sign_orbit
 from nag.decomposition.symmetric_images import in_orbits
+from nag.numerics.small_values import LEAST
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import polish
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
@@ -92,7 +93,7 @@ def _on_common_slices(
     for d, start in starts:
         x = np.asarray(start, dtype=complex)[reduction.kept]
         zero = polish(reduction.equations.evaluator, x)
-        near, accuracy = (zero.x, 1e-12) if zero.converged else (x, ROUGH)
+        near, accuracy = (zero.x, LEAST) if zero.converged else (x, ROUGH)
         simple = zero.converged and zero.corank == d
         slices, place, spent = slices.with_start(
             Start(near, accuracy, [d], not simple), rng, tracker

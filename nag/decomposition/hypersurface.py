@@ -35,7 +35,6 @@ from nag.witness.slices import padded, random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
 # Slices to which points may have to be moved to get to another flag.
-ATTEMPTS = 8
 # Offsets of the flags tried later, as part of those of the first: slices nearer to the origin.
 NEARER = 0.3
 
@@ -167,20 +166,17 @@ def _elsewhere(
 ) -> tuple[Sections | None, PathCounts]:
     """The same sets on another flag; None if points could not be moved."""
     counts = PathCounts()
-    for _ in range(ATTEMPTS):
-        n = sections.flag.shape[1] - 1
-        flag = random_rows(rng, n, n, NEARER)
-        gamma = complex(unit_complex(rng))
-        fibres: dict[int, list[Fibre]] = {}
-        for d in sorted(sections.fibres, reverse=True):
-            there, spent = carried(sections.fibres[d], sections.flag[:d], flag[:d], gamma, tracker)
-            counts += spent
-            if there is None:
-                break
-            fibres[d] = there
-        else:
-            return Sections(fibres, flag), counts
-    return None, counts
+    n = sections.flag.shape[1] - 1
+    flag = random_rows(rng, n, n, NEARER)
+    gamma = complex(unit_complex(rng))
+    fibres: dict[int, list[Fibre]] = {}
+    for d in sorted(sections.fibres, reverse=True):
+        there, spent = carried(sections.fibres[d], sections.flag[:d], flag[:d], gamma, tracker)
+        counts += spent
+        if there is None:
+            return None, counts
+        fibres[d] = there
+    return Sections(fibres, flag), counts
 
 
 def crossing(

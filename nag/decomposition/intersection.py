@@ -23,7 +23,8 @@ from nag.decomposition.superset import (
     intersection_order,
     witness_superset,
 )
-from nag.witness.cutting import NEARLY_SINGULAR, ON, Equations, numerical_corank
+from nag.numerics.small_values import LEAST, ON
+from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
 from nag.witness.fibres import Fibre, Progress, Tracker, admit
 from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
@@ -254,9 +255,9 @@ def _with_cuts(
     fibres: list[Fibre] = []
     lost = 0
     for x in points:
-        if admit(x, 1e-12, fibres, equations, rows, rng, deflate=False):
+        if admit(x, LEAST, fibres, equations, rows, rng, deflate=False):
             continue
-        lost += not admit(x, 1e-12, fibres, equations, rows, rng, deflate=True)
+        lost += not admit(x, LEAST, fibres, equations, rows, rng, deflate=True)
     return fibres, lost
 
 

@@ -21,6 +21,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import most_zeros
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.coincidence import coincident
+from nag.numerics.small_values import NONZERO, SINGULAR
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError
@@ -28,10 +29,6 @@ from nag.witness.cutting import dyadic, numerical_corank
 from nag.witness.fibres import Tracker
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet, even_radii
 
-# Singular values of a Jacobian, relative to its size, that count as zero at a multiple point.
-ZERO = 1e-9
-# Values of an equation, beside their terms, that are certainly not zero.
-NONZERO = 1e-6
 # A set whose points would take more paths is not asked first whether it is finite.
 MOST_PATHS = 20_000
 
@@ -155,7 +152,7 @@ def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSyste
     n, corank = system.n, 0
     if solution.multiplicity > 1:
         s = np.linalg.svd(evaluator.balanced_jacobian(solution.point), compute_uv=False)
-        corank = max(numerical_corank(s, n, ZERO), 1)
+        corank = max(numerical_corank(s, n, SINGULAR), 1)
     return WitnessSet(
         slice=Slice(np.zeros((0, n)), np.zeros(0)),
         points=solution.point[None],

@@ -17,6 +17,8 @@ from nag.witness.witness import PathCounts
 
 # Relative errors that ends of loops may have, whatever the tracker thinks of them.
 ROUGH = 1e-8
+# Distance of an end from its point beside that from the next one.
+NEARER = 1e-3
 # Above so many distances a tree is searched.
 MOST_DISTANCES = 100_000
 NOTHING: Mapping[int, Fine] = MappingProxyType({})
@@ -64,7 +66,7 @@ def places_among(
         closest[i], next_one[i] = np.sort(np.append(apart, np.inf))[:2]
     scale = 1 + np.linalg.norm(points[nearest], axis=1)
     near, doubtful = compared(closest / scale, ROUGH)
-    hit = near & (closest < 1e-3 * next_one)
+    hit = near & (closest < NEARER * next_one)
     if (doubtful | (near & ~hit)).any():
         return None
     return np.where(hit, nearest, -1)

@@ -22,8 +22,6 @@ from nag.witness.points import Points, moved_points
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts
 
-ATTEMPTS = 3
-
 
 @dataclass(frozen=True, eq=False)
 class Action:
@@ -145,20 +143,16 @@ def _permutation(
     """
     counts, everything = PathCounts(), range(len(points))
     target = action.pulled_back(points.rows)
-    for attempt in range(ATTEMPTS):
-        there = points
-        if points.dimension:
-            gamma = complex(unit_complex(rng))
-            there, _, spent = moved_points(points, everything, target, gamma, tracker)
-            counts += spent
-        if len(there) < len(points):
-            continue
-        images = places_among(action(there.x), points.x)
-        if images is not None and (images < 0).any() and attempt + 1 < ATTEMPTS:
-            continue
-        if images is not None and len(np.unique(images[images >= 0])) == (images >= 0).sum():
-            return images, counts
-    return None, counts
+    there = points
+    if points.dimension:
+        gamma = complex(unit_complex(rng))
+        there, _, counts = moved_points(points, everything, target, gamma, tracker)
+    if len(there) < len(points):
+        return None, counts
+    images = places_among(action(there.x), points.x)
+    if images is None or len(np.unique(images[images >= 0])) < (images >= 0).sum():
+        return None, counts
+    return images, counts
 
 
 def _orbits_of_classes(

@@ -28,6 +28,7 @@ from nag.algebra.smoothness import is_regular_everywhere
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.intersection import intersect_equations
 from nag.decomposition.reduction import Reduction
+from nag.numerics.coincidence import clusters
 from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.projection import ProjectionError, project
@@ -38,20 +39,47 @@ BITS = 24
 
 
 @dataclass(frozen=True, eq=False)
+class SetOfPoints:
+    """A set by its points on a generic slice.
+
+    Attributes:
+        dimension, degree: of the set.
+        points: complex, shape ``(P, n)``.
+        error: the largest relative error of a point.
+    """
+
+    dimension: int
+    degree: int
+    points: np.ndarray
+    error: float
+
+
+@dataclass(frozen=True, eq=False)
 class RankDrop:
     """Sets of points of a component where the rank of the Jacobian may drop.
 
     Attributes:
-        sets: dimension, degree and points on a generic slice, complex, shape ``(P, n)``.
+        sets: as they were found; an isolated point may be found more than once.
         paths: what the tracker did.
         notes: what was left open.
+        n: number of variables.
         proved: whether exact algebra proves that it drops nowhere.
     """
 
-    sets: tuple[tuple[int, int, np.ndarray], ...]
+    sets: tuple[SetOfPoints, ...]
     paths: PathCounts
     notes: tuple[str, ...]
+    n: int
     proved: bool = False
+
+    def isolated(self) -> np.ndarray:
+        """The isolated points, each once, shape ``(P, n)``."""
+        sets = [one for one in self.sets if one.dimension == 0]
+        if not sets:
+            return np.zeros((0, self.n), dtype=complex)
+        points = np.vstack([one.points for one in sets])
+        errors = np.concatenate([np.full(len(one.points), one.error) for one in sets])
+        return points[[group[0] for group in clusters(points, errors)]]
 
 
 def rank_drop(
@@ -74,19 +102,20 @@ def rank_drop(
     reduction = Reduction.of(component_system(system, component))
     own, frame, n = reduction.reduced, reduction.frame, reduction.n
     if component.dimension in (0, n):
-        return RankDrop((), PathCounts(), ())
+        return RankDrop((), PathCounts(), (), system.n)
     if is_regular_everywhere(own.polynomials, n - component.dimension):
-        return RankDrop((), PathCounts(), (), proved=True)
+        return RankDrop((), PathCounts(), (), system.n, proved=True)
     component = _restricted(component, reduction)
     product, start, conditions = _null_space_system(own, component, np.random.default_rng(seed))
     found = intersect_equations(
         product, start, conditions, seed=seed, threads=threads, settings=settings
     )
-    sets: list[tuple[int, int, np.ndarray]] = []
+    sets: list[SetOfPoints] = []
     notes = list(found.notes)
     for one in found.components:
         if one.dimension == 0:
-            sets.append((0, one.degree, frame.points(one.points[:, :n])))
+            y = one.points[:, :n]
+            sets.append(SetOfPoints(0, one.degree, frame.points(y), frame.error(y, one.accuracy)))
             continue
         try:
             image = project(
@@ -95,8 +124,10 @@ def rank_drop(
         except (ProjectionError, ValueError) as reason:
             notes.append(f"a set of points of dimension {one.dimension} at most: {reason}")
             continue
-        sets.append((image.dimension, image.degree, frame.points(image.points[:, :n])))
-    return RankDrop(tuple(sets), found.paths, tuple(notes))
+        y = image.points[:, :n]
+        error = frame.error(y, image.accuracy)
+        sets.append(SetOfPoints(image.dimension, image.degree, frame.points(y), error))
+    return RankDrop(tuple(sets), found.paths, tuple(notes), system.n)
 
 
 def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:

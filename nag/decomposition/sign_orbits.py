@@ -16,8 +16,6 @@ from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts
 
-ATTEMPTS = 4
-
 Signs = tuple[int, ...]
 
 
@@ -70,20 +68,15 @@ def _moved(
     rng: np.random.Generator,
     tracker: Tracker,
 ) -> tuple[np.ndarray | None, float, PathCounts]:
-    """Images of points, from the slice that they lie on to the common one, and their error."""
-    counts = PathCounts()
+    """Images of points, from the slice that they lie on to the common one, and their error.
+
+    None if a path fails.
+    """
     if fibre.dimension == 0:
-        return images, 0.0, counts
+        return images, 0.0, PathCounts()
+    moved = Fibre(fibre.cut, fibre.dimension, images)
     there = rows * np.concatenate([[1.0], factor])
-    for _ in range(ATTEMPTS):
-        ends = move(
-            Fibre(fibre.cut, fibre.dimension, images),
-            there,
-            rows,
-            complex(unit_complex(rng)),
-            tracker,
-        )
-        counts += ends.counts.repeatable
-        if ends.regular.all():
-            return ends.points, float(ends.accuracy.max(initial=0.0)), counts
-    return None, 0.0, counts
+    ends = move(moved, there, rows, complex(unit_complex(rng)), tracker)
+    if not ends.regular.all():
+        return None, 0.0, ends.counts.repeatable
+    return ends.points, float(ends.accuracy.max(initial=0.0)), ends.counts.repeatable

@@ -10,8 +10,9 @@ point exactly if its multiplicity is 1.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
+from math import comb
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,8 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.intersection import intersect_components
-from nag.decomposition.rank_drop import rank_drop
+from nag.decomposition.linear_hull import within_hull
+from nag.decomposition.rank_drop import SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
@@ -31,8 +33,10 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
-# Relative errors of isolated points that were found as ends of paths.
-ACCURACY = 1e-8
+# Relative error of points that are known to the last digit of doubles.
+ROUNDED = 1e-15
+# What is further from a linear space than a point's error by this factor is not on it.
+SURELY = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,17 +102,20 @@ class SingularLocus:
 class _Candidate:
     """Points where something may be singular, and the component or pair that it was found from."""
 
-    dimension: int
-    degree: int
-    points: np.ndarray
+    found: SetOfPoints
     source: tuple[int, ...]
 
 
 @dataclass(eq=False)
 class _Search:
-    """Candidates, and what was left open on the way to them."""
+    """Candidates, and what was left open on the way to them.
+
+    Attributes:
+        own: each component with the equations that say most of it.
+    """
 
     whole: Decomposition
+    own: Sequence[tuple[PolynomialSystem, WitnessSet]]
     options: dict[str, Any]
     candidates: list[_Candidate] = field(default_factory=list)
     examined: list[int] = field(default_factory=list)
@@ -118,12 +125,12 @@ class _Search:
 
     def on_component(self, i: int) -> None:
         """Points of a component where the rank of its own equations drops."""
-        component, name = self.whole.components[i], f"component {i + 1}"
-        if component.multiplicity != 1 and self._own(i) is self.whole.system:
+        (system, component), name = self.own[i], f"component {i + 1}"
+        if component.multiplicity != 1 and system is self.whole.system:
             self.notes.append(f"{name} is not reduced; its own singular points are not known")
             return
         try:
-            found = rank_drop(self.whole.system, component, **self.options)
+            found = rank_drop(system, component, **self.options)
         except (IntersectionError, ValueError) as reason:
             self.notes.append(f"{name}: {reason}")
             return
@@ -133,36 +140,34 @@ class _Search:
             self.examined.append(i)
         if found.proved:
             self.proved.append(i)
-        self.candidates += [_Candidate(*one, (i,)) for one in found.sets]
+        self.candidates += [_Candidate(one, (i,)) for one in found.sets]
 
     def of_pair(self, i: int, j: int) -> None:
         """The intersection of two components that no common equations show."""
-        first, second = self.whole.components[i], self.whole.components[j]
+        (system, first), (_, second) = self.own[i], self.own[j]
         try:
-            found = intersect_components(self.whole.system, first, second, **self.options)
+            found = intersect_components(system, first, second, **self.options)
         except (IntersectionError, ValueError) as reason:
             self.notes.append(f"components {i + 1} and {j + 1}: {reason}")
             return
         self.counts += found.paths
         self.notes += [f"components {i + 1} and {j + 1}: {note}" for note in found.notes]
         self.candidates += [
-            _Candidate(c.dimension, c.degree, c.points, (i, j)) for c in found.components
+            _Candidate(SetOfPoints(c.dimension, c.degree, c.points, c.accuracy), (i, j))
+            for c in found.components
         ]
 
     def unseen(self, i: int, j: int) -> bool:
         """Whether a pair's intersection may hold points where neither rank drops."""
-        first, second = self.whole.components[i], self.whole.components[j]
+        (system, first), (other, second) = self.own[i], self.own[j]
         if first.dimension == 0 or second.dimension == 0:
             return False
         return not (
             i in self.examined
             and j in self.examined
             and first.dimension == second.dimension
-            and self._own(i) == self._own(j)
+            and system == other
         )
-
-    def _own(self, i: int) -> PolynomialSystem:
-        return component_system(self.whole.system, self.whole.components[i])
 
 
 def singular_locus(
@@ -181,7 +186,8 @@ def singular_locus(
     """
     whole = expanded(decomposition)
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
-    search = _Search(whole, {"seed": seed, "threads": threads, "settings": settings})
+    own = _own_equations(whole, np.random.default_rng([seed, 8]), Tracker(settings, threads))
+    search = _Search(whole, own, {"seed": seed, "threads": threads, "settings": settings})
     for i in chosen:
         search.on_component(i)
     pairs = [
@@ -200,21 +206,38 @@ def singular_locus(
     return SingularLocus(sets, examined, search.counts, not notes, notes, proved)
 
 
+def _own_equations(
+    whole: Decomposition, rng: np.random.Generator, tracker: Tracker
+) -> list[tuple[PolynomialSystem, WitnessSet]]:
+    """The components, each with its branch of the system, or in its linear hull.
+
+    What only cuts one component does not show where it meets others: that asks for all pairs.
+    """
+    systems = [component_system(whole.system, c) for c in whole.components]
+    found = [
+        (system, replace(c, system=system))
+        for system, c in zip(systems, whole.components, strict=True)
+    ]
+    if comb(len(found), 2) > MOST_PAIRS:
+        return found
+    return [within_hull(system, c, rng, tracker) for system, c in found]
+
+
 def _judged_sets(
     search: _Search, rng: np.random.Generator, tracker: Tracker
 ) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
-    known = np.zeros((0, search.whole.system.n), dtype=complex)
+    known, errors = np.zeros((0, search.whole.system.n), dtype=complex), np.zeros(0)
     others: dict[tuple[object, ...], dict[tuple[int, ...], list[SingularSet]]] = {}
     for candidate in search.candidates:
-        x = candidate.points[0]
-        if candidate.dimension == 0 and coincident(known, x, ACCURACY).any():
+        found, x = candidate.found, candidate.found.points[0]
+        if found.dimension == 0 and coincident(known, x, np.maximum(errors, found.error)).any():
             continue
-        judged = _judged(search, candidate, rng, tracker)
+        judged = _judged(search, found, rng, tracker)
         if judged is None:
             continue
-        if candidate.dimension == 0:
-            known = np.vstack([known, x])
+        if found.dimension == 0:
+            known, errors = np.vstack([known, x]), np.append(errors, found.error)
             points.append(judged)
             continue
         key = (judged.dimension, judged.degree, tuple(judged.multiplicities.items()))
@@ -226,19 +249,21 @@ def _judged_sets(
 
 
 def _judged(
-    search: _Search, candidate: _Candidate, rng: np.random.Generator, tracker: Tracker
+    search: _Search, found: SetOfPoints, rng: np.random.Generator, tracker: Tracker
 ) -> SingularSet | None:
     """What a candidate is; None if the components are smooth there and do not meet."""
-    whole, x = search.whole, candidate.points[0]
-    local = local_dimension(whole.system, x, accuracy=ACCURACY)
-    if candidate.dimension == 0 and local.tangent_dimension is not None:
+    whole, x, error = search.whole, found.points[0], max(found.error, ROUNDED)
+    local = local_dimension(whole.system, x, accuracy=error)
+    if found.dimension == 0 and local.tangent_dimension is not None:
         if local.tangent_dimension == local.dimension:
             return None
-        if coincident(x[None], local.point, ACCURACY).any():
-            x = local.point
+        if coincident(x[None], local.point, error).any():
+            x, error = local.point, ROUNDED
     multiplicities = {}
     for i, component in enumerate(whole.components):
-        m = _multiplicity(whole.system, component, x, rng, tracker)
+        if _outside_hull(search.own[i][0], x, error):
+            continue
+        m = _multiplicity(whole.system, component, x, error, rng, tracker)
         if m is None:
             search.notes.append(f"the multiplicity of component {i + 1} at a point is not known")
         elif m:
@@ -246,16 +271,28 @@ def _judged(
     if len(multiplicities) < 2 and max(multiplicities.values(), default=1) == 1:
         return None
     cone = None
-    points = candidate.points
-    if candidate.dimension == 0:
-        cone, points = tangent_cone(whole.system, x, accuracy=ACCURACY), x[None]
-    return SingularSet(candidate.dimension, candidate.degree, points, multiplicities, local, cone)
+    points = found.points
+    if found.dimension == 0:
+        cone, points = tangent_cone(whole.system, x, accuracy=error), x[None]
+    return SingularSet(found.dimension, found.degree, points, multiplicities, local, cone)
+
+
+def _outside_hull(system: PolynomialSystem, x: np.ndarray, accuracy: float) -> bool:
+    """Whether a point is further from the zeros of a linear equation than it may be off."""
+    error = SURELY * accuracy * (1 + float(np.linalg.norm(x)))
+    for f in system.polynomials:
+        if f.degree == 1:
+            slopes = sum(abs(complex(c)) for e, c in f.terms.items() if any(e))
+            if abs(f(x.tolist(), complex)) > error * slopes:
+                return True
+    return False
 
 
 def _multiplicity(
     system: PolynomialSystem,
     component: WitnessSet,
     x: np.ndarray,
+    error: float,
     rng: np.random.Generator,
     tracker: Tracker,
 ) -> int | None:
@@ -263,4 +300,4 @@ def _multiplicity(
         fibres = component_fibres(system, component)
     except ValueError:
         return None
-    return multiplicity_at(x, 1e-12, fibres, component.slice.rows, rng, tracker)
+    return multiplicity_at(x, error, fibres, component.slice.rows, rng, tracker)

@@ -18,16 +18,15 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.rank_drop import new_names, product
-from nag.witness.cutting import ON
+from nag.numerics.small_values import NONZERO, ON, SINGULAR
 from nag.witness.expansion import expanded
 from nag.witness.sampling import SamplingError, sample
 from nag.witness.witness import PathCounts
 
 # Equations of higher degree are not looked for.
 HIGHEST = 3
-# Singular values below this, relative to the largest, are zeros; those above that are not.
-ZERO, NOT_ZERO = 1e-9, 1e-6
-LARGEST_COEFFICIENT = 10**4
+# Largest numerator and denominator of a coefficient, and how far it may be from its fraction.
+LARGEST_COEFFICIENT, ROUNDING = 10**4, 1e-8
 
 
 @dataclass(frozen=True)
@@ -149,13 +148,13 @@ def _equations(points: np.ndarray) -> tuple[Polynomial, ...] | None:
         table = np.array([[np.prod(x ** np.array(e)) for e in monomials] for x in points])
         table = table / np.linalg.norm(table, axis=1, keepdims=True)
         _, s, vh = np.linalg.svd(np.vstack([table.real, table.imag]))
-        small = s < ZERO * s[0]
-        if (~small & (s < NOT_ZERO * s[0])).any():
+        small = s < SINGULAR * s[0]
+        if (~small & (s < NONZERO * s[0])).any():
             return None
         if small.any():
             return _rational(vh[len(s) - int(small.sum()) :], monomials)
     # Nothing of such a degree: all parameters, if there are directions enough.
-    spread = np.linalg.matrix_rank(points - points[0], tol=1e-9)
+    spread = np.linalg.matrix_rank(points - points[0], tol=SINGULAR)
     return () if spread == count else None
 
 
@@ -166,7 +165,7 @@ def _rational(
     rows, equations = np.array(basis), []
     pivots: list[int] = []
     for i in range(len(rows)):
-        column = int(np.argmax(np.abs(rows[i:]).max(axis=0) > NOT_ZERO))
+        column = int(np.argmax(np.abs(rows[i:]).max(axis=0) > NONZERO))
         best = i + int(np.abs(rows[i:, column]).argmax())
         rows[[i, best]] = rows[[best, i]]
         rows[i] /= rows[i, column]
@@ -176,7 +175,7 @@ def _rational(
                 rows[k] -= rows[k, column] * rows[i]
     for row in rows:
         numbers = [Fraction(float(c)).limit_denominator(LARGEST_COEFFICIENT) for c in row]
-        if np.abs(row - np.array([float(q) for q in numbers])).max() > NOT_ZERO**1.3:
+        if np.abs(row - np.array([float(q) for q in numbers])).max() > ROUNDING:
             return None
         scale = lcm(*(q.denominator for q in numbers))
         divisor = gcd(*(int(q * scale) for q in numbers))

@@ -25,8 +25,6 @@ from nag.witness.witness import PathCounts
 # worst of the measured systems needed 23.
 IDLE_LOOPS = 4
 MOST_LOOPS = 100
-# Motions of the slice of which one must bring all points to regular ends.
-ATTEMPTS = 4
 
 NOT_LINEAR = "its trace is not linear: points are missing, or loops did not join them"
 NO_TRACE = "the trace could not be computed"
@@ -157,7 +155,7 @@ def _tested(
     rng: np.random.Generator,
     tracker: Tracker,
 ) -> bool:
-    """Test the traces of open classes, one of each orbit; False if paths keep failing."""
+    """Test the traces of open classes, one of each orbit; False if a path fails."""
     chosen, seen = [], set[int]()
     for label in np.unique(state.labels[open_points]).tolist():
         touched = set(state.orbits[state.labels == label].tolist())
@@ -166,16 +164,10 @@ def _tested(
             seen |= touched
     new = [k for k in chosen if (k, len(state.indices(k))) not in state.verdicts]
     wanted = np.concatenate([state.indices(k) for k in new]) if new else np.zeros(0, dtype=int)
-    for _ in range(ATTEMPTS):
-        if state.trace is None:
-            state.trace = Trace.of(state.points, evidence, rng)
-            known = [state.indices(k) for k, _ in state.verdicts]
-            wanted = np.concatenate([wanted, *known])
-        state.trace, spent = state.trace.carried(state.points, wanted, tracker)
-        state.counts += spent
-        if state.trace is not None:
-            break
-    else:
+    trace = state.trace or Trace.of(state.points, evidence, rng)
+    state.trace, spent = trace.carried(state.points, wanted, tracker)
+    state.counts += spent
+    if state.trace is None:
         return False
     for label in new:
         own = state.indices(label)

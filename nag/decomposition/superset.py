@@ -6,31 +6,28 @@ carries the equations that cut it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
+from nag.decomposition.excluded import excluded
 from nag.decomposition.hypersurface import Crossing, Sections, crossing
-from nag.numerics.coincidence import clusters, coincident
-from nag.numerics.zero_values import possible_zeros
-from nag.witness.confirm import vanishing
-from nag.witness.cutting import ON, Cut, Equations, dyadic, leading_power
+from nag.numerics.coincidence import SAFETY, clusters, coincident
+from nag.numerics.small_values import ON
+from nag.witness.close_to_sets import among, meant, regular_fibre
+from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
-from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
 # Other flags on which a doubtful intersection is tried again.
 ELSEWHERE = 1
-# Doubles are no more accurate than this, relative to the point.
-ROUNDED = 1e-15
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,66 +60,7 @@ def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
     return order
 
 
-def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
-    """Which points seem to lie where a polynomial that must not vanish does."""
-    residuals = nonzero.residuals(x)
-    limit = np.maximum(1e-8, 1e2 * accuracy)
-    return (residuals < limit[:, None]).any(axis=1)
-
-
-def _excluded(
-    nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, ends: Moved
-) -> tuple[np.ndarray, int]:
-    """Which ends lie where a polynomial that must not vanish does, decided in digits.
-
-    Also of how many of these that is not known; they are left out.
-    """
-    result, unclear = ends.finite.copy(), 0
-    if not nonzero or not result.any():
-        return np.zeros(len(result), dtype=bool), unclear
-    evaluator = Evaluator.of(nonzero, cut.n)
-    result[result] = forbidden(evaluator, ends.points[result, : cut.n], ends.accuracy[result])
-    regular = np.flatnonzero(result & ends.regular)
-    each = [vanishing(cut, g, rows, ends.points[regular]) for g in nonzero]
-    for i, *answers in zip(regular, *each, strict=True):
-        result[i] = True in answers or None in answers
-        unclear += True not in answers and None in answers
-    singular = np.flatnonzero(result & ~ends.regular)
-    # The least accurate first: what it may stand for, others of its place may as well.
-    doubtful: dict[int, bool] = {}
-    for i in singular[np.argsort(-ends.accuracy[singular], kind="stable")].tolist():
-        twin = None if len(rows) else _conjugate(ends, i, doubtful)
-        known = doubtful.get(twin) if twin is not None else None
-        if known is None:
-            known = _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
-        doubtful[i] = known
-    return result, unclear + sum(doubtful.values())
-
-
-def _conjugate(ends: Moved, i: int, others: Iterable[int]) -> int | None:
-    """The end among ``others`` whose conjugate an end is, as far as both are known.
-
-    Equations are real, and what is true of a zero of theirs alone is of its conjugate as well.
-    """
-    z = ends.points[i].conj()
-    for j in others:
-        error = max(ends.accuracy[j], ROUNDED) * (1 + np.linalg.norm(z))
-        if np.linalg.norm(ends.points[j] - z) <= error:
-            return j
-    return None
-
-
-def _beside(
-    nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, z: np.ndarray, accuracy: float
-) -> bool:
-    """Whether an isolated zero that ``z`` may be lies beside what is excluded, and not on it.
-
-    Ill-conditioned zeros pass for singular ones, and may be so close to it that doubles can neither
-    tell them from it nor hold a cut that makes them regular.
-    """
-    slices, rng = padded(rows, 1 + len(z)), np.random.default_rng(0)
-    zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices)
-    return not all(any(vanish_at([g], zero.digits) for g in nonzero) for zero in zeros)
+_Cluster = list[tuple[np.ndarray, float]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +72,7 @@ class _Candidates:
     """
 
     fibres: list[Fibre]
-    singular: list[list[tuple[np.ndarray, float]]]
+    singular: list[_Cluster]
     unclear: int
 
 
@@ -150,8 +88,8 @@ def _collect(
     singular, errors = [np.zeros((0, n), dtype=complex)], [np.zeros(0)]
     for cut, ends in pieces:
         x = ends.points[:, :n]
-        excluded, doubtful = _excluded(nonzero, cut, rows, ends)
-        allowed, unclear = ends.finite & ~excluded, unclear + doubtful
+        left_out, doubtful = excluded(nonzero, cut, rows, ends)
+        allowed, unclear = ends.finite & ~left_out, unclear + doubtful
         # The tracker has seen that ends of one piece are distinct.
         chosen = [
             i
@@ -253,7 +191,7 @@ class _Stage:
 
         A component that is multiple for the first equations may be a simple one for all.
         """
-        limit = max(ON, 1e2 * accuracy)
+        limit = max(ON, SAFETY * accuracy)
         later = Equations(self.after, self.n).evaluator.residuals(x[None])[0] < limit
         more = [g for g, vanishes in zip(self.after, later, strict=True) if vanishes]
         return Equations((*so_far.polynomials, *more), self.n) if more else so_far
@@ -283,6 +221,74 @@ class _Stage:
             mask[i] = answer is Membership.FOREIGN
         return fibre.only(mask), notes, counts
 
+    def larger(
+        self,
+        x: np.ndarray,
+        accuracy: float,
+        d: int,
+        kept: Mapping[int, Sequence[Fibre]],
+        flag: np.ndarray,
+    ) -> tuple[Membership, PathCounts]:
+        """Whether a point lies on a set of dimension above ``d``, as far as doubles can tell."""
+        answer, counts = Membership.FOREIGN, PathCounts()
+        for higher in sorted((e for e in kept if e > d), reverse=True):
+            answer, used = is_member(x, accuracy, kept[higher], flag, self.rng, self.tracker)
+            counts += used
+            if answer is not Membership.FOREIGN:
+                break
+        return answer, counts
+
+    def beside(
+        self, cluster: _Cluster, so_far: Equations, own: list[Fibre], rows: np.ndarray
+    ) -> list[str]:
+        """Add the isolated zeros among ends that seem to lie on a larger set."""
+        notes, found = [], meant(cluster, so_far, rows, self.rng)
+        for zero in found.zeros:
+            known = among(zero, own, rows)
+            if known or any(vanish_at([g], zero.digits) for g in self.avoid):
+                continue
+            fibre = regular_fibre(zero, so_far, rows)
+            if fibre is None or known is None:
+                notes.append("a point close to a larger set could not be made regular")
+            else:
+                own.append(fibre)
+        return notes
+
+    def add(
+        self,
+        cluster: _Cluster,
+        kept: dict[int, list[Fibre]],
+        so_far: Equations,
+        flag: np.ndarray,
+        d: int,
+        deflate: bool,
+    ) -> tuple[list[str] | None, PathCounts]:
+        """Add what singular ends stand for, unless larger sets hold them; what is in doubt."""
+        (x, accuracy), rows, rng = cluster[0], flag[:d], self.rng
+        if admit(x, accuracy, kept[d], so_far, rows, rng, deflate=False):
+            # Ends that seemed to be one may be simple zeros close together.
+            for other, error in cluster[1:]:
+                admit(other, error, kept[d], so_far, rows, rng, deflate=False)
+            return [], PathCounts()
+        answer, counts = self.larger(x, accuracy, d, kept, flag)
+        if answer is Membership.MEMBER:
+            return self.beside(cluster, so_far, kept[d], rows), counts
+        holding = self.holding(so_far, x, accuracy)
+        if answer is Membership.FOREIGN and admit(
+            x, accuracy, kept[d], holding, rows, rng, deflate=False
+        ):
+            return [], counts
+        if not deflate:
+            return None, counts
+        if answer is Membership.UNDECIDED:
+            return [f"a point of dimension {d} could not be told from a larger set"], counts
+        if any(
+            admit(x, accuracy, kept[d], each, rows, rng, deflate=True)
+            for each in dict.fromkeys((holding, so_far))
+        ):
+            return [], counts
+        return [f"a singular point of dimension {d} could not be made regular"], counts
+
     def settled(
         self, f: Polynomial, crossed: Crossing, deflate: bool
     ) -> tuple[Superset | None, PathCounts]:
@@ -291,7 +297,7 @@ class _Stage:
         None if ``deflate`` is False and a singular end may belong to a component that is not
         reduced.
         """
-        flag, rng, tracker = crossed.before.flag, self.rng, self.tracker
+        flag = crossed.before.flag
         so_far = Equations((*self.before, f), self.n)
         kept = {d: list(fibres) for d, fibres in crossed.kept.items()}
         counts, notes = PathCounts(), []
@@ -307,34 +313,11 @@ class _Stage:
                 kept.setdefault(d, []).append(fibre)
             kept.setdefault(d, [])
             for cluster in candidates.singular:
-                x, accuracy = cluster[0]
-                if admit(x, accuracy, kept[d], so_far, flag[:d], rng, deflate=False):
-                    # Ends that seemed to be one may be simple zeros close together.
-                    for other, error in cluster[1:]:
-                        admit(other, error, kept[d], so_far, flag[:d], rng, deflate=False)
-                    continue
-                answer = Membership.FOREIGN
-                for higher in sorted((e for e in kept if e > d), reverse=True):
-                    answer, used = is_member(x, accuracy, kept[higher], flag, rng, tracker)
-                    counts += used
-                    if answer is not Membership.FOREIGN:
-                        break
-                if answer is Membership.MEMBER:
-                    continue
-                holding = self.holding(so_far, x, accuracy)
-                if answer is Membership.FOREIGN and admit(
-                    x, accuracy, kept[d], holding, flag[:d], rng, deflate=False
-                ):
-                    continue
-                if not deflate:
+                doubts, used = self.add(cluster, kept, so_far, flag, d, deflate)
+                counts += used
+                if doubts is None:
                     return None, counts
-                if answer is Membership.UNDECIDED:
-                    notes.append(f"a point of dimension {d} could not be told from a larger set")
-                elif not any(
-                    admit(x, accuracy, kept[d], each, flag[:d], rng, deflate=True)
-                    for each in dict.fromkeys((holding, so_far))
-                ):
-                    notes.append(f"a singular point of dimension {d} could not be made regular")
+                notes += doubts
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
         return Superset(kept, flag, PathCounts(), tuple(notes)), counts
 

@@ -22,6 +22,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.given_points import components_through_points
+from nag.numerics.small_values import ON
 from nag.solving.parameter_line import parameter_line
 from nag.tracking.paths import PathStatus
 from nag.tracking.track import track
@@ -29,8 +30,6 @@ from nag.witness.witness import Decomposition, WitnessSet
 
 SystemAt = Callable[[Fraction], PolynomialSystem]
 
-# Relative residuals of points that lie on the set; of others they are far larger.
-ON = 1e-9
 # Values to learn from are fractions of the interval with this denominator, off the given ones.
 GRID = 1009
 

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.algebra.number import decimal_digits
 from nag.algebra.polynomial import Polynomial
 from nag.witness.close_points import Fine
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, fixed
@@ -36,7 +35,7 @@ MOST_CLASSES, SMALL = 12, 1e-9
 
 def digits_of_evidence(polynomials: Iterable[Polynomial]) -> int:
     """Digits to which a trace must be linear, for components of the zero set of ``polynomials``."""
-    most = max((decimal_digits(c) for f in polynomials for c in f.terms.values()), default=0)
+    most = max((f.digits for f in polynomials), default=0)
     return EVIDENCE + max(0, most - ROUND_NUMBERS)
 
 

@@ -135,6 +135,8 @@ def read_case(
     """
     path = Path(path)
     top = Table(str(path), "", read_toml(path))
+    for key in {"plate", "plates"} & top.values.keys():
+        top.fail(key, 'plates are links of kind = "linkage": [[link]] with pins and their shape')
     top.allow(sorted({key for keys in _KEYS.values() for key in keys}))
     kind = top.text("kind")
     if kind not in _KEYS:

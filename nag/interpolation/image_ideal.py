@@ -10,7 +10,7 @@ import numpy as np
 from nag.algebra.hilbert import dimension_and_degree
 from nag.algebra.polynomial import Polynomial
 from nag.interpolation.essential import VariableMap, essential_variables, maps
-from nag.interpolation.point_cloud import Cloud
+from nag.interpolation.point_cloud import SMALL, Cloud
 from nag.interpolation.proof import (
     FRESH_POINTS,
     Substitution,
@@ -37,7 +37,6 @@ MOST_DEGREE = 12
 # Degrees beyond the one that makes a curve a component of the zeros, while there are not more
 # independent functions than this, to learn whether it is the only one.
 MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
-SMALL = 1e-5
 
 
 @dataclass(frozen=True, eq=False)

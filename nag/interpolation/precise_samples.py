@@ -17,14 +17,14 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.digits import number
-from nag.witness.cutting import ON, Cut, Equations, find_cut
+from nag.numerics.small_values import ON
+from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
 from nag.witness.sampling import at_random
 from nag.witness.slices import padded, rows_through
 from nag.witness.witness import WitnessSet
 
-ATTEMPTS = 4
 # Digits beyond those asked for in which Newton's method computes.
 SPARE = 25
 # Each step of Newton's method with a Jacobian in doubles gains at least this many digits.
@@ -182,18 +182,15 @@ def samples(source: Source, count: int, rng: np.random.Generator, tracker: Track
     """Independent random points of the component.
 
     Raises:
-        SourceError: if paths fail again and again, or end where the equations do not hold.
+        SourceError: if a path fails, or ends where the equations do not hold.
     """
     n = source.system.n
     evaluator = Evaluator.of(source.system.polynomials, n)
     found: list[Sample] = []
     while len(found) < count:
-        for how in tracker.attempts(ATTEMPTS):
-            target, there = at_random(source.fibres, source.rows, rng, how)
-            if len(there.x) and np.isfinite(there.accuracy):
-                break
-        else:
-            raise SourceError(f"{ATTEMPTS} paths to one point failed")
+        target, there = at_random(source.fibres, source.rows, rng, tracker)
+        if not (len(there.x) and np.isfinite(there.accuracy)):
+            raise SourceError("the path to a point failed")
         (fibre,) = there.fibres
         if evaluator.residuals(fibre.x).max(initial=0.0) > ON:
             raise SourceError(

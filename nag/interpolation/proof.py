@@ -17,6 +17,7 @@ from nag.algebra.rational_function import FunctionField, RationalFunction
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.point_cloud import Cloud
 from nag.numerics.digits import number
+from nag.numerics.small_values import NONZERO
 
 FRESH_POINTS = 30
 # Groebner bases of larger systems are not begun.
@@ -25,8 +26,6 @@ MOST_VARIABLES, MOST_SOLUTIONS = 10, 64
 MOST_FACTOR_DEGREE, MOST_FACTOR_TERMS = 3, 120
 # Powers of a polynomial that vanishes on a multiple component.
 MOST_POWER = 2
-# Values on a component above this are not zero.
-NONZERO = 1e-6
 DIGITS = 50
 
 

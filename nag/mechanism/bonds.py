@@ -22,6 +22,8 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.high_precision import DIGITS, sharp_zero
+from nag.algebra.number import Number, to_mpf
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import direction, dot
 from nag.mechanism.dh import DHModel
@@ -29,14 +31,14 @@ from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
-from nag.witness.slices import unit_complex
+from nag.witness.points import with_fine
+from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import WitnessSet
 
 # Distances from an end, relative to the coordinate's size, at which the joints' norms are compared.
 NEAR, NEARER = 1e-3, 1e-5
 # Norms fall with a power of the distance that is a ratio of orders.
 LARGEST_ORDER, UNCLEAR = 6, 0.03
-ATTEMPTS = 3
 
 
 _Kind = tuple[tuple[str, int], ...]
@@ -110,8 +112,8 @@ class _Loop:
     system: PolynomialSystem
     joints: tuple[str, ...]
     kept: tuple[str, ...]
-    squares: Mapping[str, float]
-    half_angles: Callable[[Sequence[complex]], Mapping[str, tuple[complex, complex]]]
+    squares: Mapping[str, Number]
+    half_angles: Callable[[Sequence[Any]], Mapping[str, tuple[Any, Any]]]
 
 
 def _loop(given: Model | DHModel) -> _Loop:
@@ -126,7 +128,11 @@ def _loop(given: Model | DHModel) -> _Loop:
             raise ValueError("bonds are for loops with all joints open")
         names = tuple(row.name for row in rows)
         kept = tuple(rows[i].name for i in given.kept)
-        return _Loop(given.system, names, kept, dict.fromkeys(names, 1.0), given.half_angles)
+
+        def turns(point: Sequence[Any]) -> Mapping[str, tuple[Any, Any]]:
+            return given.turns(point, lambda c: to_mpf(c, DIGITS))
+
+        return _Loop(given.system, names, kept, dict.fromkeys(names, Fraction(1)), turns)
     form = given.form
     if not isinstance(form, HalfAngleModel) or len(form.closures) != 1:
         raise ValueError("bonds are for single loops in formulation H")
@@ -137,7 +143,7 @@ def _loop(given: Model | DHModel) -> _Loop:
         given.system,
         tuple(joint.name for joint in given.structure.loops[0].joints),
         tuple(factor.joint for factor in form.charts.plain),
-        {name: float(dot(axis, axis)) for name, axis in axes.items()},
+        {name: dot(axis, axis) for name, axis in axes.items()},
         lambda point: {name: cs for name, (cs,) in form.coordinates(list(point)).items()},
     )
 
@@ -224,31 +230,42 @@ class _Ends:
         size, turn = abs(root) + 1e-3, complex(unit_complex(self.rng))
         result = []
         for fibre in self.fibres:
-            for _ in range(ATTEMPTS):
-                gamma = complex(unit_complex(self.rng))
-                start, goal = (self._rows(i, root + turn * size * r) for r in (NEAR, NEARER))
-                first = move(fibre, self.component.slice.rows, start, gamma, self.tracker, True)
-                if first.failed.any():
-                    continue
-                points = first.points[first.regular]
-                there = Fibre(fibre.cut, 1, points)
-                second = move(there, start, goal, 1.0, self.tracker)
-                if second.regular.all():
-                    break
-            else:
+            gamma = complex(unit_complex(self.rng))
+            start, goal = (self._rows(i, root + turn * size * r) for r in (NEAR, NEARER))
+            first = move(fibre, self.component.slice.rows, start, gamma, self.tracker, True)
+            regular = np.flatnonzero(first.regular)
+            if first.failed.any():
                 raise BondError("paths to the ends of the curve failed")
-            for x, y in zip(points, second.points, strict=True):
-                result.append(self._vanishing(x[: self.n], y[: self.n]))
+            if not len(regular):
+                continue
+            (near,) = with_fine([first.fibre(fibre.cut, 1, regular)], start)
+            second = move(near, start, goal, 1.0, self.tracker)
+            if not second.regular.all():
+                raise BondError("paths to the ends of the curve failed")
+            for x, y in zip(near.points, second.points, strict=True):
+                norms = self._norms(self._precise(fibre, start, x))
+                result.append(self._vanishing(norms, self._norms(self._precise(fibre, goal, y))))
         return result
+
+    def _precise(self, fibre: Fibre, rows: np.ndarray, z: np.ndarray) -> list[Any]:
+        """A point near an end in many digits: eliminated joints lose most of them there."""
+        import mpmath
+
+        jacobian = fibre.cut.evaluator.jacobian(z)
+        zero = sharp_zero(fibre.cut.polynomials, padded(rows, 1 + len(z)), jacobian, z)
+        if zero is None:
+            raise BondError("points near the ends of the curve are not regular")
+        with mpmath.workdps(DIGITS):
+            parts = [[mpmath.mpf(_man_exp(part)) for part in (x.real, x.imag)] for x in zero]
+            return [mpmath.mpc(*both) for both in parts[: self.n]]
 
     def _rows(self, i: int, value: complex) -> np.ndarray:
         row = np.zeros((1, 1 + self.n), dtype=complex)
         row[0, 0], row[0, 1 + i] = -value, 1
         return row
 
-    def _vanishing(self, x: np.ndarray, y: np.ndarray) -> _Kind:
+    def _vanishing(self, first: Mapping[str, float], second: Mapping[str, float]) -> _Kind:
         """The joints whose norms vanish at the end that two points lead to, with the orders."""
-        first, second = self._norms(x), self._norms(y)
         powers: dict[str, Fraction] = {}
         for name in self.loop.joints:
             slope = float(np.log(second[name] / first[name]) / np.log(NEARER / NEAR))
@@ -261,11 +278,20 @@ class _Ends:
         orders = {name: int(power * unit) for name, power in powers.items()}
         return tuple((name, order // gcd(*orders.values())) for name, order in orders.items())
 
-    def _norms(self, point: np.ndarray) -> dict[str, float]:
+    def _norms(self, point: Sequence[Any]) -> dict[str, float]:
         """Of each joint's half-angle, relative to its size."""
+        import mpmath
+
         result = {}
-        for name, (c, s) in self.loop.half_angles(list(point)).items():
-            square = self.loop.squares[name]
-            size = abs(c) ** 2 + square * abs(s) ** 2
-            result[name] = max(float(abs(c * c + square * s * s) / size), 1e-300)
+        with mpmath.workdps(DIGITS):
+            for name, (c, s) in self.loop.half_angles(point).items():
+                square = to_mpf(self.loop.squares[name], DIGITS)
+                size = abs(c) ** 2 + square * abs(s) ** 2
+                result[name] = max(float(abs(c * c + square * s * s) / size), 1e-300)
         return result
+
+
+def _man_exp(x: Any) -> Any:
+    """The middle of an ``arb``, as `mpmath` takes it."""
+    man, exp = x.mid().man_exp()
+    return int(man), int(exp)

@@ -106,9 +106,7 @@ def framework_model(framework: Framework) -> FrameworkModel:
         return _space_model(framework)
     if framework.placement is None:
         return _isotropic_model(framework)
-    made = _plane_model(framework)
-    other = _by_places(framework)
-    return made if other is None or other.paths >= made.paths else replace(made, smaller=other)
+    return _in_fewer_paths(_plane_model(framework))
 
 
 def _in_words(coordinates: str) -> str:
@@ -148,18 +146,29 @@ def _by_pairs(framework: Framework) -> FrameworkModel:
     return FrameworkModel(framework, pinned, "zw", system, None, ())
 
 
-def cartesian_system(framework: Framework) -> PolynomialSystem:
+def cartesian_model(framework: Framework) -> FrameworkModel:
     """The realisations in coordinates that are real where a realisation is.
+
+    In the plane the first bar goes from (0, 0) to (1, 0); components are found in isotropic
+    coordinates where that takes fewer paths.
 
     Raises:
         FrameworkError: as `framework_model` does.
     """
     if framework.dimension == 3:
-        return _space_model(framework).system
+        return _space_model(framework)
+    if framework.placement is not None:
+        return framework_model(framework)
     pinned, unit = framework.bars[0], framework.squared_lengths[0]
     zero, one = Fraction(0), Fraction(1)
     ends = {pinned[0]: (zero, zero), pinned[1]: (one, zero)}
-    return _metric_model(framework, pinned, ends, [unit, unit]).system
+    return _in_fewer_paths(_metric_model(framework, pinned, ends, [unit, unit]))
+
+
+def _in_fewer_paths(made: FrameworkModel) -> FrameworkModel:
+    """With the isotropic coordinates in which components are found by fewer paths, if they are."""
+    other = _by_places(made.framework)
+    return made if other is None or other.paths >= made.paths else replace(made, smaller=other)
 
 
 def _plane_model(framework: Framework) -> FrameworkModel:

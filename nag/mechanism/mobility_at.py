@@ -29,7 +29,7 @@ from nag.mechanism.model import Model, model
 from nag.mechanism.parts_decomposition import decompose_parts
 from nag.numerics.local_dimension import local_dimension
 from nag.witness.expansion import expanded
-from nag.witness.witness import WitnessSet
+from nag.witness.witness import Decomposition, WitnessSet
 
 
 @dataclass(frozen=True)
@@ -99,6 +99,8 @@ def mobility(
 ) -> MobilityReport:
     """The mobility of a mechanism at its reference configuration, or at another one.
 
+    That of parts which are not assembled is that of a general configuration, if no point is given.
+
     What counting predicts, the tangent and the local dimension (Wampler, Hauenstein & Sommese
     2011), and the components through the configuration.
 
@@ -114,7 +116,8 @@ def mobility(
     Raises:
         nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
         nag.numerics.local_dimension.NoSolution: if an exact point is no configuration.
-        ValueError: if no point is given, and none is known.
+        ValueError: if parts cannot be assembled, or are to be looked at without a decomposition
+            where no assembly is known.
 
     >>> import nag
     >>> print(nag.mobility(nag.read_case("cases/bennett.toml").mechanism))
@@ -133,9 +136,10 @@ def mobility(
     at = subject.reference
     if point is not None:
         at = coordinates(point, subject.system.variables)
+    options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
     if at is None:
-        raise ValueError("the parts are not assembled; give a point, an assembly of them")
-    return _report(subject, at, detail, {"seed": seed, "threads": threads, "settings": settings})
+        return _in_general(subject, detail, options)
+    return _report(subject, at, detail, options)
 
 
 def _report(
@@ -166,6 +170,35 @@ def _report(
     )
 
 
+def _in_general(subject: Subject, detail: str, options: dict[str, Any]) -> MobilityReport:
+    """The mobility at a general configuration of parts that may be assembled."""
+    if detail == "local":
+        raise ValueError("the parts are not assembled; give a point, an assembly of them")
+    found = _decomposed(subject, **options)
+    components = expanded(found).components
+    if found.complete and not components:
+        raise ValueError("the parts cannot be assembled, not even with complex coordinates")
+    general = max(components, key=lambda c: (c.dimension, c.corank), default=None)
+    known = general if found.complete else None
+    curves = [c for c in components if c.dimension == 1] if detail == "curves" else []
+    return MobilityReport(
+        space=subject.space,
+        gruebler_kutzbach=subject.counted,
+        formulation=subject.formulation,
+        variables=subject.system.n,
+        equations=len(subject.system.polynomials),
+        free=0,
+        tangent_dimension=None if known is None else known.corank,
+        lower=0 if known is None else known.dimension,
+        upper=subject.system.n if known is None else known.dimension,
+        components=tuple((c.dimension, c.degree) for c in components) if found.complete else None,
+        open="" if found.complete else _incomplete(found),
+        local=None,
+        curves=tuple(_curve(subject, c, **options) for c in curves),
+        general=known,
+    )
+
+
 def _without_loops(mechanism: Mechanism) -> MobilityReport:
     counted = gruebler_kutzbach(mechanism)
     space = space_of(mechanism.joints)
@@ -177,19 +210,26 @@ def _components(
     subject: Subject, at: Sequence[Number], seed: int, threads: int, settings: str
 ) -> tuple[list[WitnessSet] | None, str]:
     """The components through a point, or why they are not known."""
-    options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
-    options["symmetries"] = subject.symmetries
-    if isinstance(subject.model, FrameworkModel):
-        found = decompose_parts(subject.model, **options)
-    else:
-        found = decompose(subject.system, **options)
+    found = _decomposed(subject, seed, threads, settings)
     if not found.complete:
-        return None, f"the decomposition is incomplete: {'; '.join(found.notes)}"
+        return None, _incomplete(found)
     through = through_points(found, [("the configuration", tuple(at))], threads)[0]
     if not through.solution or through.doubt:
         return None, through.doubt or "the configuration is a rounded one"
     everything = expanded(found).components
     return [everything[i] for i in through.components], ""
+
+
+def _decomposed(subject: Subject, seed: int, threads: int, settings: str) -> Decomposition:
+    options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
+    options["symmetries"] = subject.symmetries
+    if isinstance(subject.model, FrameworkModel):
+        return decompose_parts(subject.model, **options)
+    return decompose(subject.system, **options)
+
+
+def _incomplete(found: Decomposition) -> str:
+    return f"the decomposition is incomplete: {'; '.join(found.notes)}"
 
 
 def _curve(

@@ -7,12 +7,14 @@ References:
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from enum import StrEnum
 
 from nag.mechanism.bonds import Bonds
 from nag.numerics.local_dimension import LocalDimension
 from nag.text.table import html_table
+from nag.witness.witness import WitnessSet
 
 
 class MobilityStatus(StrEnum):
@@ -74,6 +76,8 @@ class MobilityReport:
         local: the local dimension in the model, and what it rests on; None without loops.
         curves: the curves through the configuration, where they were asked for.
         free_of: whose the ``free`` ones are, as text; empty where there are none.
+        general: of parts that are not assembled, a component of the largest dimension: the report
+            is of a general configuration on it, and ``components`` are all that there are.
     """
 
     space: str
@@ -90,6 +94,7 @@ class MobilityReport:
     local: LocalDimension | None
     curves: tuple[CurveOfMotion, ...] = ()
     free_of: str = ""
+    general: WitnessSet | None = None
 
     @property
     def local_dimension(self) -> int | None:
@@ -99,6 +104,8 @@ class MobilityReport:
     @property
     def multiplicity(self) -> int:
         """Of an isolated configuration in the model's equations; else 0."""
+        if self.general is not None:
+            return self.general.multiplicity if self.general.dimension == 0 else 0
         return self.local.multiplicity if self.local is not None else 0
 
     @property
@@ -129,7 +136,7 @@ class MobilityReport:
             return MobilityStatus.UNDECIDED
         if self.local_dimension == 0:
             return MobilityStatus.SHAKY if self.tangent_dimension else MobilityStatus.RIGID
-        dimensions = [d for d, _ in self.components or ()]
+        dimensions = [d for d, _ in self.components or ()] if self.general is None else []
         if len(set(dimensions)) > 1:
             return MobilityStatus.KINEMATOTROPIC
         if len(dimensions) > 1:
@@ -185,6 +192,11 @@ def _components_text(report: MobilityReport) -> str:
         return f"not known: {report.open}" if report.open else "not looked for"
     if not report.components:
         return "none through the configuration"
+    if report.general is not None:
+        return "in all " + "; ".join(
+            f"{count} of dimension {d}, degree {degree}"
+            for (d, degree), count in Counter(report.components).items()
+        )
     listed = "; ".join(f"dimension {d}, degree {degree}" for d, degree in report.components)
     return f"{len(report.components)} through the configuration: {listed}"
 
@@ -194,7 +206,18 @@ def _sentence(report: MobilityReport) -> str:
     if not report.agrees:
         return "the components that were found contradict the local dimension"
     if status is MobilityStatus.UNDECIDED:
-        return report.local.reason if report.local is not None else "nothing is known"
+        return (
+            report.local.reason if report.local is not None else report.open or "nothing is known"
+        )
+    if report.general is None:
+        return _meaning(report)
+    if status is MobilityStatus.RIGID:
+        return "no configuration moves, not even infinitesimally"
+    return f"at a general configuration of those with the most freedoms {_meaning(report)}"
+
+
+def _meaning(report: MobilityReport) -> str:
+    status = report.status
     mobility, tangent = report.local_dimension, report.tangent_dimension
     if status is MobilityStatus.RIGID:
         return "it does not move, not even infinitesimally"

@@ -17,7 +17,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number, square_root
 from nag.mechanism.assembly import AssemblyModel
-from nag.mechanism.framework_model import FrameworkModel, cartesian_system
+from nag.mechanism.framework_model import FrameworkModel, cartesian_model
 from nag.mechanism.linkage import LinkageModel
 from nag.witness.gauss_newton import descend, polish
 
@@ -70,7 +70,7 @@ def real_assembly(parts: AssemblyModel, seed: int = 0) -> np.ndarray | None:
     """
     system, size = parts.system, 1.0
     if isinstance(parts, FrameworkModel) and parts.coordinates.startswith("z"):
-        system = cartesian_system(parts.framework)
+        system = cartesian_model(parts.framework).system
         squares = [float(s / parts.framework.squared_lengths[0]) for s in _squares(parts)]
         size = 1 + sqrt(max(squares))
     evaluator = Evaluator.of(system.polynomials, system.n)

@@ -25,14 +25,15 @@ ALIKE = 1e-5
 
 def close_zeros(
     system: ExactSystem, found: Deflated, reach: float, rng: np.random.Generator
-) -> Iterator[tuple[Point, float]]:
+) -> Iterator[tuple[Point, float, bool]]:
     """Approximate zeros of a cluster about a point that is no exact zero, and their distance.
 
     The equations that remain after the regular part is solved are series whose terms of low order
     are small, but not zero: the size of the cluster is where all terms are equally large.
 
     Yields:
-        points, and the decimal logarithm of the size of the cluster.
+        points, the decimal logarithm of the size of the cluster, and whether the point seems to be
+        a regular zero; those that are come first.
     """
     first = Round(found.rounds[0].rows, found.rounds[0].columns)
     order = found.rounds[0].order
@@ -46,11 +47,13 @@ def close_zeros(
             return
         scaled = ScaledSeries.of(descent.ring, descent.remaining, size)
         scale = flint.arb(10) ** flint.arb(size)
-        for u in _zeros(scaled, order, rng):
+        zeros = [(scaled.regular(u), u) for u in _zeros(scaled, order, rng)]
+        for regular, u in sorted(zeros, key=lambda zero: not zero[0]):
             along = [flint.acb(complex(c)) * scale for c in u]
             step = descend(system, DIGITS, found.point, [first], order, along)
             if step is not None:
-                yield [a + b for a, b in zip(found.point, step.displacement, strict=True)], size
+                moved = [a + b for a, b in zip(found.point, step.displacement, strict=True)]
+                yield moved, size, regular
 
 
 def _size(ring: SeriesRing, series: Sequence[Series], order: int) -> float:

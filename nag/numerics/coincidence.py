@@ -67,6 +67,22 @@ def compared(distances: np.ndarray, errors: np.ndarray | float) -> tuple[np.ndar
     return same, ~same & (distances < np.maximum(MISS, BEYOND * errors))
 
 
+def meeting(points: np.ndarray, radii: np.ndarray) -> np.ndarray:
+    """Pairs ``i < j`` of points one of which lies in the ball of the other, shape ``(pairs, 2)``.
+
+    Args:
+        points: complex, shape ``(P, n)``.
+        radii: of the balls, shape ``(P,)``.
+    """
+    n = points.shape[1]
+    pairs = [np.zeros((0, 2), dtype=np.int64)]
+    weights = np.exp(1j * np.arange(1, n + 1) ** 2)
+    for i, j in neighbours((points @ weights).real, np.sqrt(n) * radii):
+        close = np.linalg.norm(points[i] - points[j], axis=1) <= np.maximum(radii[i], radii[j])
+        pairs.append(np.sort(np.stack([i[close], j[close]], axis=1), axis=1))
+    return np.concatenate(pairs)
+
+
 def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
     """Indices of points that coincide within their errors, a cluster each, in the points' order.
 
@@ -74,8 +90,7 @@ def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
         points: complex, shape ``(P, n)``.
         accuracy: relative errors, shape ``(P,)``.
     """
-    count, n = points.shape
-    tolerance = reach(points, accuracy)
+    count = len(points)
     label = np.arange(count)
 
     def root(i: int) -> int:
@@ -84,13 +99,9 @@ def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
             i = label[i]
         return i
 
-    weights = np.exp(1j * np.arange(1, n + 1) ** 2)
-    for i, j in neighbours((points @ weights).real, np.sqrt(n) * tolerance):
-        close = np.linalg.norm(points[i] - points[j], axis=1)
-        same = close <= np.maximum(tolerance[i], tolerance[j])
-        for a, b in zip(i[same].tolist(), j[same].tolist(), strict=True):
-            first, second = sorted((root(a), root(b)))
-            label[second] = first
+    for a, b in meeting(points, reach(points, accuracy)).tolist():
+        first, second = sorted((root(a), root(b)))
+        label[second] = first
     if (label == np.arange(count)).all():
         return list(np.arange(count)[:, None])
     groups: dict[int, list[int]] = {}

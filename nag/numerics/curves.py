@@ -30,26 +30,54 @@ STEP = 3
 CLOSER = (12.5, 8.0, 5.0, 2.0)
 # The digits that are taken at least. Values below this share of the digits are zero.
 LEAST_DIGITS, VANISHING = 150, 0.75
+# Digits of coefficients that ask for no more.
+ROUND_NUMBERS = 20
 # Binary logarithms of distances at which hyperplanes pass a singular point.
 DISTANCES = (5, 9, 13, 17)
 
 
 def digits_at(system: ExactSystem, k: int) -> int:
-    """Digits in which 2^-k to the power of the highest order of contact is no zero."""
+    """Digits in which 2^-k to the power of the highest order of contact is no zero.
+
+    Long coefficients may be nearly equal, and what is small to their difference's power.
+    """
     highest = system.most_zeros
     if highest > ALL_OF:
         highest = max(HIGHEST_CONTACT, system.largest_degree)
-    return max(LEAST_DIGITS, int((highest * (k + 2) * LOG10_2 + 20) / VANISHING))
+    return max(LEAST_DIGITS, int((highest * (k + 2) * LOG10_2 + _length(system) + 20) / VANISHING))
 
 
-def smooth_set(system: ExactSystem, point: Point, rounds: Sequence[Round]) -> float:
+def _length(system: ExactSystem) -> float:
+    """Digits that long coefficients ask for."""
+    return system.largest_degree * max(0.0, system.longest - ROUND_NUMBERS)
+
+
+def is_exact_zero(system: ExactSystem, found: Deflated) -> bool:
+    """Whether what should vanish at a zero does so to as many digits as the coefficients ask for.
+
+    Where they are long, zeros may be so close together that fewer digits take them for one.
+    """
+    long = _length(system)
+    return found.exact and (
+        not long or _vanishes(system, found, int(LEAST_DIGITS + long / VANISHING))
+    )
+
+
+def smooth_set(
+    system: ExactSystem, point: Point, rounds: Sequence[Round], inverse: float = 0.0
+) -> float:
     """Whether the equations vanish along the smooth set that the rounds leave: 0 if they do.
 
     They are evaluated at a point of the set, at a distance r and to as many digits that r to the
     power of any possible multiplicity would be seen. If they do not vanish, the order to which they
     do is returned, roughly, by a second distance; ``inf`` where no further points were found.
+
+    Args:
+        inverse: of the blocks that were solved for, decimal logarithm: Newton's method converges
+            as much nearer to the point.
     """
-    for k in NEAR:
+    nearer = int(max(0.0, inverse) / LOG10_2)
+    for k in (k + nearer for k in NEAR):
         digits = LEAST_DIGITS
         first = _values(system, point, rounds, k, digits)
         if first is not None and first < -VANISHING * digits:

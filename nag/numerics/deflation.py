@@ -39,6 +39,8 @@ from nag.numerics.sharpening import ARRIVED, DIGITS, ROUNDING, ZERO, sharpen
 # other, while they do not cost too much: where all terms so far are zero, and where they are not,
 # as at a point that is not known well.
 ORDERS = (3, 6, 12, 24, 48, 96, 192, 384)
+# Digits that rounding may have taken from coefficients beside those that each degree loses.
+SPARE = 20.0
 MOST_WORK, MOST_WORK_ROUGHLY = 1e6, 1.5e5
 
 
@@ -71,7 +73,9 @@ class NotDeflated(Exception):
     """Deflation did not succeed, for the reason that the text says."""
 
 
-def lowest_order(ring: SeriesRing, series: Sequence[Series], reach: float) -> int | None:
+def lowest_order(
+    ring: SeriesRing, series: Sequence[Series], reach: float, inverse: float = 0.0
+) -> int | None:
     """The degree of the lowest terms at a zero no further from the origin than ``reach``.
 
     A term of degree d at the zero makes terms of lower degrees at the origin, at most as large as
@@ -80,6 +84,8 @@ def lowest_order(ring: SeriesRing, series: Sequence[Series], reach: float) -> in
 
     Args:
         reach: decimal logarithm.
+        inverse: of the blocks that were solved for, decimal logarithm: each degree of the series
+            loses as many digits.
     """
     norms = [-inf] * (ring.order + 1)
     for s in series:
@@ -90,9 +96,14 @@ def lowest_order(ring: SeriesRing, series: Sequence[Series], reach: float) -> in
         shadow = max(
             norms[e] + log10(comb(e, j)) + (e - j) * reach for e in range(j + 1, len(norms))
         )
-        if norms[j] > max(ZERO, shadow + 0.5):
+        if norms[j] > max(_noise(j, inverse), shadow + 0.5):
             return j
     return None
+
+
+def _noise(degree: int, inverse: float) -> float:
+    """What a coefficient of a degree may be that is zero; see `lowest_order`."""
+    return max(ZERO, SPARE - DIGITS + degree * max(0.0, inverse))
 
 
 def regular_block(
@@ -190,13 +201,17 @@ def _lowest_terms(
             raise NotDeflated(f"its series in {left} variables are too long at order {order}")
         descent = descend(system, DIGITS, point, rounds, order)
         assert descent is not None
-        found = lowest_order(descent.ring, descent.remaining, reach)
+        found = lowest_order(descent.ring, descent.remaining, reach, descent.inverse)
         if found is not None:
             return found, descent
-        if log_norm(c for s in descent.remaining for c in s.values()) > ZERO:
+        ring, noisy = descent.ring, _noise(order, descent.inverse) > 0
+        sizes = ((log_size(c), ring.degree(k)) for s in descent.remaining for k, c in s.items())
+        if any(size > _noise(degree, descent.inverse) for size, degree in sizes):
             most = MOST_WORK_ROUGHLY
         elif not least:
-            least = smooth_set(system, point, rounds)
+            least = smooth_set(system, point, rounds, descent.inverse)
             if least == 0:
                 return None
-    raise NotDeflated(f"nothing is seen of what remains to order {ORDERS[-1]}")
+        if noisy:
+            break
+    raise NotDeflated(f"nothing is seen of what remains to order {order}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from fractions import Fraction
-from math import log10
+from math import hypot, log10
 
 import flint
 import numpy as np
@@ -59,7 +59,8 @@ def log_size(z: flint.acb | int) -> float:
     """The decimal logarithm of ``|z|`` to within a factor of three; also beyond doubles' range."""
     if isinstance(z, int):
         return LOG10_2 * z.bit_length() if z else -np.inf
-    size = abs(complex(z))
+    rounded = complex(z)
+    size = hypot(rounded.real, rounded.imag)
     if SMALLEST < size < LARGEST:
         return log10(size)
     return LOG10_2 * max(_log2(z.real), _log2(z.imag))

@@ -7,19 +7,22 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import accumulate
+from math import prod
 from typing import Any
 
 import flint
 import numpy as np
 
 from nag.algebra.elimination import Elimination
+from nag.algebra.factoring import common_factor
+from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.algebraic_point import prime_images
 from nag.numerics.curve_search import CurveSearch
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, Deflated
 from nag.numerics.descent import Round, work
-from nag.numerics.digits import doubles, middle, number, working
+from nag.numerics.digits import doubles, log_norm, middle, number, working
 from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
@@ -28,7 +31,7 @@ from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, de
 from nag.numerics.located_zero import Zero, is_exact, located_zero
 from nag.numerics.null_space import Field, PrimeField, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, Terms
-from nag.numerics.sharpening import DIGITS, sharpen
+from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 
 # Degrees of the dual space from which on sets of zeros through the point are looked for, if it has
 # not become smaller for two degrees.
@@ -68,8 +71,8 @@ def bounds(
         if zero is None:
             here = np.array([complex(float(c)) if is_exact(c) else complex(c) for c in point])
             return LocalDimension(here, None, 0, len(point), 0, 0, (), "", reason)
-        answer = _at_zero(zero, rng)
         sharpened = [c * f for c, f in zip(zero.found.point, factors, strict=True)]
+        answer = _at_zero(zero, _on_hypersurface(polynomials, zero, factors), rng)
         digits = tuple((decimal(c.real), decimal(c.imag)) for c in sharpened)
         return replace(answer, point=doubles(sharpened), digits=digits)
 
@@ -109,14 +112,38 @@ def _value(image: Polynomial, point: Sequence[flint.acb]) -> flint.acb:
     return total
 
 
-def _at_zero(zero: Zero, rng: np.random.Generator) -> LocalDimension:
+def _on_hypersurface(
+    polynomials: Sequence[Polynomial], zero: Zero, units: Sequence[flint.arb]
+) -> bool:
+    """Whether a common factor of the equations vanishes at a zero of them."""
+    common = common_factor(polynomials)
+    if common is None:
+        return False
+    if zero.exact is not None:
+        powers = [Fraction(2) ** int(unit.man_exp()[1]) for unit in units]
+        return is_zero(common([c * k for c, k in zip(zero.exact, powers, strict=True)]))
+    point = [c * unit for c, unit in zip(zero.found.point, units, strict=True)]
+    sizes = [max(abs(c).mid(), unit) for c, unit in zip(point, units, strict=True)]
+    largest = max(abs(number(c)) * _monomial(e, sizes) for e, c in common.terms.items())
+    return log_norm([middle(common(point, number))]) < ZERO + log_norm([middle(largest)])
+
+
+def _monomial(exponents: Sequence[int], values: Sequence[Any]) -> Any:
+    return prod((v**k for k, v in zip(exponents, values, strict=True) if k), start=flint.arb(1))
+
+
+def _at_zero(zero: Zero, hypersurface: bool, rng: np.random.Generator) -> LocalDimension:
     """Bounds at an exact zero, raised from below and lowered from above until they meet."""
     tangent, system = zero.tangent, zero.system
     missing = max(0, system.n - len(system.rows))
     # The deflated set is smooth of this dimension, and was followed.
     free = zero.found.free if zero.found.exact else 0
-    lower = max(missing, free)
-    why = "fewer equations than variables" if missing >= free else "a smooth set was followed"
+    lower, why = max(
+        (system.n - 1 if hypersurface else 0, "a common factor of the equations vanishes there"),
+        (free, "a smooth set was followed"),
+        (missing, "fewer equations than variables"),
+        key=lambda known: known[0],
+    )
     answer = LocalDimension(
         np.zeros(0), tangent, lower, tangent, 0, 0, (), "", f"the tangent dimension; {why}"
     )

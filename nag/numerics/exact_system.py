@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from math import floor, lcm, log2, prod
+from math import floor, gcd, lcm, log2, prod
 from typing import Any
 
 import flint
@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.digits import log_norm, number
+from nag.numerics.digits import LOG10_2, log_norm, number
 from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Terms
 
@@ -93,8 +93,28 @@ class ExactSystem:
         return max(self._degrees, default=0)
 
     @cached_property
+    def longest(self) -> float:
+        """Digits of the longest rational coefficient, powers of two apart."""
+        kept = {c for row in self.rows for _, c in row if isinstance(c, Fraction)}
+        return LOG10_2 * max(
+            (_odd_bits(c.numerator) + _odd_bits(c.denominator) for c in kept), default=0
+        )
+
+    @cached_property
     def _degrees(self) -> list[int]:
         return [max(sum(e) for e, _ in row) for row in self.rows]
+
+    @cached_property
+    def height(self) -> int:
+        """Decimal digits of the longest coefficient where rows of rationals have whole ones."""
+        longest = 0
+        for row in self.rows:
+            if all(isinstance(c, Fraction) for _, c in row):
+                whole = lcm(*(c.denominator for _, c in row))
+                numbers = [c.numerator * (whole // c.denominator) for _, c in row]
+                largest = max(map(abs, numbers)) // gcd(*numbers)
+                longest = max(longest, int(largest.bit_length() * LOG10_2) + 1)
+        return longest
 
     def log_residual(self, y: Sequence[flint.acb], digits: int) -> float:
         """Decimal logarithm of the largest value at a point of so many digits."""
@@ -104,6 +124,10 @@ class ExactSystem:
     def vanishes_exactly(self, y: Sequence[Fraction]) -> bool:
         """Whether all rows vanish at a rational point."""
         return all(value(row, y) == 0 for row in self.rows)
+
+
+def _odd_bits(k: int) -> int:
+    return k.bit_length() - (k & -k).bit_length()
 
 
 def modular(c: Fraction, p: int) -> int:

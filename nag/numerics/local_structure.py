@@ -22,7 +22,7 @@ from nag.numerics.implicit_function import eliminate
 from nag.numerics.null_space import Digits, Field, PrimeField, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.rational_point import rational_point
-from nag.numerics.sharpening import DIGITS
+from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 from nag.numerics.singular_point import Place, SingularEnd
 
 # Decimal logarithms of the factors by which the error may exceed what is claimed, in this order.
@@ -36,8 +36,12 @@ NUMBERS = Digits(DIGITS, -90.0, -45.0)
 # become smaller for two degrees, and the highest degree.
 SEARCHES = (6, 14, 30)
 HIGHEST = 400
+# The most digits, beside those, in which a zero is looked at once more.
+MOST_DIGITS = 2000
 # Written digits of a point.
 WRITTEN = 100
+# Of these, how many may differ in two points that are one.
+REPEATED = 20.0
 # Clusters of clusters are not resolved further than this.
 DEEPEST = 3
 
@@ -105,6 +109,9 @@ def _at_zero(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> 
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
+    if (found.corank or len(system.rows) > system.n) and not _held(system, found):
+        reason = "more digits show several zeros there, or none, nearer than 150 digits tell"
+        return _end(system, found, Place.UNDECIDED, 0, reason)
     if found.corank == 0:
         return _end(system, found, Place.ISOLATED, 1, "the Jacobian is regular")
     if found.corank == 1:
@@ -114,6 +121,18 @@ def _at_zero(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> 
         return _by_dual_space(system, found, rng)
     except (UnclearRank, _TooLarge) as reason:
         return _end(system, found, Place.UNDECIDED, 0, str(reason))
+
+
+def _held(system: ExactSystem, found: Deflated) -> bool:
+    """Whether what vanishes at a zero does so to as many digits as long coefficients ask for.
+
+    Zeros may be as near to each other as the coefficients are long, times the number of zeros.
+    """
+    more = min(2 * system.height * int(min(system.most_zeros, MOST_DIGITS)), MOST_DIGITS)
+    digits = DIGITS + more
+    with working(digits):
+        exact = sharpen(system, found.point, found.rounds, digits)
+    return exact is not None and exact[1].defect < ZERO / DIGITS * digits
 
 
 def _by_dual_space(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> SingularEnd:
@@ -167,31 +186,49 @@ def _dual_space(
 def _resolved(
     system: ExactSystem, found: Deflated, reach: float, rng: np.random.Generator, depth: int
 ) -> list[SingularEnd]:
-    """The zeros of a cluster about a point, each judged by itself."""
+    """The zeros of a cluster about a point, each judged by itself.
+
+    Of those on a component of positive dimension there is one, the last.
+    """
     result: list[SingularEnd] = []
     known: list[list[flint.acb]] = []
-    for start, size in close_zeros(system, found, reach, rng):
+    component: SingularEnd | None = None
+    for start, size, regular in close_zeros(system, found, reach, rng):
+        if component is not None and not regular:
+            break
         end = _judged(system, start, size - 4.0, rng, depth + 1)
-        if end.place is Place.ON_COMPONENT:
-            return [end]
+        if end.dimension:
+            component = end
         for one in end.nearby or (end,):
             if one.place is not Place.ISOLATED:
                 continue
             place = point(one.digits)
             apart = (log_norm(a - b for a, b in zip(place, p, strict=True)) for p in known)
-            if all(distance > 20.0 - WRITTEN for distance in apart):
+            if all(distance > REPEATED - WRITTEN for distance in apart):
                 known.append(place)
                 result.append(one)
-    return result
+    return result if component is None else [*result, component]
 
 
 def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]) -> SingularEnd:
-    total = sum(end.multiplicity for end in nearby)
-    reason = f"{len(nearby)} zeros close together, of multiplicities that add up to {total}"
+    isolated = tuple(one for one in nearby if one.place is Place.ISOLATED)
+    total = sum(one.multiplicity for one in isolated)
+    reason = f"{len(isolated)} zeros close together, of multiplicities that add up to {total}"
+    dimension = max(one.dimension for one in nearby)
+    if dimension:
+        reason += ", beside a component of positive dimension"
     end = _end(system, found, Place.CLUSTER, 0, reason)
     spread = max(float(np.abs(one.point - end.point).max()) for one in nearby)
     return SingularEnd(
-        end.point, end.place, 0, spread, np.inf, reason, digits=end.digits, nearby=tuple(nearby)
+        end.point,
+        end.place,
+        0,
+        spread,
+        np.inf,
+        reason,
+        dimension,
+        digits=end.digits,
+        nearby=isolated,
     )
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from nag.algebra.number import Irrational, Number
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.curves import is_exact_zero
 from nag.numerics.deflation import Deflated, NotDeflated, deflate, regular_block
 from nag.numerics.descent import Round
 from nag.numerics.digits import doubles, middle, number
@@ -129,7 +130,7 @@ def _exact_zero(
         except NotDeflated as reason:
             reasons.append(str(reason))
             continue
-        if found.exact:
+        if is_exact_zero(system, found):
             block = regular_block(
                 system.values_at(DIGITS).jacobian, found.point, ROUNDING - DIGITS, rng
             )

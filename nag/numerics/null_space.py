@@ -14,6 +14,10 @@ from nag.numerics.digits import doubles, log_norm, middle
 
 Rows = Sequence[Sequence[Any]]
 
+# Pivots in doubles, over the largest, of a block that is solved for at once; what is left of the
+# matrix is looked at in all digits.
+WELL = 1e-8
+
 
 class UnclearRank(Exception):
     """A number is neither clearly zero nor clearly something else."""
@@ -171,7 +175,7 @@ def _schur_complement(
 def _well_conditioned(block: np.ndarray) -> tuple[list[int], list[int]]:
     """Rows and columns of a block that doubles see to be regular, as large as possible."""
     columns, diagonal = _pivoted(block)
-    rank = max(1, int(np.sum(diagonal > 1e-8 * diagonal[0])))
+    rank = max(1, int(np.sum(diagonal > WELL * diagonal[0])))
     rows, _ = _pivoted(block[:, columns[:rank]].T)
     return rows[:rank], columns[:rank]
 

@@ -8,14 +8,20 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
+from nag.numerics.digits import log_norm
 from nag.numerics.power_series import Series, SeriesRing
+from nag.numerics.sharpening import ZERO
 
 STEPS = 60
+# Singular values beside the largest one that are those of a regular zero.
+REGULAR = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
 class ScaledSeries:
     """Series ``s(r u)`` as polynomials in ``u``, each divided by its largest coefficient.
+
+    Series of equations that follow from the others are nothing but rounding, and left out.
 
     Attributes:
         m: number of variables.
@@ -35,10 +41,10 @@ class ScaledSeries:
         scale = flint.arb(10) ** flint.arb(size)
         rows = []
         for s in series:
-            values = {k: flint.acb(c) * scale ** ring.degree(k) for k, c in s.items()}
-            largest = max((v.abs_upper() for v in values.values()), default=flint.arb(0))
-            if not largest > 0:
+            if log_norm(s.values()) <= ZERO:
                 continue
+            values = {k: flint.acb(c) * scale ** ring.degree(k) for k, c in s.items()}
+            largest = max(v.abs_upper() for v in values.values())
             row = np.zeros(len(keys), dtype=complex)
             for k, v in values.items():
                 row[place[k]] = complex(v / largest)
@@ -69,6 +75,12 @@ class ScaledSeries:
             lowered[:, i] = k * powers[i, np.maximum(k - 1, 0)]
             jacobian[:, i] = self.rows @ lowered.prod(axis=1)
         return values, jacobian
+
+    def regular(self, u: np.ndarray) -> bool:
+        """Whether a zero is a regular one, as far as doubles can tell."""
+        _, jacobian = self._values(u)
+        values = np.linalg.svd(jacobian, compute_uv=False)
+        return len(values) == self.m and bool(values[-1] > REGULAR * values[0])
 
     def newton(self, u: np.ndarray, plane: np.ndarray | None = None) -> np.ndarray | None:
         """Gauss-Newton from ``u``, on the hyperplane ``plane u = 1`` if there is one.

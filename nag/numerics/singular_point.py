@@ -36,10 +36,11 @@ class SingularEnd:
         accuracy: relative error of ``point``.
         condition: of the deflated equations there; ``inf`` where there are none.
         reason: what the judgement rests on, or why there is none.
-        dimension: of a set of zeros through the point: a lower bound; 0 if isolated.
+        dimension: of a set of zeros through the point, or among the zeros of a cluster: a lower
+            bound; 0 if there is none.
         digits: real and imaginary parts as decimals, to 100 digits; empty if undecided.
         rational: the exact coordinates, if they are rational.
-        nearby: the zeros of a cluster, each judged by itself.
+        nearby: the isolated zeros of a cluster, each judged by itself.
     """
 
     point: np.ndarray

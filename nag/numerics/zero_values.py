@@ -14,6 +14,11 @@ from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 
+# Relative difference of coordinates that agree, and coordinates beside the largest that are zero.
+ALIKE, NOTHING = 1e-6, 1e-60
+# Relative error of a zero that is known by its written digits.
+WRITTEN = 1e-90
+
 
 def possible_zeros(
     equations: Sequence[Polynomial],
@@ -31,8 +36,18 @@ def possible_zeros(
     """
     end = analyse(equations, x, accuracy, rng, slices)
     if end.place is Place.CLUSTER:
-        return end.nearby
+        return () if end.dimension else end.nearby
     return (end,) if end.place is Place.ISOLATED else ()
+
+
+def alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularEnd, ...]:
+    """The one of several zeros that a point agrees with in each coordinate; all if none does."""
+    chosen = []
+    for zero in zeros:
+        sizes = np.maximum(np.abs(zero.point), np.abs(x))
+        if (np.abs(zero.point - x) <= np.maximum(ALIKE * sizes, NOTHING * sizes.max())).all():
+            chosen.append(zero)
+    return tuple(chosen) if len(chosen) == 1 else tuple(zeros)
 
 
 def vanishes_at_all(zeros: Sequence[SingularEnd], f: Polynomial) -> bool | None:

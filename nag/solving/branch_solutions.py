@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
+from typing import Any
 
 import numpy as np
 
@@ -28,16 +29,23 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.vanishing import Vanishing, follows
 from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.zero_values import multiplicity_of_all, possible_zeros, vanishes_at_all
+from nag.numerics.small_values import NONZERO, SLACK, widened
+from nag.numerics.zero_values import (
+    WRITTEN,
+    alike,
+    multiplicity_of_all,
+    possible_zeros,
+    vanishes_at_all,
+)
 from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
-# Values, relative to their terms, above which a polynomial certainly does not vanish at a solution.
-NONZERO = 1e-6
 # Solutions that may be the same, found in two branches: relative distance.
 NEAR = 1e-7
 # Bits of the coordinates of exact zeros whose local rings are looked at.
 BITS = 400
+# Digits to compute with.
+WORKING = 120
 
 Tracked = Callable[[PolynomialSystem], SolveResult]
 
@@ -83,7 +91,22 @@ class _Found:
         assert self.elimination is not None
         reduced, x = self.elimination, self.solution.point
         y, rng = reduced.project(x), np.random.default_rng(0)
-        return possible_zeros(reduced.system.polynomials, y, self.solution.accuracy, rng)
+        zeros = possible_zeros(reduced.system.polynomials, y, self.solution.accuracy, rng)
+        return alike(zeros, y) if len(zeros) > 1 else zeros
+
+    @cached_property
+    def in_digits(self) -> list[Any] | None:
+        """The coordinates to 100 digits (FLINT's ``acb``) where it is known which zero this is."""
+        if len(self._zeros) != 1:
+            return None
+        import flint
+
+        from nag.numerics.digits import number, point
+
+        assert self.elimination is not None
+        with flint.ctx.workdps(WORKING):
+            y = point(self._zeros[0].digits)
+            return [flint.acb(f(y, number)).mid() for f in self.elimination.images]
 
 
 @dataclass(frozen=True, eq=False)
@@ -324,12 +347,16 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
             return each.zero.independent(polynomials)
         if each.solution.precision >= DIGITS:
             # Each coordinate is known to rounding, however small it is beside the others.
-            return independent_gradients(*scaled_at(polynomials, x), 1e3 * accuracy)
-        error = max(1e3 * accuracy, 1e-12) * (1 + float(np.abs(x).max(initial=0.0)))
-        return independent_gradients(polynomials, x, error)
+            return independent_gradients(*scaled_at(polynomials, x), SLACK * accuracy)
+        return independent_gradients(polynomials, x, widened(x, accuracy))
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
-        at, error = (x, accuracy) if each.zero is None else (each.zero.known_to(BITS), 2.0**-BITS)
+        at, error = x, accuracy
+        if each.zero is not None:
+            at, error = each.zero.known_to(BITS), 2.0**-BITS
+        elif each.in_digits is not None:
+            # Zeros of other branches may be close to it.
+            at, error = each.in_digits, WRITTEN
         return multiplicity_of_all(possible_zeros(generators, at, error, np.random.default_rng(0)))
 
     return generic_multiplicity(equations, len(x), each.vanishes, independent, by_local_ring)

@@ -37,8 +37,8 @@ def counted(problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds
         return replace(ends, count=ZeroCount(len(paths), False)) if patient else ends
     if begin.complete and bool((paths.status == PathStatus.REGULAR).all()):
         return ends
-    if ends.zeros == begin.most:
-        return replace(ends, count=ZeroCount(begin.most, False))
+    if ends.zeros == begin.known.most:
+        return replace(ends, count=ZeroCount(begin.known.most, False))
     return replace(ends, count=most_zeros(problem.system.polynomials, ends.zeros, patient))
 
 

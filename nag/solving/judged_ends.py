@@ -9,16 +9,17 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import ZeroCount
-from nag.numerics.coincidence import clusters, coincident, conjugates_present
+from nag.numerics.coincidence import SAFETY, clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.numerics.small_values import ON
 from nag.solving.isolated_zero import FinePoint, IsolatedZero
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
 from nag.tracking.paths import Paths, PathStatus
 
-# |f| over the sum of |terms|: zeros lie below 2.5e-13 at sharpened points, others above 2e-6.
-ON = 1e-9
+# Imaginary parts of real points, relative to their size; their conjugates must be points as well.
+REAL = 1e-10
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
 # Points evaluated at once.
@@ -255,7 +256,7 @@ def _solutions(
     multiplicity = np.array([s.multiplicity for s in isolated], dtype=np.int64)
     sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
     imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
-    real = imaginary <= np.maximum(1e2 * accuracy, 1e-10) * sizes
+    real = imaginary <= np.maximum(SAFETY * accuracy, REAL) * sizes
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
     answers: list[bool | None] = [False] * len(isolated)
     if problem.nonzero:

@@ -54,6 +54,11 @@ class Confirmed:
     condition: np.ndarray
     precision: np.ndarray
 
+    @property
+    def radii(self) -> np.ndarray:
+        """Bounds of the zeros' distances in each coordinate, shape ``(P, n)``."""
+        return self.accuracy[:, None] * self.sizes
+
     def same(self, others: np.ndarray) -> np.ndarray:
         """Whether the zeros near other points, shape ``(P, n)``, are those of these points."""
         apart = np.abs(others - self.points) / self.sizes

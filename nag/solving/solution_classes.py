@@ -7,17 +7,44 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.symmetric_family import SymmetricFamily
-from nag.numerics.coincidence import neighbours
+from nag.numerics.coincidence import SAFETY, meeting
+from nag.tracking.projective import ROUNDING
 
-# Invariants of points that are known to half the digits differ by less if they are equal.
-SAME = 1e-7
 INVARIANTS = 3
+# Relative step of the difference quotients that say how errors of points show in the invariants.
+STEP = 1e-7
+# A class whose invariants have errors beyond this cannot be told: its path counts as lost.
+CLEAR = 1e-3
 
 
-def invariants(images: np.ndarray) -> np.ndarray:
-    """Numbers that all members of a class share, of the size of one, shape ``(P, k)``.
+def invariants(
+    symmetric: SymmetricFamily, points: np.ndarray, values: np.ndarray, radii: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers that all members of a class share, shape ``(P, k)``, and the radii of balls there.
 
-    Means, over the members, of quotients of fixed random affine functions and of their squares.
+    Args:
+        points: one member of each class, shape ``(P, n)``.
+        values: the parameters.
+        radii: errors of the points' coordinates, shape ``(P, n)``.
+    """
+    found = _means(symmetric.images(points, values))
+    sizes = 1 + np.linalg.norm(points, axis=1)
+    stretch = STEP * sizes / np.maximum(radii, ROUNDING * sizes[:, None]).max(axis=1, initial=0.0)
+    turns = np.exp(1j * np.arange(1, 1 + points.shape[1]) ** 2)
+    moved = points + stretch[:, None] * radii * turns
+    change = np.linalg.norm(_means(symmetric.images(moved, values)) - found, axis=1)
+    rounding = ROUNDING * np.linalg.norm(found, axis=1)
+    return found, change / stretch + rounding
+
+
+def radii_of_ends(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
+    """Radii of coordinates from the relative errors that the tracker estimates."""
+    sizes = 1 + np.linalg.norm(points, axis=1)
+    return np.outer(SAFETY * np.maximum(ROUNDING, errors) * sizes, np.ones(points.shape[1]))
+
+
+def _means(images: np.ndarray) -> np.ndarray:
+    """Means over each class of quotients of fixed random affine functions, and of their squares.
 
     Args:
         images: of each point all members of its class, in any order, shape ``(order, P, n)``.
@@ -32,19 +59,6 @@ def invariants(images: np.ndarray) -> np.ndarray:
     return np.concatenate([(quotients**k).mean(axis=0) for k in powers], axis=1)
 
 
-def equal_pairs(values: np.ndarray) -> np.ndarray:
-    """Pairs ``i < j`` of rows that are equal to within `SAME`, shape ``(pairs, 2)``."""
-    size = 1 + np.abs(values)
-    with np.errstate(invalid="ignore"):
-        key = np.abs((values / size) @ np.exp(1j * np.arange(values.shape[1]) ** 2))
-    pairs = [np.zeros((0, 2), dtype=np.int64)]
-    for i, j in neighbours(key, np.full(len(key), 4 * SAME * values.shape[1])):
-        close = np.abs(values[i] - values[j]) <= SAME * np.minimum(size[i], size[j])
-        same = close.all(axis=1)
-        pairs.append(np.sort(np.stack([i[same], j[same]], axis=1), axis=1))
-    return np.concatenate(pairs)
-
-
 @dataclass
 class Fibre:
     """Solutions for given parameters, one of each class.
@@ -53,36 +67,46 @@ class Fibre:
         values: the parameters, shape ``(k,)``.
         symmetric: the family, in whose inner coordinates points and parameters are.
         points: shape ``(P, n)``; of each class the member that was found first.
-        known: their invariants.
+        known: their invariants, and the radii of these.
     """
 
     values: np.ndarray
     symmetric: SymmetricFamily
     points: np.ndarray
-    known: np.ndarray
+    known: tuple[np.ndarray, np.ndarray]
 
     @classmethod
-    def of(cls, values: np.ndarray, symmetric: SymmetricFamily, points: np.ndarray) -> Fibre:
+    def of(
+        cls, values: np.ndarray, symmetric: SymmetricFamily, points: np.ndarray, errors: np.ndarray
+    ) -> Fibre:
         """The fibre with these solutions."""
-        fibre = cls(values, symmetric, points[:0], invariants(symmetric.images(points[:0], values)))
-        fibre.add(points)
+        nothing = invariants(symmetric, points[:0], values, radii_of_ends(points[:0], errors[:0]))
+        fibre = cls(values, symmetric, points[:0], nothing)
+        fibre.add(points, errors)
         return fibre
 
-    def add(self, points: np.ndarray) -> int:
+    def _usable(
+        self, points: np.ndarray, errors: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The points whose classes can be told, with their invariants and radii."""
+        radii = radii_of_ends(points, errors)
+        found, radii = invariants(self.symmetric, points, self.values, radii)
+        usable = np.isfinite(found).all(axis=1) & (radii < CLEAR)
+        return points[usable], found[usable], radii[usable]
+
+    def add(self, points: np.ndarray, errors: np.ndarray) -> int:
         """Add the solutions that are of new classes; returns how many."""
         old = len(self.points)
-        found = invariants(self.symmetric.images(points, self.values))
-        usable = np.isfinite(found).all(axis=1)
-        points = np.concatenate([self.points, points[usable]])
-        known = np.concatenate([self.known, found[usable]])
-        kept = np.setdiff1d(np.arange(len(points)), equal_pairs(known)[:, 1])
-        self.points, self.known = points[kept], known[kept]
+        points, found, radii = self._usable(points, errors)
+        points = np.concatenate([self.points, points])
+        found, radii = np.concatenate([self.known[0], found]), np.append(self.known[1], radii)
+        kept = np.setdiff1d(np.arange(len(points)), meeting(found, radii)[:, 1])
+        self.points, self.known = points[kept], (found[kept], radii[kept])
         return len(kept) - old
 
-    def missing_from(self, points: np.ndarray) -> np.ndarray:
+    def missing_from(self, points: np.ndarray, errors: np.ndarray) -> np.ndarray:
         """Those solutions whose classes are not among those of ``points``."""
-        found = invariants(self.symmetric.images(points, self.values))
-        both = np.concatenate([found[np.isfinite(found).all(axis=1)], self.known])
-        first = len(both) - len(self.known)
-        repeated = equal_pairs(both)[:, 1] - first
+        points, found, radii = self._usable(points, errors)
+        both = np.concatenate([found, self.known[0]]), np.append(radii, self.known[1])
+        repeated = meeting(*both)[:, 1] - len(points)
         return self.points[np.setdiff1d(np.arange(len(self.points)), repeated)]

@@ -16,9 +16,11 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import SymmetricFamily
+from nag.numerics.coincidence import meeting
+from nag.numerics.small_values import NONZERO
 from nag.solving.kantorovich import Confirmation, Confirmed
 from nag.solving.parameter_line import ParameterLine, parameter_line
-from nag.solving.solution_classes import equal_pairs, invariants
+from nag.solving.solution_classes import invariants
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 from nag.solving.start.family_monodromy import CONFIRMING, SHARP, Progress, family_monodromy
 from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
@@ -31,8 +33,6 @@ from nag.tracking.track import track
 FEW = 0.1
 # Steps of a path from a member of a class other than the last that is tried.
 MOST_STEPS = 1500
-# Largest residual of an image of a solution under a symmetry.
-ROUGHLY_ZERO = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,10 +93,10 @@ def solved_by_monodromy(
     members = smallest_members(symmetric, found.points, found.values)
     evaluator = Evaluator.of(symmetric.family.polynomials, symmetric.family.polynomials[0].n)
     values = np.broadcast_to(found.values, (members[:, 0].shape[0], len(found.values)))
-    if evaluator.residuals(np.hstack([members[:, 0], values])).max() > ROUGHLY_ZERO:
+    if evaluator.residuals(np.hstack([members[:, 0], values])).max() > NONZERO:
         raise MapError("the maps do not carry solutions to solutions")
     sharp = Confirmation(symmetric.family)(members[0], found.values, threads)
-    repeated = _repeated(symmetric, sharp.points, sharp.regular, found.values)
+    repeated = _repeated(symmetric, sharp, 1.0, found.values)
     regular = sharp.regular & ~repeated
     points = sharp.points[regular]
     complete = bool(regular.all()) and wanted == len(points) and found.idle >= CONFIRMING
@@ -145,8 +145,9 @@ def _joined(
     x, p = np.split(factors, [symmetric.family.n])
     both = [np.flatnonzero(each.arrived) for each in (found, other)]
     points = [each.ends.points[i] / x for each, i in zip((found, other), both, strict=True)]
-    values = invariants(symmetric.images(np.concatenate(points), goal / p))
-    repeated = equal_pairs(values)[:, 1] - len(both[0])
+    radii = [each.ends.radii[i] / np.abs(x) for each, i in zip((found, other), both, strict=True)]
+    balls = invariants(symmetric, np.concatenate(points), goal / p, np.concatenate(radii))
+    repeated = meeting(*balls)[:, 1] - len(both[0])
     new = both[1][np.setdiff1d(np.arange(len(both[1])), repeated)]
     # Lost paths give their places first.
     free = np.flatnonzero(~found.arrived)
@@ -216,7 +217,7 @@ def track_classes(
         paths = track(line.homotopy, starts, chosen, threads, endgame=False, distinct=False)
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
         ends = _replaced(ends, confirm(line.affine(paths.points) * x, goal, threads), left)
-        arrived = ends.regular & ~_repeated(symmetric, ends.points / x, ends.regular, near)
+        arrived = ends.regular & ~_repeated(symmetric, ends, x, near)
     left = np.flatnonzero(~arrived)
     infinite, singular = np.zeros_like(arrived), np.zeros_like(arrived)
     if len(left):
@@ -225,7 +226,7 @@ def track_classes(
         points = line.affine(paths.points)
         points[paths.status == PathStatus.AT_INFINITY] = np.nan
         ends = _replaced(ends, confirm(points * x, goal, threads), left)
-        arrived = ends.regular & ~_repeated(symmetric, ends.points / x, ends.regular, near)
+        arrived = ends.regular & ~_repeated(symmetric, ends, x, near)
         infinite[left] = (paths.status == PathStatus.AT_INFINITY) & ~arrived[left]
         singular[left] = (paths.status == PathStatus.SINGULAR) & ~arrived[left]
     return ClassEnds(ends, arrived, infinite, singular, tracked, steps)
@@ -240,13 +241,18 @@ def _replaced(old: Confirmed, new: Confirmed, places: np.ndarray) -> Confirmed:
 
 
 def _repeated(
-    symmetric: SymmetricFamily, points: np.ndarray, regular: np.ndarray, values: np.ndarray
+    symmetric: SymmetricFamily, ends: Confirmed, scale: np.ndarray | float, values: np.ndarray
 ) -> np.ndarray:
-    """Which regular ends are of the class of another one: a path jumped."""
-    repeated = np.zeros(len(points), dtype=bool)
-    places = np.flatnonzero(regular)
-    found = invariants(symmetric.images(points[places], values))
-    repeated[places[equal_pairs(found).ravel()]] = True
+    """Which regular ends are of the class of another one: a path jumped.
+
+    Args:
+        scale: what coordinates are to be divided by, for the parameters ``values``.
+    """
+    repeated = np.zeros(len(ends.points), dtype=bool)
+    places = np.flatnonzero(ends.regular)
+    points, radii = ends.points[places] / scale, ends.radii[places] / np.abs(scale)
+    balls = invariants(symmetric, points, values, radii)
+    repeated[places[meeting(*balls).ravel()]] = True
     return repeated
 
 

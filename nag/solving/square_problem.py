@@ -16,13 +16,11 @@ from nag.algebra.high_precision import sharp_zero, vanish_in_balls
 from nag.algebra.lowest_degrees import of_lowest_degrees
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.small_values import NONZERO
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.start.choice import FEW
 from nag.solving.start.target import Target, most_digits
-
-# Values, beside their terms, of polynomials that certainly do not vanish.
-NONZERO = 1e-6
 
 
 @dataclass(frozen=True, eq=False)

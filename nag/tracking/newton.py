@@ -9,10 +9,7 @@ import numpy as np
 from nag.tracking import evaluations
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy, norms
-
-# Relative error of a point that is known to all digits: rounding of two homogeneous coordinates,
-# and of their quotient.
-ROUNDING = 5 * 2.0**-53
+from nag.tracking.projective import ROUNDING, aligned_difference
 
 
 class Refined(NamedTuple):
@@ -89,7 +86,7 @@ def refine(
     before, smallest = (np.where(np.isfinite(v), v, 0.0) for v in (before, smallest))
     if not np.isfinite(result).all():
         result = np.where(np.isfinite(result), result, start)
-    moved = norms(aligned_difference(homotopy, result, start))
+    moved = norms(aligned_difference(homotopy.groups, result, start))
     size = np.where(np.isfinite(size), size, 0.0)
     condition = size / np.maximum(smallest, 1e-300)
     error = np.maximum(error, ROUNDING)
@@ -104,22 +101,3 @@ def _at(homotopy: Homotopy, t: complex, A: np.ndarray) -> Homotopy:
     factors = tuple((a + t * b, 0.0) for a, b in homotopy.factors)
     scaled = A * np.ldexp(1.0, -exponents)[:, None]
     return Homotopy(homotopy.rows, scaled, None, factors, homotopy.infinity)
-
-
-def aligned_difference(homotopy: Homotopy, first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """``first - second`` after turning each group of ``second`` into the phase of ``first``."""
-    if len(homotopy.groups) == 1:
-        return first - second * _turn(first, second)
-    second = second.copy()
-    for indices in homotopy.groups:
-        g = list(indices)
-        second[:, g] *= _turn(first[:, g], second[:, g])
-    return first - second
-
-
-def _turn(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """The factors of absolute value 1 that turn rows of ``second`` into the phase of ``first``."""
-    product = (second.conj() * first).sum(axis=1, keepdims=True)
-    size = np.abs(product)
-    there = size > 0
-    return np.where(there, product / np.where(there, size, 1), 1)

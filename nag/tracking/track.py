@@ -10,17 +10,24 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.known import NOTHING, Known
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
+from nag.tracking.projective import meeting
 from nag.tracking.settings import Settings, named, tighter
 
+# Newton's method may move the end of a path by so many of its errors, and by this much, or by this
+# part of the smallest singular value there.
+STRAYED, LEAST, BASIN = 1e3, 1e-11, 0.1
+# Errors of ends that Newton's method found: of a regular end, and of one of a generic system.
+SHARP, ROUGH = 1e-12, 1e-8
 # Smallest homogenising coordinate of a finite zero of a generic system.
 AT_INFINITY = 1e-10
 # Least ratio of a singular value to a Newton step that proves a regular zero.
@@ -46,7 +53,7 @@ def track(
     *,
     endgame: bool = True,
     distinct: bool = True,
-    most: int | None = None,
+    known: Known = NOTHING,
 ) -> Paths:
     """Track ``starts`` from t = 1 to t = 0.
 
@@ -59,8 +66,7 @@ def track(
             end, and one that ends otherwise has failed.
         distinct: the starts are pairwise distinct, so that equal regular ends betray a path jump;
             such paths are tracked again with tighter control.
-        most: where it is known that a target with so many regular zeros, none of whose coordinates
-            vanish, has no other zeros: once these are found, all other paths lead to infinity.
+        known: what is known of the paths beforehand; of use where the starts are distinct.
 
     Raises:
         ValueError: if the starts have a wrong shape, or settings an unknown name.
@@ -70,7 +76,7 @@ def track(
     if starts.ndim != 2 or starts.shape[1] != homotopy.N:
         raise ValueError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
     starts = homotopy.normalized(starts)
-    paths = _attempt(homotopy, starts, chosen, threads, endgame, most if distinct else None)
+    paths = _attempt(homotopy, starts, chosen, threads, endgame, known if distinct else NOTHING)
     for attempt in range(chosen.retries if distinct else 0):
         jumped = collisions(homotopy, paths)
         if attempt == 0:
@@ -83,13 +89,27 @@ def track(
     return without(paths, collisions(homotopy, paths)) if distinct else paths
 
 
+class RegularEnds(NamedTuple):
+    """Finite regular zeros in which paths ended.
+
+    Attributes:
+        points: of unit norm in each group of coordinates, shape ``(Q, N)``.
+        paths: which ones led there, shape ``(Q,)``.
+        errors: estimated relative errors, shape ``(Q,)``.
+    """
+
+    points: np.ndarray
+    paths: np.ndarray
+    errors: np.ndarray
+
+
 def track_regular(
     homotopy: Homotopy,
     starts: np.ndarray,
     settings: Settings,
     threads: int = 1,
     weights: np.ndarray | None = None,
-) -> tuple[np.ndarray, np.ndarray]:
+) -> RegularEnds:
     """Track once, in doubles, to a system all of whose finite zeros are regular.
 
     Args:
@@ -99,18 +119,15 @@ def track_regular(
         threads: number of threads; the result does not depend on it.
         weights: where each part is one term: part ``p`` is multiplied by
             ``exp(-weights[path, p] t)``, shape ``(P, parts)``.
-
-    Returns:
-        The normalised finite zeros, shape ``(Q, N)``, and the paths that led there, shape ``(Q,)``.
     """
     raw = _run(homotopy, homotopy.normalized(starts), settings, threads, False, weights)
     ended = np.flatnonzero(raw.reason == Reason.NONE)
     # A row may be small at a point near infinity, so that singular values would say nothing.
     sharp = refine(homotopy, None, raw.points[ended])
-    good = (sharp.moved <= 1e3 * raw.error[ended] + 1e-11) & (sharp.error < 1e-8)
+    good = (sharp.moved <= STRAYED * raw.error[ended] + LEAST) & (sharp.error < ROUGH)
     points = homotopy.normalized(sharp.points)
     good &= np.abs(points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf) > AT_INFINITY
-    return points[good], ended[good]
+    return RegularEnds(points[good], ended[good], sharp.error[good])
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,16 +148,36 @@ def _attempt(
     settings: Settings,
     threads: int,
     endgame: bool,
-    most: int | None = None,
+    known: Known = NOTHING,
 ) -> Paths:
+    orbits = known.orbits
+    if orbits is not None:
+        starts = starts[orbits.chosen]
     raw = _run(homotopy, starts, settings, threads, endgame)
     paths, regular = _judged(homotopy, raw)
     doubtful = paths.where(PathStatus.FAILED)
     doubtful = doubtful[raw.reason[doubtful] != Reason.START]
-    if not len(doubtful) or settings.digits < 32:
-        return paths
-    if most is not None and _all_are_found(homotopy, paths, most):
-        return _to_infinity(homotopy, paths, doubtful)
+    if len(doubtful) and settings.digits >= 32:
+        every = paths if orbits is None else orbits.expanded(paths, homotopy.groups)
+        if known.most is not None and _all_are_found(homotopy, every, known.most):
+            paths = _to_infinity(homotopy, paths, doubtful)
+        else:
+            more = _followed(homotopy, raw, regular, doubtful, settings, threads)
+            if not endgame:
+                more = without(more, more.where(PathStatus.SINGULAR))
+            paths = merged(paths, more, doubtful)
+    return paths if orbits is None else orbits.expanded(paths, homotopy.groups)
+
+
+def _followed(
+    homotopy: Homotopy,
+    raw: _Raw,
+    regular: np.ndarray,
+    doubtful: np.ndarray,
+    settings: Settings,
+    threads: int,
+) -> Paths:
+    """The doubtful paths, followed in more digits."""
     from nag.tracking.ends.follow import Unfinished, follow
 
     reached = raw.reason[doubtful] == Reason.NONE
@@ -151,10 +188,7 @@ def _attempt(
         raw.safe[doubtful],
         raw.safe_t[doubtful],
     )
-    new = follow(homotopy, unfinished, settings, threads)
-    if not endgame:
-        new = without(new, new.where(PathStatus.SINGULAR))
-    return merged(paths, new, doubtful)
+    return follow(homotopy, unfinished, settings, threads)
 
 
 def _all_are_found(homotopy: Homotopy, paths: Paths, most: int) -> bool:
@@ -248,9 +282,9 @@ def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
         sharp = refine(homotopy, None, points[ended])
         # Newton's method proves a regular zero where its steps are far smaller than the singular
         # values, which hardly change on the way.
-        near = (sharp.moved <= 1e3 * error + 1e-11) | (sharp.moved <= 0.1 * sharp.smallest)
+        near = (sharp.moved <= STRAYED * error + LEAST) | (sharp.moved <= BASIN * sharp.smallest)
         proved = near & (sharp.smallest > 0.5 * sharp.before)
-        proved &= (sharp.error < 1e-12) & (sharp.smallest > PROOF * sharp.error)
+        proved &= (sharp.error < SHARP) & (sharp.smallest > PROOF * sharp.error)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
         known = sizes * np.maximum(sharp.smallest, 1e-300) > RESIDUAL
         points[ended] = sharp.points
@@ -284,29 +318,15 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     without winding is compared with the regular ends as well.
     """
     # Paths that failed have no winding number.
-    chosen = np.flatnonzero(paths.simple | (paths.winding == 1))
+    chosen = np.flatnonzero((paths.simple | (paths.winding == 1)) & np.isfinite(paths.accuracy))
     if len(chosen) < 2 or not paths.simple.any():
         return chosen[:0]
-    points = paths.points[chosen]
-    # Projectively invariant coordinates: |<v, x>|^2 for a fixed v sorts the points, so that equal
-    # ones are neighbours in a window of that coordinate.
-    key = np.zeros(len(chosen))
-    for indices in homotopy.groups:
-        key += np.abs(points[:, list(indices)] @ _directions(len(indices))) ** 2
     found: set[int] = set()
-    tolerance = np.maximum(1e-10, 1e3 * paths.accuracy[chosen])
-    for i, j in neighbours(key, np.full(len(key), 1e-6)):
-        close = _distances(homotopy, points[i], points[j]) <= np.maximum(tolerance[i], tolerance[j])
-        close &= paths.simple[chosen[i]] | paths.simple[chosen[j]]
-        for a, b in zip(chosen[i[close]].tolist(), chosen[j[close]].tolist(), strict=True):
-            if paths.same(homotopy, a, b):
-                found |= {a, b}
+    for a, b in meeting(homotopy.groups, paths.points[chosen], paths.accuracy[chosen]).tolist():
+        i, j = chosen[[a, b]].tolist()
+        if (paths.simple[i] or paths.simple[j]) and paths.same(homotopy, i, j):
+            found |= {i, j}
     return np.array(sorted(found), dtype=np.int64)
-
-
-@cache
-def _directions(n: int) -> np.ndarray:
-    return np.exp(1j * np.arange(n) ** 2)
 
 
 def alike(paths: Paths) -> np.ndarray:
@@ -331,18 +351,6 @@ def alike(paths: Paths) -> np.ndarray:
             same &= np.abs(bends[i] - bends[j]).max(axis=1) <= BENT * sizes
             found.update(indices[i[same]].tolist(), indices[j[same]].tolist())
     return np.array(sorted(found), dtype=np.int64)
-
-
-def _distances(homotopy: Homotopy, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Distances of projective points of unit norm, shape ``(P,)``; the largest of the groups."""
-    largest = np.zeros(len(x))
-    for indices in homotopy.groups:
-        a, b = x[:, list(indices)], y[:, list(indices)]
-        product = (b.conj() * a).sum(axis=1, keepdims=True)
-        size = np.abs(product)
-        turned = b * np.where(size > 0, product / np.where(size > 0, size, 1), 1)
-        largest = np.maximum(largest, np.linalg.norm(a - turned, axis=1))
-    return largest
 
 
 def merged(old: Paths, new: Paths, indices: np.ndarray) -> Paths:

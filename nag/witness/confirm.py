@@ -9,11 +9,11 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import DIGITS, vanish, vanish_at, vanish_in_balls
-from nag.algebra.number import decimal_digits
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, analyse
+from nag.numerics.small_values import ON
 from nag.witness.close_points import Fine, zero_from
-from nag.witness.cutting import ON, Cut
+from nag.witness.cutting import Cut
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded
 
@@ -65,8 +65,7 @@ def vanishing(
     evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
     small = evaluator.residuals(x)[:, 0] < ON
     rounding = np.abs(evaluator.values(x)) <= CERTAIN * evaluator.absolute(x)
-    coefficients = [c for g in (f, *cut.polynomials) for c in g.terms.values()]
-    if max(map(decimal_digits, coefficients), default=0) > ROUND_NUMBERS:
+    if max(g.digits for g in (f, *cut.polynomials)) > ROUND_NUMBERS:
         rounding[:] = False
     rounding[list(fine)] = False
     return [

@@ -16,13 +16,11 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.small_values import SLACK
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.witness.isosingular import Deflated, Level
 from nag.witness.slices import padded
 
-# A value relative to the size of its terms: zeros lie below 2.5e-13 at sharpened points, others
-# above 2e-6 in all systems measured.
-ON = 1e-9
 # A rank is read where neighbouring singular values differ by this factor, and at a point that is
 # known to be singular, though perhaps not well, below this value.
 GAP = 1e3
@@ -32,8 +30,6 @@ NEARLY_SINGULAR = 1e-5
 NEAR = 1e-7
 # A deflation of more steps that add unknowns has not been met in the literature's examples.
 MOST_DEFLATIONS = 4
-# A random choice of null vectors may be an unlucky one.
-ATTEMPTS = 3
 # Gradients below this, relative to what their degree lets them have, are not scaled up further.
 FLAT = 1e-4
 # Newton's method from the end point of a path must arrive within this many steps.
@@ -166,6 +162,12 @@ def numerical_corank(singular: np.ndarray, columns: int, small: float) -> int:
     return corank
 
 
+def is_end(x: np.ndarray, accuracy: float, zero: np.ndarray) -> bool:
+    """Whether a zero is where a path ended, not somewhere in the neighbourhood of its end ``x``."""
+    distance = np.linalg.norm(zero - x) / (1 + np.linalg.norm(x))
+    return bool(distance <= max(SLACK * accuracy, NEAR))
+
+
 def _null_basis(rows: np.ndarray, columns: int) -> np.ndarray:
     """Orthonormal basis of the directions along the slice, shape ``(columns, columns - d)``."""
     a = padded(rows, 1 + columns)[:, 1:]
@@ -183,7 +185,7 @@ def regular_on(evaluator: Evaluator, rows: np.ndarray, sharpened: Sharpened) -> 
     s = np.zeros(basis.shape[1])
     values = np.linalg.svd(matrix, compute_uv=False)
     s[: len(values)] = values[: len(s)]
-    limit = max(1e3 * sharpened.step, 1e-11) * max(1.0, s.max(initial=0.0))
+    limit = max(SLACK * sharpened.step, VANISHING) * max(1.0, s.max(initial=0.0))
     return len(s) == 0 or bool(s[-1] > limit)
 
 
@@ -238,11 +240,7 @@ def find_cut(
     end = _End(rows, x, accuracy)
     if not deflate:
         return end.regular_subset(_not_deflated(equations), x, rng)
-    for _ in range(ATTEMPTS):
-        found = _deflated_cut(equations, end, rng)
-        if found is not None:
-            return found
-    return None
+    return _deflated_cut(equations, end, rng)
 
 
 def _not_deflated(equations: Equations) -> Deflated:
@@ -290,9 +288,7 @@ class _End:
         """
         rows, n = self.rows, system.n
         sharpened = sharpen(system.evaluator, rows, z)
-        # A regular zero is where the path ended, not somewhere in its neighbourhood.
-        distance = np.linalg.norm(sharpened.z[:n] - self.x) / (1 + np.linalg.norm(self.x))
-        if not sharpened.converged or distance > max(1e3 * self.accuracy, NEAR):
+        if not sharpened.converged or not is_end(self.x, self.accuracy, sharpened.z[:n]):
             return None
         chosen = _square_rows(system.evaluator, rows, sharpened.z)
         if chosen is None:

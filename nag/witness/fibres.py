@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from nag.numerics.coincidence import coincident
+from nag.numerics.small_values import ON
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.settings import Settings
@@ -23,11 +24,10 @@ from nag.witness.close_points import (
 )
 from nag.witness.cutting import (
     MOST_DEFLATIONS,
-    NEAR,
-    ON,
     Cut,
     Equations,
     find_cut,
+    is_end,
     regular_on,
     sharpen,
 )
@@ -113,12 +113,6 @@ class Tracker:
         """Tell of the step ``done`` of ``total``; 0 if their number is not known."""
         if self.progress is not None:
             self.progress(stage, done, total)
-
-    def attempts(self, count: int) -> Iterator[Tracker]:
-        """How to track where paths may fail: as asked for, and then with the careful settings."""
-        yield self
-        for _ in range(count - 1):
-            yield replace(self, settings="careful")
 
 
 @dataclass(frozen=True, eq=False)
@@ -332,11 +326,10 @@ def admit(
         if fibre.cut.deflated != deflate:
             continue
         sharpened = sharpen(fibre.cut.evaluator, rows, fibre.lifted(x))
-        end, scale = sharpened.z[:n], 1 + np.linalg.norm(x)
-        near = np.linalg.norm(end - x) < max(1e3 * accuracy, NEAR) * scale
+        end = sharpened.z[:n]
         if (
             sharpened.converged
-            and near
+            and is_end(x, accuracy, end)
             and regular_on(fibre.cut.evaluator, rows, sharpened)
             and equations.evaluator.residuals(end[None]).max(initial=0.0) < ON
         ):

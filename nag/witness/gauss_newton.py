@@ -18,6 +18,8 @@ MOST_STEPS = 200
 # Residuals from which the undamped steps take over, and that a zero must reach.
 CLOSE = 1e-6
 ZERO = 1e-13
+# The last step at a zero, relative to the point.
+SHARP = 1e-10
 # Singular values below this, relative to the largest, may belong to the kernel on the zero set.
 SMALL = 1e-3
 
@@ -92,4 +94,4 @@ def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> Ze
         if step < 1e-14 or (step < 1e-11 and step >= last):
             break
     residual = float(evaluator.residuals(x[None]).max(initial=0.0))
-    return Zero(x, corank, step, step < 1e-10 and residual < ZERO)
+    return Zero(x, corank, step, step < SHARP and residual < ZERO)

@@ -12,13 +12,13 @@ from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
+from nag.numerics.small_values import NONZERO, ON
 from nag.witness.close_points import DIGITS, Fine, distance
-from nag.witness.cutting import ON, Cut, Equations
+from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres, move
 from nag.witness.slices import padded, rows_through, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
-ATTEMPTS = 4
 # What rounding may do to a point that is close to others, and how much further the next one is.
 SPREAD = 10.0
 
@@ -51,30 +51,25 @@ def is_member(
         return Membership.FOREIGN, counts
     dimension = fibres[0].dimension
     scale = 1 + float(np.linalg.norm(point))
-    for _ in range(ATTEMPTS):
-        target = rows_through(rng, dimension, point)
-        gamma = complex(unit_complex(rng))
-        unclear = False
-        for fibre in fibres:
-            ends = move(fibre, flag[:dimension], target, gamma, tracker, endgame=True)
-            counts += ends.counts.repeatable
-            if ends.fine:
-                answers = [
-                    _at_end(point, accuracy * scale, fibre, ends, i, target) for i in ends.fine
-                ]
-                if Membership.MEMBER in answers:
-                    return Membership.MEMBER, counts
-                unclear |= Membership.UNDECIDED in answers
-                ends = ends.without(ends.fine)
-            x = ends.points[ends.finite, : fibre.cut.n]
-            distances = np.linalg.norm(x - point, axis=1) / scale
-            if compared(distances, accuracy)[0].any():
+    target = rows_through(rng, dimension, point)
+    gamma = complex(unit_complex(rng))
+    unclear = False
+    for fibre in fibres:
+        ends = move(fibre, flag[:dimension], target, gamma, tracker, endgame=True)
+        counts += ends.counts.repeatable
+        if ends.fine:
+            answers = [_at_end(point, accuracy * scale, fibre, ends, i, target) for i in ends.fine]
+            if Membership.MEMBER in answers:
                 return Membership.MEMBER, counts
-            errors = np.maximum(accuracy, ends.accuracy[ends.finite])
-            unclear |= bool(ends.failed.any() or np.any(compared(distances, errors)))
-        if not unclear:
-            return Membership.FOREIGN, counts
-    return Membership.UNDECIDED, counts
+            unclear |= Membership.UNDECIDED in answers
+            ends = ends.without(ends.fine)
+        x = ends.points[ends.finite, : fibre.cut.n]
+        distances = np.linalg.norm(x - point, axis=1) / scale
+        if compared(distances, accuracy)[0].any():
+            return Membership.MEMBER, counts
+        errors = np.maximum(accuracy, ends.accuracy[ends.finite])
+        unclear |= bool(ends.failed.any() or np.any(compared(distances, errors)))
+    return Membership.UNDECIDED if unclear else Membership.FOREIGN, counts
 
 
 def _at_end(
@@ -166,7 +161,7 @@ def _cut(
                 continue
             fibres = cut_fibres(
                 component.points,
-                max(component.accuracy, 1e-12),
+                component.accuracy,
                 equations,
                 component.slice.rows,
                 np.random.default_rng(0),
@@ -196,10 +191,13 @@ def memberships(
     tracker = Tracker(settings, threads)
     point = np.asarray(point, dtype=complex)
     system = decomposition.system
-    if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > 1e-6:
+    if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > NONZERO:
         return (Membership.FOREIGN,) * len(decomposition.components)
     answers = []
     for component in decomposition.components:
+        if component.dimension == 0 and _far(component, point, accuracy):
+            answers.append(Membership.FOREIGN)
+            continue
         try:
             fibres = component_fibres(system, component)
         except ValueError:
@@ -208,6 +206,12 @@ def memberships(
         answer, _ = is_member(point, accuracy, fibres, component.slice.rows, rng, tracker)
         answers.append(answer)
     return tuple(answers)
+
+
+def _far(isolated: WitnessSet, point: np.ndarray, accuracy: float) -> bool:
+    """Whether a point is none of some isolated ones, which no slice has to move for."""
+    distances = np.linalg.norm(isolated.points - point, axis=1) / (1 + np.linalg.norm(point))
+    return not np.any(compared(distances, max(accuracy, isolated.accuracy)))
 
 
 class UndecidedError(ValueError):

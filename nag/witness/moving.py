@@ -9,14 +9,13 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.witness.cutting import ON
+from nag.numerics.small_values import ON
 from nag.witness.error_radii import Sharp, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
 from nag.witness.slices import to_slice, unit_complex
 from nag.witness.witness import Slice, WitnessSet
 
-ATTEMPTS = 3
 # Rows whose singular values differ by more than this count as dependent.
 DEPENDENT = 1e-10
 
@@ -124,24 +123,21 @@ def witness_at(
     rows, goal = component.slice.rows, orthonormal_rows(target.rows)
     fibres = component_fibres(system, component)
     evaluator = Evaluator.of(system.polynomials, system.n)
-    lost = ""
-    for tracker in Tracker(settings, threads).attempts(ATTEMPTS):
-        there = arrival(fibres, rows, goal, rng, tracker)
-        found = [in_order(each) for each in there.sharp]
-        points = np.vstack([each.fibre.x for each in found])
-        residual = float(evaluator.residuals(points).max(initial=0.0))
-        if len(points) == component.degree and np.isfinite(there.accuracy) and residual < ON:
-            return replace(
-                component,
-                slice=to_slice(goal),
-                points=points,
-                residual=residual,
-                radii=np.vstack([each.radii for each in found]),
-                digits=np.concatenate([each.digits for each in found]),
-                fibres=tuple(each.fibre for each in found),
-            )
-        lost = (
+    there = arrival(fibres, rows, goal, rng, Tracker(settings, threads))
+    found = [in_order(each) for each in there.sharp]
+    points = np.vstack([each.fibre.x for each in found])
+    residual = float(evaluator.residuals(points).max(initial=0.0))
+    if len(points) < component.degree or not np.isfinite(there.accuracy) or residual >= ON:
+        raise SliceError(
             f"of the {component.degree} points of the component, the slice meets {there.infinite} "
             f"at infinity and {there.irregular} where the intersection is not transversal"
         )
-    raise SliceError(lost)
+    return replace(
+        component,
+        slice=to_slice(goal),
+        points=points,
+        residual=residual,
+        radii=np.vstack([each.radii for each in found]),
+        digits=np.concatenate([each.digits for each in found]),
+        fibres=tuple(each.fibre for each in found),
+    )

@@ -18,7 +18,6 @@ from nag.numerics.coincidence import compared
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.slices import rows_through, unit_complex
 
-ATTEMPTS = 4
 # Relative error of ends at a point of multiplicity m, about the m-th root of rounding.
 MULTIPLE = 1e-7
 
@@ -43,22 +42,21 @@ def multiplicity_at(
     """
     fibres = [fibre for fibre in fibres if len(fibre)]
     dimension, scale = len(rows), 1 + float(np.linalg.norm(point))
-    for _ in range(ATTEMPTS):
-        target = rows_through(rng, dimension, point)
-        gamma = complex(unit_complex(rng))
-        count, unclear = 0, False
-        for fibre in fibres:
-            if dimension == 0:
-                ends, regular = fibre.x, np.ones(len(fibre), dtype=bool)
-            else:
-                moved = move(fibre, rows, target, gamma, tracker, endgame=True)
-                unclear |= bool(moved.failed.any())
-                ends = moved.points[moved.finite, : fibre.cut.n]
-                regular = moved.regular[moved.finite]
-            distance = np.linalg.norm(ends - point, axis=1) / scale
-            here, doubtful = compared(distance, np.where(regular, accuracy, MULTIPLE))
-            count += int(here.sum())
-            unclear |= bool(doubtful.any())
-        if not unclear:
-            return count
-    return None
+    target = rows_through(rng, dimension, point)
+    gamma = complex(unit_complex(rng))
+    count = 0
+    for fibre in fibres:
+        if dimension == 0:
+            ends, regular = fibre.x, np.ones(len(fibre), dtype=bool)
+        else:
+            moved = move(fibre, rows, target, gamma, tracker, endgame=True)
+            if moved.failed.any():
+                return None
+            ends = moved.points[moved.finite, : fibre.cut.n]
+            regular = moved.regular[moved.finite]
+        distance = np.linalg.norm(ends - point, axis=1) / scale
+        here, doubtful = compared(distance, np.where(regular, accuracy, MULTIPLE))
+        if doubtful.any():
+            return None
+        count += int(here.sum())
+    return count

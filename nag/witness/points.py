@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from nag.numerics.coincidence import coincident
 from nag.witness.close_points import (
     DIGITS,
     WORDS,
@@ -23,9 +22,6 @@ from nag.witness.cutting import Cut
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points
 from nag.witness.fibres import STEEPER, Fibre, Tracker, move
 from nag.witness.witness import PathCounts
-
-# Relative error that ends of paths may have.
-ERROR = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,13 +140,6 @@ class Points:
         cuts = self.cuts if cut in self.cuts else (*self.cuts, cut)
         known = self.fine if fine is None else {**self.fine, len(self): fine}
         return Points(self.rows, cuts, (*self.which, cuts.index(cut)), (*self.z, z), known)
-
-    def place(self, x: np.ndarray) -> int | None:
-        """The index of the point at ``x``, if there is one."""
-        if not len(self):
-            return None
-        near = coincident(self.x, x, ERROR)
-        return int(near.argmax()) if near.any() else None
 
 
 def with_fine(fibres: Sequence[Fibre], rows: np.ndarray) -> list[Fibre]:

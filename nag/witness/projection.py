@@ -14,14 +14,14 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
+from nag.numerics.small_values import SINGULAR
 from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
-from nag.witness.moving import arrival
+from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import Slice, WitnessSet
 
-ATTEMPTS = 3
 # Slices on which the numbers of points must agree.
 SLICES = 2
 # Newton's last step, relative to the point, at points that are compared.
@@ -45,6 +45,7 @@ class Projection:
         slice: the pseudo-witness slice; its first ``dimension`` equations contain no other
             variables than those projected to.
         points: the component's points on it, shape ``(degree * fibre_degree, n)``.
+        accuracy: largest estimated relative error of these.
     """
 
     coordinates: tuple[int, ...]
@@ -54,6 +55,7 @@ class Projection:
     fibre_degree: int
     slice: Slice
     points: np.ndarray
+    accuracy: float
 
     def __repr__(self) -> str:
         return (
@@ -69,7 +71,7 @@ def _image_dimension(fibre: Fibre, coordinates: Sequence[int]) -> int:
     _, _, vh = np.linalg.svd(fibre.cut.evaluator.balanced_jacobian(z))
     tangent, _ = np.linalg.qr(vh[len(z) - fibre.dimension :].conj().T[: fibre.cut.n])
     s = np.linalg.svd(tangent[list(coordinates)], compute_uv=False)
-    return fibre.dimension - numerical_corank(s, fibre.dimension, 1e-9)
+    return fibre.dimension - numerical_corank(s, fibre.dimension, SINGULAR)
 
 
 def _special_rows(
@@ -110,12 +112,14 @@ def project(
     r = _image_dimension(fibres[0], chosen)
     tracker = Tracker(settings, threads)
     found = [_pseudo_witness(fibres, component, chosen, r, rng, tracker) for _ in range(SLICES)]
-    degrees = {(degree, fibre_degree) for degree, fibre_degree, *_ in found}
+    degrees = {numbers for numbers, *_ in found}
     if len(degrees) > 1:
         raise ProjectionError("the numbers of points differ between two slices")
-    degree, fibre_degree, rows, points = found[0]
+    (degree, fibre_degree), rows, there = found[0]
+    points = there.x
     points.setflags(write=False)
-    return Projection(chosen, r, degree, d - r, fibre_degree, to_slice(rows), points)
+    cut = to_slice(rows)
+    return Projection(chosen, r, degree, d - r, fibre_degree, cut, points, there.accuracy)
 
 
 def _pseudo_witness(
@@ -125,20 +129,20 @@ def _pseudo_witness(
     r: int,
     rng: np.random.Generator,
     tracker: Tracker,
-) -> tuple[int, int, np.ndarray, np.ndarray]:
-    """Degree of the image and of the fibre, the slice's rows, and the points on it."""
+) -> tuple[tuple[int, int], np.ndarray, Arrival]:
+    """Degrees of the image and of the fibre, the slice's rows, and the points on it."""
     rows, d = component.slice.rows, component.dimension
-    reason = "paths failed"
-    for how in tracker.attempts(ATTEMPTS):
-        target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
-        there = arrival(fibres, rows, target, rng, how)
-        # Finite points of a generic slice are regular (Bertini's theorem).
-        if there.irregular or not there.accuracy < SHARP:
-            continue
-        x = there.x
-        images = clusters(x[:, list(coordinates)], np.full(len(x), there.accuracy))
-        sizes = {len(image) for image in images}
-        if len(sizes) == 1:
-            return len(images), sizes.pop(), target, x
-        reason = "the fibres over the image's points differ in degree"
-    raise ProjectionError(f"{reason}; the component may not be irreducible")
+    target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
+    there = arrival(fibres, rows, target, rng, tracker)
+    # Finite points of a generic slice are regular (Bertini's theorem).
+    if there.irregular or not there.accuracy < SHARP:
+        raise ProjectionError("paths failed; the component may not be irreducible")
+    x = there.x
+    images = clusters(x[:, list(coordinates)], np.full(len(x), there.accuracy))
+    sizes = {len(image) for image in images}
+    if len(sizes) > 1:
+        raise ProjectionError(
+            "the fibres over the image's points differ in degree; the component may not be "
+            "irreducible"
+        )
+    return (len(images), sizes.pop()), target, there

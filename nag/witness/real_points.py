@@ -15,7 +15,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import coincident
-from nag.witness.cutting import ON
+from nag.numerics.small_values import LEAST, ON
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import descend, polish
 from nag.witness.membership import Membership, component_fibres, is_member
@@ -89,7 +89,7 @@ def real_points_near(
             zeros += 1
             if coincident(known, x, pull if pull < ALMOST else 0.0).any():
                 continue
-            answer, _ = is_member(x + 0j, 1e-12, fibres, component.slice.rows, rng, tracker)
+            answer, _ = is_member(x + 0j, LEAST, fibres, component.slice.rows, rng, tracker)
             undecided += answer is Membership.UNDECIDED
             if answer is Membership.MEMBER:
                 known = np.vstack([known, x])

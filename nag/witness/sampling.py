@@ -9,14 +9,13 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.witness.cutting import ON
+from nag.numerics.small_values import ON
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
 from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows
 from nag.witness.witness import WitnessSet
 
-ATTEMPTS = 4
 # Newton's last step, relative to the point, at a sample.
 SHARP = 1e-10
 
@@ -63,22 +62,20 @@ def sample(
     points are independent. Of a component of dimension 0, its points are drawn.
 
     Raises:
-        SamplingError: if a path fails again and again.
+        SamplingError: if a path fails.
     """
     rng = np.random.default_rng([seed, 3])
     fibres = component_fibres(system, component)
+    tracker = Tracker(settings, threads)
     evaluator = Evaluator.of(system.polynomials, system.n)
     points, accuracy = np.zeros((count, system.n), dtype=complex), float(np.finfo(float).eps)
     for k in range(count):
-        for tracker in Tracker(settings, threads).attempts(ATTEMPTS):
-            _, there = at_random(fibres, component.slice.rows, rng, tracker)
-            x = there.x
-            if len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON:
-                points[k], accuracy = x[0], max(accuracy, there.accuracy)
-                break
-        else:
+        _, there = at_random(fibres, component.slice.rows, rng, tracker)
+        x = there.x
+        if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
             some = _samples(evaluator, points[:k], accuracy)
-            raise SamplingError(f"point {k + 1} of {count}: {ATTEMPTS} paths failed", some)
+            raise SamplingError(f"point {k + 1} of {count}: the path to it failed", some)
+        points[k], accuracy = x[0], max(accuracy, there.accuracy)
     return _samples(evaluator, points, accuracy)
 
 

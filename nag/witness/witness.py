@@ -219,7 +219,7 @@ class WitnessSet:
             Complex array of shape ``(count, n)``, in the order of the system's variables.
 
         Raises:
-            nag.witness.sampling.SamplingError: if a path fails again and again.
+            nag.witness.sampling.SamplingError: if a path fails.
             ValueError: if ``count`` is no whole number from 0 up.
 
         >>> import nag

@@ -116,8 +116,8 @@ def family_monodromy(
     """
     family = symmetric.family
     values, point = first_solution(family, rng)
-    here = Fibre.of(values, symmetric, point[None])
-    there = Fibre.of(random_values(family, rng), symmetric, point[None][:0])
+    here = Fibre.of(values, symmetric, point[None], np.zeros(1))
+    there = Fibre.of(random_values(family, rng), symmetric, point[None][:0], np.zeros(0))
     weights = scaling_weights(family)
     tally = _Tally()
     idle = 0
@@ -126,10 +126,10 @@ def family_monodromy(
             progress("monodromy", len(here.points), count or 0)
         forward, backward = _ways(family, here, there, weights, idle > 0, rng)
         ends = forward(here.points, partial(tally.moved, family, threads))
-        gained = there.add(ends)
+        gained = there.add(*ends)
         # The way is one to one: what it did not reach leads back to solutions that are new.
-        left = there.missing_from(ends)
-        gained += here.add(backward(left, partial(tally.moved, family, threads)))
+        left = there.missing_from(*ends)
+        gained += here.add(*backward(left, partial(tally.moved, family, threads)))
         tally.loops += 1
         if len(here.points) * len(symmetric) > MOST_PATHS:
             raise StartError(f"parameter: more than {MOST_PATHS} solutions")
@@ -142,8 +142,9 @@ def family_monodromy(
     )
 
 
-Move = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
-Way = Callable[[np.ndarray, Move], np.ndarray]
+Ends = tuple[np.ndarray, np.ndarray]
+Move = Callable[[np.ndarray, np.ndarray, np.ndarray], Ends]
+Way = Callable[[np.ndarray, Move], Ends]
 
 
 def _ways(
@@ -154,19 +155,24 @@ def _ways(
     further: bool,
     rng: np.random.Generator,
 ) -> tuple[Way, Way]:
-    """A way between two systems and back, each a function of points and of how to move them."""
+    """A way between two systems and back, each a function of points and of how to move them.
+
+    They lead to points and their relative errors.
+    """
     n = family.n
     if len(weights) and not further:
         scale = random_scaling(weights, rng)
         x, scaled = scale[:n], there.values * scale[n:]
-        return (
-            lambda points, move: move(here.values, scaled, points) / x,
-            lambda points, move: move(scaled, here.values, points * x),
-        )
+
+        def scaled_back(points: np.ndarray, move: Move) -> Ends:
+            ends, errors = move(here.values, scaled, points)
+            return ends / x, errors
+
+        return scaled_back, lambda points, move: move(scaled, here.values, points * x)
     by = random_values(family, rng)
     return (
-        lambda points, move: move(by, there.values, move(here.values, by, points)),
-        lambda points, move: move(by, here.values, move(there.values, by, points)),
+        lambda points, move: move(by, there.values, move(here.values, by, points)[0]),
+        lambda points, move: move(by, here.values, move(there.values, by, points)[0]),
     )
 
 
@@ -186,10 +192,10 @@ class _Tally:
         first: np.ndarray,
         second: np.ndarray,
         points: np.ndarray,
-    ) -> np.ndarray:
-        """Solutions moved from the first parameters to the second; lost ones are left out."""
+    ) -> Ends:
+        """Solutions moved from the first parameters to the second but for lost ones, and errors."""
         if not len(points):
-            return points
+            return points, np.zeros(0)
         line = parameter_line(family, first, second)
         paths = track(
             line.homotopy, line.starts(points), SETTINGS, threads, endgame=False, distinct=False
@@ -199,4 +205,5 @@ class _Tally:
         self.paths += len(points)
         self.steps += int(paths.steps.sum())
         self.lost += len(points) - len(arrived)
-        return ends[np.isfinite(ends).all(axis=1)]
+        finite = np.isfinite(ends).all(axis=1)
+        return ends[finite], paths.accuracy[arrived][finite]

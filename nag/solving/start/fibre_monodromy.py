@@ -16,14 +16,13 @@ import numpy as np
 
 from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenized, unit
 from nag.tracking.homotopy import Homotopy, straight_line
+from nag.tracking.projective import meeting
 from nag.tracking.settings import named
 from nag.tracking.track import track_regular
 
 # Loops without a new solution after which the search ends, and loops in all.
 MOST_IDLE = 12
 MOST_LOOPS = 200
-# Projective distance of points that are one.
-SAME = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,11 +33,17 @@ class GenericSystem:
         supports: one for each equation, each with the origin, shape ``(terms, n)``.
         coefficients: those of each support's points.
         points: distinct solutions in projective coordinates of unit norm, shape ``(P, 1 + n)``.
+        errors: their relative errors, shape ``(P,)``.
     """
 
     supports: tuple[np.ndarray, ...]
     coefficients: tuple[np.ndarray, ...]
     points: np.ndarray
+    errors: np.ndarray
+
+    def holding(self, points: np.ndarray, errors: np.ndarray) -> GenericSystem:
+        """The same system with these solutions."""
+        return replace(self, points=points, errors=errors)
 
     @cached_property
     def rows(self) -> tuple[Terms, ...]:
@@ -59,47 +64,37 @@ def seeded(supports: Sequence[np.ndarray], rng: np.random.Generator) -> GenericS
         c = c - (c @ monomials) / np.vdot(monomials, monomials) * monomials.conj()
         coefficients.append(c)
     point = np.append(1.0, x)[None] / np.sqrt(1 + len(x))
-    return GenericSystem(tuple(supports), tuple(coefficients), point)
-
-
-def equal_pairs(points: np.ndarray) -> np.ndarray:
-    """Pairs ``i < j`` of projective points of unit norm that are one, shape ``(pairs, 2)``."""
-    # Equal points are neighbours in a fixed projection, which sorts them.
-    key = np.abs(points @ np.exp(1j * np.arange(points.shape[1]) ** 2)) ** 2
-    order = np.argsort(key, kind="stable")
-    pairs = []
-    for a in np.flatnonzero(np.diff(key[order]) <= 10 * SAME):
-        i = order[a]
-        for j in order[a + 1 :]:
-            if key[j] - key[i] > 10 * SAME:
-                break
-            if 1 - abs(np.vdot(points[i], points[j])) ** 2 < SAME**2 + 1e-14:
-                pairs.append((min(i, j), max(i, j)))
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    return GenericSystem(tuple(supports), tuple(coefficients), point, np.zeros(1))
 
 
 class Fibre:
-    """Distinct projective points of unit norm."""
+    """Distinct projective points of unit norm, and their relative errors."""
 
-    def __init__(self, points: np.ndarray, most: int) -> None:
-        self.points = points[:0]
+    def __init__(self, points: np.ndarray, errors: np.ndarray, most: int) -> None:
+        self.points, self.errors = points[:0], errors[:0]
         self.most = most
-        self.add(points)
+        self.add(points, errors)
 
-    def add(self, points: np.ndarray) -> int:
+    def add(self, points: np.ndarray, errors: np.ndarray) -> int:
         """Add those that are new; returns how many."""
         old = len(self.points)
-        everything = np.concatenate([self.points, points])
-        repeated = equal_pairs(everything)[:, 1]
-        new = np.setdiff1d(np.arange(old, len(everything)), repeated)[: self.most - old]
-        self.points = np.concatenate([self.points, everything[new]])
+        points, errors = np.concatenate([self.points, points]), np.append(self.errors, errors)
+        repeated = equal_pairs(points, errors)[:, 1]
+        new = np.setdiff1d(np.arange(old, len(points)), repeated)[: self.most - old]
+        kept = np.append(np.arange(old), new)
+        self.points, self.errors = points[kept], errors[kept]
         return len(new)
 
-    def missing_from(self, points: np.ndarray) -> np.ndarray:
+    def missing_from(self, points: np.ndarray, errors: np.ndarray) -> np.ndarray:
         """Those of the fibre that are not among ``points``."""
-        everything = np.concatenate([points, self.points])
-        repeated = equal_pairs(everything)[:, 1]
-        return everything[np.setdiff1d(np.arange(len(points), len(everything)), repeated)]
+        both = np.concatenate([points, self.points]), np.append(errors, self.errors)
+        repeated = equal_pairs(*both)[:, 1] - len(points)
+        return self.points[np.setdiff1d(np.arange(len(self.points)), repeated)]
+
+
+def equal_pairs(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
+    """Pairs ``i < j`` of projective points of unit norm that are one, shape ``(pairs, 2)``."""
+    return meeting((range(points.shape[1]),), points, errors)
 
 
 def by_monodromy(
@@ -125,7 +120,8 @@ def by_monodromy(
     other = replace(system, coefficients=tuple(unit(rng, len(s)) for s in system.supports))
     degrees = group_degrees(system.rows, groups)
     first, second = (homogenized(each.rows, n, groups, degrees) for each in (system, other))
-    here, there = Fibre(system.points, most), Fibre(system.points[:0], most)
+    here = Fibre(system.points, system.errors, most)
+    there = Fibre(system.points[:0], system.errors[:0], most)
     spent, idle = 0, 0
     for _ in range(MOST_LOOPS):
         if len(here.points) >= most or idle >= MOST_IDLE:
@@ -135,22 +131,22 @@ def by_monodromy(
         backward = straight_line(second, first, 1 / gamma)
         ends = _moved(forward, here.points, threads)
         spent += len(here.points)
-        gained = there.add(ends)
+        gained = there.add(*ends)
         # The way is one to one: what it did not reach leads back to solutions that are new.
-        left = there.missing_from(ends)
-        gained += here.add(_moved(backward, left, threads))
+        left = there.missing_from(*ends)
+        gained += here.add(*_moved(backward, left, threads))
         spent += len(left)
         idle = 0 if gained else idle + 1
         # The question costs as much as a loop: after 1, 3, 7 loops in vain.
         if idle and not idle & (idle + 1) and complete is not None and complete(here.points):
-            return replace(system, points=here.points), spent, True
-    return replace(system, points=here.points), spent, False
+            return system.holding(here.points, here.errors), spent, True
+    return system.holding(here.points, here.errors), spent, False
 
 
-def _moved(homotopy: Homotopy, points: np.ndarray, threads: int) -> np.ndarray:
-    if not len(points):
-        return points
-    return track_regular(homotopy, points, named("fast"), threads)[0]
+def _moved(homotopy: Homotopy, points: np.ndarray, threads: int) -> tuple[np.ndarray, np.ndarray]:
+    """Where paths from ``points`` arrive, and the errors there."""
+    ends = track_regular(homotopy, points, named("fast"), threads)
+    return ends.points, ends.errors
 
 
 def start_at(

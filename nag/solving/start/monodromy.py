@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -54,7 +53,7 @@ def _up_to_the_mixed_volume(
     if volume:
         system, spent, _ = by_monodromy(system, volume, rng, threads)
     else:
-        system = replace(system, points=system.points[:0])
+        system = system.holding(system.points[:0], system.errors[:0])
     if len(system.points) != volume:
         raise StartError(
             f"monodromy: {len(system.points)} of the {volume} solutions of the start system were "

@@ -62,7 +62,8 @@ class Pencil:
         supports[self.row], coefficients[self.row] = enlarged, c
         if points is None:
             points = np.zeros((0, 1 + n), dtype=np.complex128)
-        return GenericSystem(tuple(supports), tuple(coefficients), points)
+        errors = np.zeros(len(points))
+        return GenericSystem(tuple(supports), tuple(coefficients), points, errors)
 
 
 def irreducible_row(supports: Sequence[np.ndarray], rng: np.random.Generator) -> int | None:
@@ -128,8 +129,8 @@ def trace_is_linear(
             homogenized(each.rows, n, groups, degrees) for each in (begin, pencil.system(shift))
         )
         homotopy = straight_line(first, second, complex(unit(rng, 1)[0]))
-        ends, arrived = track_regular(homotopy, points, named("default"), threads)
-        if len(arrived) < len(points):
+        ends = track_regular(homotopy, points, named("default"), threads).points
+        if len(ends) < len(points):
             return False
         slopes.append((ends[:, 1:] / ends[:, :1] - points[:, 1:] / points[:, :1]) / shift)
     differences = slopes[0] - slopes[1]

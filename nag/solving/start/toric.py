@@ -10,7 +10,6 @@ Reference:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import count
 
 import numpy as np
@@ -97,7 +96,7 @@ def binomial_solutions(
     if not np.array_equal(vectors @ adjugate, exact):
         raise StartError("polyhedral: the exponents are too large")
     first = (inverse @ right[:, :, None])[:, :, 0]
-    angles, owners = [], []
+    angles, owners = [np.zeros((0, n))], [np.zeros(0, dtype=np.int64)]
     for k, volume in enumerate(volumes.tolist()):
         turns = _span(adjugate[k].T % volume, volume)
         angles.append(first[k] + 2 * np.pi / volume * turns)
@@ -132,7 +131,8 @@ def by_degeneration(
     """
     n = len(cells.supports)
     groups = (tuple(range(n)),)
-    system = GenericSystem(cells.supports, coefficients, np.zeros((0, 1 + n), dtype=np.complex128))
+    empty = np.zeros((0, 1 + n), dtype=np.complex128)
+    system = GenericSystem(cells.supports, coefficients, empty, np.zeros(0))
     if not len(cells.edges):
         return system, 0
     angles, owners = binomial_solutions(cells, coefficients)
@@ -142,23 +142,22 @@ def by_degeneration(
     homotopy = Homotopy(_single_terms(homogenized(system.rows, n, groups, degrees)))
     settings, length = named("fast"), LENGTH
     left = np.arange(len(starts))
-    ends = np.zeros((len(starts), 1 + n), dtype=np.complex128)
+    ends, errors = np.zeros((len(starts), 1 + n), dtype=np.complex128), np.zeros(len(starts))
     spent = 0
     for _ in range(ATTEMPTS):
-        zeros, arrived = track_regular(
-            homotopy, starts[left], settings, threads, length * weights[left]
-        )
+        found = track_regular(homotopy, starts[left], settings, threads, length * weights[left])
         spent += len(left)
         ends[left] = 0.0
-        ends[left[arrived]] = zeros
+        ends[left[found.paths]], errors[left[found.paths]] = found.points, found.errors
         ended = np.flatnonzero(ends.any(axis=1))
-        alone = np.setdiff1d(ended, ended[equal_pairs(ends[ended])])
+        alone = np.setdiff1d(ended, ended[equal_pairs(ends[ended], errors[ended])])
         left = np.setdiff1d(np.arange(len(starts)), alone)
         if not len(left):
             break
         settings, length = tighter(settings), 2 * length
-    found = Fibre(ends[ends.any(axis=1)], len(starts))
-    return replace(system, points=found.points), spent
+    there = ends.any(axis=1)
+    distinct = Fibre(ends[there], errors[there], len(starts))
+    return system.holding(distinct.points, distinct.errors), spent
 
 
 def _single_terms(rows: CompiledRows) -> CompiledRows:

@@ -82,7 +82,8 @@ class Batch(NamedTuple):
     ``errors``: rounding errors of the coordinates, shape (count, N). ``curvature``: estimate of
     Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
     contraction of Newton's method after it; ``tail``: largest last term of a power series that is
-    taken to converge.
+    taken to converge. ``max_steps``: of each path, 0 for those
+    that are only tried.
     """
 
     count: int
@@ -103,7 +104,7 @@ class Batch(NamedTuple):
     limits: Reals
     errors: Reals
     curvature: Reals
-    max_steps: int
+    max_steps: Wholes
     max_winding: int
     accuracy: float
     contraction: float
@@ -231,7 +232,10 @@ def _rejected(s, r, f, lane, b):
     """A step or a finish that failed: a shorter step, or none if there is none."""
     if f[8 * MODE + lane] == FINISH:
         if f[8 * BASE + lane] < 0.5:
-            _begin(s, r, f, lane, b)
+            if b.max_steps[int(f[8 * PATH + lane])] == 0:
+                _close(s, r, f, lane, b, LOST, r.base)
+            else:
+                _begin(s, r, f, lane, b)
             return
         f[8 * MODE + lane] = STEP
     elif f[8 * BASE + lane] < 0.5:
@@ -271,7 +275,7 @@ def _advance(s, r, f, lane, b, best, winding):
     if f[8 * WINDING + lane] != winding:
         f[8 * WAITED + lane] = min(f[8 * WAITED + lane], 1.0)
     f[8 * WINDING + lane] = winding
-    if f[8 * TAKEN + lane] >= b.max_steps or f[8 * T + lane] < 1e-280:
+    if f[8 * TAKEN + lane] >= b.max_steps[path] or f[8 * T + lane] < 1e-280:
         _close(s, r, f, lane, b, TOO_LONG, r.base)
         return
     goal = min(b.accuracy, b.contraction / curvature)
@@ -280,7 +284,8 @@ def _advance(s, r, f, lane, b, best, winding):
         # Further in, rounding errors grow: no further than a limit is wanted.
         h = min(h, max(2.0, math.log(f[8 * T + lane] / b.latest[path])))
     f[8 * H + lane] = min(h, f[8 * H + lane]) if rejected > 0.5 else h
-    end = tail_at_end(s, r, b.order, lane)
+    # Tails that are rounding errors, as of paths that stay where they are, say nothing new.
+    end = max(tail_at_end(s, r, b.order, lane), number.EPSILON)
     if end <= 0.1 * f[8 * TRIED + lane] and b.straight[path] != 0:
         f[8 * TRIED + lane] = end
         f[8 * MODE + lane] = FINISH

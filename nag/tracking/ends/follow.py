@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,8 +14,9 @@ from nag.tracking.ends.limits import Limit, Limits
 from nag.tracking.ends.runs import MAX_STEPS, MAX_WINDING, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.newton import ROUNDING, refine
+from nag.tracking.newton import refine
 from nag.tracking.paths import Ball, Branch, Paths, PathStatus, Reason
+from nag.tracking.projective import ROUNDING
 from nag.tracking.settings import Settings
 
 # Digits of numbers of as many words.
@@ -36,9 +38,9 @@ class States:
     """Where the paths are, and what is known of their ends.
 
     ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
-    ``found``: regular ends; ``limits``: others. ``straight``: 0 where Newton's method at t = 0 is
-    of no use; ``regular``: where the first trial needs no proof; ``asked``: in how many words it
-    was tried at a limit; ``last``: the limits that were looked at last.
+    ``found``: regular ends; ``limits``: others, or where they are tried as regular ones first.
+    ``straight``: 0 where Newton's method at t = 0 is of no use; ``regular``: where the first trial
+    needs no proof; ``last``: the limits that were looked at last; ``most``: steps.
     """
 
     where: np.ndarray
@@ -51,7 +53,6 @@ class States:
     tried: np.ndarray
     straight: np.ndarray
     regular: np.ndarray
-    asked: np.ndarray
     outcome: np.ndarray
     winding: np.ndarray
     steps: np.ndarray
@@ -60,7 +61,7 @@ class States:
     limits: dict[int, Limit]
     found: dict[int, np.ndarray]
     last: dict[int, Limit]
-    most: int = MAX_STEPS
+    most: np.ndarray
 
     @classmethod
     def from_start(cls, starts: np.ndarray, curvature: np.ndarray) -> States:
@@ -70,7 +71,7 @@ class States:
         states.where, states.safe, states.ends = starts.copy(), starts.copy(), starts.copy()
         states.t = np.tile(np.eye(1, words), (P, 1))
         states.safe_t = states.t.copy()
-        states.curvature, states.most = curvature.copy(), MOST_STEPS
+        states.curvature, states.most[:] = curvature.copy(), MOST_STEPS
         return states
 
     @classmethod
@@ -88,23 +89,18 @@ class States:
             np.where(reached, 0, 1),
             np.ones(P, dtype=np.int64),
             np.zeros(P, dtype=bool),
-            np.zeros(P, dtype=np.int64),
             *whole,
             np.zeros((P, N)),
             {},
             {},
             {},
+            np.full(P, MAX_STEPS),
         )
 
     def point(self, path: int) -> np.ndarray:
         """Coordinates where the path is, as doubles."""
         parts = self.found.get(path, self.where[path]).sum(axis=-1)
         return parts[:, 0] + 1j * parts[:, 1]
-
-    def may_be_simple(self, path: int, limit: Limit) -> bool:
-        """Whether a limit may be a regular zero, and has not been tried in as many digits."""
-        words = self.where.shape[-1]
-        return limit.winding == 1 and self.asked[path] < words
 
     def known(self, path: int) -> np.ndarray:
         """Which coordinates exceed their rounding errors."""
@@ -151,6 +147,8 @@ def follow(
     left = unfinished
     states = States.of(left.ends, left.reached, left.safe, left.t)
     states.regular[:] = left.regular
+    # What doubles lost on the way may have come close to other paths there.
+    states.most[left.t > settings.radius] = MOST_STEPS
     pending = np.arange(len(left.safe))
     for words, digits in DIGITS.items():
         if not len(pending) or digits > settings.digits:
@@ -233,17 +231,17 @@ def _follow_in(
         again: list[int] = []
         for k, path in enumerate(pending.tolist()):
             states.digits[path] = DIGITS[words]
-            outcome = states.outcome[path]
-            if outcome == end_run.LOST:
+            outcome, at_limit = states.outcome[path], path in states.limits
+            if at_limit and outcome != end_run.REGULAR:
+                states.outcome[path] = end_run.LIMIT
+            elif outcome == end_run.LOST:
                 later.append(path)
             elif outcome == end_run.LIMIT:
-                winding = int(states.winding[path])
-                doublings = (winding & -winding).bit_length() - 1
-                verdict = _limit(states, limits, path, found[k], needs[doublings])
+                verdict = _limit(states, limits, path, found[k], needs)
                 if verdict != end_run.LIMIT:
                     states.outcome[path] = end_run.LOST
                     # A trial at a limit takes one step, and no path is to be lost for that.
-                    may_go_on = states.steps[path] < states.most or not states.tried[path]
+                    may_go_on = states.steps[path] < states.most[path] or not states.tried[path]
                     hopeful = verdict == end_run.OPEN and may_go_on
                     (again if hopeful else later).append(path)
             elif outcome == end_run.REGULAR:
@@ -252,14 +250,17 @@ def _follow_in(
                 if not trusted and not proved(terms, centre, states.errors[path]):
                     # Newton's method converged, but not to a regular zero: go on without it.
                     states.straight[path] = 0
-                    again.append(path)
+                    states.outcome[path] = end_run.LIMIT if at_limit else end_run.LOST
+                    if not at_limit:
+                        again.append(path)
                 elif _ambiguous(homotopy, states, path, needs[0], fine):
                     states.ends[path], states.tried[path] = centre, 0
+                    states.limits.pop(path, None)
+                    states.outcome[path] = end_run.LOST
                     later.append(path)
                 else:
                     continue
                 del states.found[path]
-                states.outcome[path] = end_run.LOST
         pending = np.array(again, dtype=np.int64)
     return np.array(sorted(later), dtype=np.int64)
 
@@ -272,34 +273,39 @@ def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, fine:
     return not at_infinity(fine, states.found[path], far)
 
 
-def _limit(states: States, limits: Limits, path: int, found: np.ndarray, need: float) -> int:
+def _limit(
+    states: States, limits: Limits, path: int, found: np.ndarray, needs: Sequence[float]
+) -> int:
     """`LIMIT` if the equations agree, `OPEN` if further in they may, `LOST` in more digits."""
     from nag.tracking.ends import end_run
 
     known, t, w = states.known(path), states.t[path, 0], int(states.winding[path])
     limit = limits.of(states.where[path], found, known, states.t[path], w)
-    if limit is not None and limit.residual <= need and states.may_be_simple(path, limit):
-        # No branch point at t = 0: Newton's method is tried at the limit before it counts.
-        states.ends[path], states.tried[path] = limit.centre, 0
-        states.asked[path] = limits.words
-        return end_run.OPEN
+    need = needs[(w & -w).bit_length() - 1]
     if limit is not None and limit.residual <= need:
         states.limits[path] = limit
-        states.winding[path] = limit.winding
-        return end_run.LIMIT
+        if limit.winding > 1:
+            return end_run.LIMIT
+        # No branch point at t = 0: Newton's method is tried at the limit before it counts.
+        states.ends[path], states.tried[path] = limit.centre, 0
+        return end_run.OPEN
+    noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
+    # Where no digits are gained on the way in, rounding errors are what is left.
+    before = states.last.get(path)
+    further = np.inf if before is None else before.residual
+    residual = np.inf if limit is None else limit.residual
+    if limit is not None:
+        states.last[path] = limit
+    stuck = noise > 1e-3 * need or GAINED * further < residual < NEARLY
+    if stuck and limits.words == 2:
+        # Rounding errors do not say how far in a limit is to be looked for.
+        return end_run.LOST
     shrink = 1e-3
     if limit is not None:
         # The last term of the series is about the power of r of its order.
         shrink = min(0.1, max(1e-8, (need / limit.residual) ** (w / ORDER)))
     states.latest[path] = t * shrink
-    noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
-    # Where no digits are gained on the way in, rounding errors are what is left.
-    before, stuck = states.last.get(path), noise > 1e-3 * need
-    if limit is not None:
-        further = np.inf if before is None else before.residual
-        stuck |= GAINED * further < limit.residual < NEARLY
-        states.last[path] = limit
-    return end_run.LOST if stuck and limits.words == 2 else end_run.OPEN
+    return end_run.OPEN
 
 
 def _paths(homotopy: Homotopy, states: States) -> Paths:
@@ -321,7 +327,7 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
             balls[path] = Ball(states.found[path], states.errors[path])
         elif states.outcome[path] == end_run.LIMIT:
             limit = states.limits[path]
-            points[path] = limit.point
+            points[path], states.winding[path] = limit.point, limit.winding
             branches[path] = Branch(limit.winding, limit.orders, limit.branch, limit.bends)
             finite = bool((limit.point[infinite] != 0).all())
             status[path] = PathStatus.SINGULAR if finite else PathStatus.AT_INFINITY

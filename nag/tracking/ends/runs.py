@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 # Order of the Taylor coefficients.
 ORDER = 14
+# Steps to an end, and those of a path that is lost on the way there.
 MAX_STEPS, MOST_STEPS = 300, 3000
 MAX_WINDING = 40
 # Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
@@ -88,7 +89,7 @@ def _batch(
         np.zeros(count * N * 4 * 2 * words),
         np.zeros(count * N),
         states.curvature[own],
-        states.most,
+        np.where([path in states.limits for path in own.tolist()], 0, states.most[own]),
         MAX_WINDING,
         ACCURACY * settings.tolerance,
         CONTRACTION * settings.contraction,

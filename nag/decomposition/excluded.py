@@ -1,0 +1,93 @@
+"""Ends of paths that lie where a polynomial does that must not vanish, decided in digits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.high_precision import vanish_at
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.coincidence import SAFETY
+from nag.numerics.small_values import ON
+from nag.numerics.zero_values import possible_zeros
+from nag.witness.confirm import vanishing
+from nag.witness.cutting import Cut
+from nag.witness.fibres import Moved
+from nag.witness.slices import padded
+
+# Values of polynomials that must not vanish, at points where they seem to.
+FORBIDDEN = 1e-8
+# Doubles are no more accurate than this, relative to the point.
+ROUNDED = 1e-15
+
+
+def forbidden(nonzero: Evaluator, x: np.ndarray, accuracy: np.ndarray) -> np.ndarray:
+    """Which points seem to lie where a polynomial that must not vanish does."""
+    residuals = nonzero.residuals(x)
+    limit = np.maximum(FORBIDDEN, SAFETY * accuracy)
+    return (residuals < limit[:, None]).any(axis=1)
+
+
+def excluded(
+    nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, ends: Moved
+) -> tuple[np.ndarray, int]:
+    """Which ends lie where a polynomial that must not vanish does, decided in digits.
+
+    Also of how many of these that is not known; they are left out.
+    """
+    result, unclear = ends.finite.copy(), 0
+    if not nonzero or not result.any():
+        return np.zeros(len(result), dtype=bool), unclear
+    evaluator = Evaluator.of(nonzero, cut.n)
+    result[result] = forbidden(evaluator, ends.points[result, : cut.n], ends.accuracy[result])
+    regular = np.flatnonzero(result & ends.regular)
+    small = (evaluator.residuals(ends.points[regular, : cut.n]) < ON).any(axis=0)
+    each = [
+        vanishing(cut, g, rows, ends.points[regular])
+        for g, may in zip(nonzero, small, strict=True)
+        if may
+    ]
+    for k, i in enumerate(regular):
+        answers = [own[k] for own in each]
+        result[i] = True in answers or None in answers
+        unclear += True not in answers and None in answers
+    singular = np.flatnonzero(result & ~ends.regular)
+    # The least accurate first: what it may stand for, others of its place may as well.
+    doubtful: dict[int, bool] = {}
+    for i in singular[np.argsort(-ends.accuracy[singular], kind="stable")].tolist():
+        twin = _twin(ends, i, doubtful, real=not len(rows))
+        known = doubtful.get(twin) if twin is not None else None
+        if known is None:
+            known = _beside(nonzero, cut, rows, ends.points[i], ends.accuracy[i])
+        doubtful[i] = known
+    return result, unclear + sum(doubtful.values())
+
+
+def _twin(ends: Moved, i: int, others: Iterable[int], real: bool) -> int | None:
+    """The end among ``others`` that an end is as well, or whose conjugate, as far as is known.
+
+    Several paths end at a singular zero. Equations are real, and what is true of a zero of theirs
+    alone is of its conjugate as well: so with ``real``, where no slice passes through it.
+    """
+    z = ends.points[i]
+    for j in others:
+        error = max(ends.accuracy[j], ROUNDED) * (1 + np.linalg.norm(z))
+        for same in (z, z.conj()) if real else (z,):
+            if np.linalg.norm(ends.points[j] - same) <= error:
+                return j
+    return None
+
+
+def _beside(
+    nonzero: Sequence[Polynomial], cut: Cut, rows: np.ndarray, z: np.ndarray, accuracy: float
+) -> bool:
+    """Whether an isolated zero that ``z`` may be lies beside what is excluded, and not on it.
+
+    Ill-conditioned zeros pass for singular ones, and may be so close to it that doubles can neither
+    tell them from it nor hold a cut that makes them regular.
+    """
+    slices, rng = padded(rows, 1 + len(z)), np.random.default_rng(0)
+    zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices)
+    return not all(any(vanish_at([g], zero.digits) for g in nonzero) for zero in zeros)

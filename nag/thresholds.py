@@ -1,0 +1,300 @@
+"""The numbers that decide something, in one table: what is a zero, one point, a rank, an end.
+
+Where a threshold is safe on one side only, it stands on that side: what does not pass is followed
+in more digits, or left undecided, not dismissed. ``python tests/measure_thresholds.py`` measures
+how far what they judge lies from those with a star, ``--decompose`` for decompositions.
+
+==========================================  ======  ================================================
+name                                        value   what it decides, and why there
+==========================================  ======  ================================================
+numerics.small_values.ON *                  1e-9    Values in doubles, beside their terms, at
+                                                    sharpened points that may be zero: zeros lie
+                                                    below 2.5e-13, others above 2e-6 in all systems
+                                                    measured. What depends on it is confirmed in
+                                                    more digits.
+numerics.small_values.NONZERO               1e-6    The same at other points that are certainly not
+                                                    zero; smaller ones are computed to 100 digits,
+                                                    or leave the answer to another way.
+numerics.small_values.SINGULAR              1e-9    Singular values of a balanced Jacobian at a
+                                                    point of a component below which the gap is
+                                                    looked for where a rank is read
+                                                    (witness.cutting.GAP).
+numerics.small_values.SLACK                 1e3     Errors of a point that its estimate may be too
+                                                    small by: a bound for exact tests, no decision.
+numerics.coincidence.SAFETY                 100     Estimated errors that two points may be apart
+                                                    and be one: what the balls are wider by.
+numerics.coincidence.LEAST *                1e-11   Least relative error of a point in doubles. The
+                                                    same ones lay within 1e-15, others beyond 0.05,
+                                                    where systems are not made to have close ones;
+                                                    isolated zeros that it makes meet are told apart
+                                                    in 150 digits.
+numerics.coincidence.HIT *                  1e-8    Ends of paths that may have led to a known point
+                                                    and did: such as had lay within 5e-11.
+numerics.coincidence.MISS *                 1e-5    Such as had not: all lay beyond 7e-4. What falls
+                                                    between is undecided.
+numerics.coincidence.BEYOND                 1e4     The same in errors of the end.
+numerics.certified_points.SLACK             1e3     Errors of a point within which a zero must lie
+                                                    to be the one that is meant, at least.
+numerics.certified_points.NEAR              1e-6    The same as a distance, where the error is
+                                                    unknown.
+numerics.certified_points.EVIDENCE          60      Digits to which equations vanish that a proof
+                                                    did not need: said to be evidence, not proof.
+numerics.clusters.ALIKE                     1e-5    Starts nearer to each other, beside the
+                                                    cluster's size, are followed once; their ends
+                                                    are compared in all digits.
+numerics.curves.VANISHING                   0.75    Share of the digits from which on a value is
+                                                    zero.
+numerics.deflated_system.ZERO               -50     Decimal logarithm of entries that are zero, of
+                                                    150 digits; others lie far above.
+numerics.local_dimension.ROUNDED            1e-8    Relative error of a point of doubles whose error
+                                                    is not told.
+numerics.local_structure.FURTHEST           -1.3    Decimal logarithm of the largest distance in
+                                                    which a zero is looked for.
+numerics.local_structure.REPEATED           20      Digits, of a hundred, in which two points may
+                                                    differ that are one.
+numerics.null_space.WELL                    1e-8    Pivots, over the largest, of a block that
+                                                    doubles solve for; the rest is judged in all
+                                                    digits.
+numerics.pivots.CLEAR                       0.5     Decimal logarithm of a pivot over its error that
+                                                    makes it no zero.
+numerics.rational_relations.SHARP           0.4     Share of the digits to which a relation must
+                                                    hold to be one; the others show in further
+                                                    points.
+numerics.deflation.SPARE                    20      Digits that rounding may have taken from
+                                                    coefficients beside those that each degree
+                                                    loses: smaller ones are zero.
+numerics.scaling.DEPENDENT                  1e-12   Singular values of rows, over the largest, that
+                                                    are not made orthogonal.
+numerics.series_zeros.REGULAR               1e-5    Singular values beside the largest one that are
+                                                    those of a regular zero.
+numerics.sharpening.ZERO                    -100    Decimal logarithm of what vanishes at a singular
+                                                    point, of 150 digits.
+numerics.sharpening.ARRIVED                 -125    The same of Newton's last step.
+numerics.sharpening.LARGEST_INVERSE         70      The same of an inverse that says that a zero is
+                                                    not regular after all.
+numerics.tangent_cone.NOTHING               -90     Decimal logarithm of coefficients that are zero,
+                                                    of 150 digits.
+numerics.zero_values.ALIKE                  1e-6    Relative difference of the coordinates of zeros
+                                                    that a point of doubles may stand for, where it
+                                                    is near several.
+numerics.zero_values.NOTHING                1e-60   Coordinates beside the largest that count as
+                                                    zero in this.
+numerics.zero_values.WRITTEN                1e-90   Relative error of a zero that is known by its
+                                                    written digits, of a hundred.
+tracking.projective.SAFETY *                1e3     Errors that two ends of paths may be apart, of
+                                                    all errors that Newton's method estimates with
+                                                    residuals in double-double, and be one: one of
+                                                    the paths jumped.
+tracking.straight_run.ROUNDING              1e-9    Newton corrections in doubles that need not
+                                                    contract any more.
+tracking.straight_run.PATIENCE              24      Steps behind the safe point before a path that
+                                                    does not get on goes to more digits.
+tracking.track.PROOF *                      1e5     Smallest singular value over the last Newton
+                                                    step of a regular end in doubles. Kantorovich's
+                                                    theorem asks for a few times the second
+                                                    derivatives; what fails gets 32 digits.
+tracking.track.RESIDUAL *                   1e-29   A homogenising coordinate of a regular end in
+                                                    doubles, residuals in double-double, exceeds
+                                                    zero where it exceeds this over the smallest
+                                                    singular value. Others get 32 digits.
+tracking.track.STRAYED                      1e3     Errors by which Newton's method may move an end
+                                                    in doubles; what moves further gets 32 digits.
+tracking.track.SHARP                        1e-12   Newton's last step at a regular end in doubles;
+                                                    larger ones get 32 digits.
+tracking.track.ROUGH                        1e-8    The same at zeros of generic systems, which are
+                                                    tracked in doubles alone.
+tracking.track.AT_INFINITY                  1e-10   Homogenising coordinates of finite zeros of such
+                                                    systems.
+tracking.track.ALIKE                        1e-9    Leading coefficients of branches that are
+                                                    compared once more, with shorter steps: a jump
+                                                    does not survive those, two branches do.
+tracking.track.BENT                         1e-4    The same of the coefficients that follow, over
+                                                    their sizes together.
+tracking.track.NONZERO                      1e3     A coordinate over the error of a regular end
+                                                    that is not zero, where the mixed volume says
+                                                    that all zeros are found: others get 32 digits.
+tracking.certified_paths.SHORTEST           1e-9    Steps, relative to t, at which a path is left
+                                                    without a proof.
+tracking.ends.at_infinity.ZERO              1e-150  Coordinates of size one that are zero in 154
+                                                    digits, and Newton's last step.
+tracking.ends.follow.KNOWN *                1e3     A coordinate over its rounding error that is not
+                                                    zero.
+tracking.ends.follow.LEAST_EVIDENCE *       14      Digits to which the exact equations' terms of
+                                                    least order must cancel at a limit, so that
+                                                    coefficients that doubles rounded would show. No
+                                                    gap: a limit that does not pass is looked for
+                                                    further in.
+tracking.ends.follow.ROUND_NUMBERS          6       Digits of coefficients that ask for no more;
+                                                    each further asks for one more.
+tracking.ends.follow.GAINED                 0.1     Residual of a limit over that of the last one,
+                                                    further out: more is rounding, if it is below
+                                                    NEARLY, and asks for more digits.
+tracking.ends.follow.NEARLY                 1e-6    See there.
+tracking.ends.follow.MOST_EVIDENCE          58      More cannot be asked of 64 digits.
+tracking.ends.follow.BEYOND                 30      Error of a limit in last terms of its series.
+tracking.ends.runs.TAIL                     1e-11   Last terms of a path's power series that is
+                                                    taken to converge, for the winding number in
+                                                    question.
+tracking.ends.limits.WHOLE *                1e-3    How far an order of a coordinate may be from a
+                                                    rational number.
+tracking.ends.inclusion.WIDER               64      Rounding errors in the radius of the box in
+                                                    which Krawczyk's test proves one zero; it must
+                                                    hold the errors of the values there.
+tracking.ends.inclusion.STEPS               16      Newton's steps in that radius, at least: the box
+                                                    need not be larger where these are small.
+tracking.ends.corrector.STAGNANT            100     Rounding errors in a correction that need not
+                                                    contract any more.
+tracking.ends.corrector.FLOOR               1e-9    Coordinates that a start in doubles does not
+                                                    know.
+tracking.ends.end_run.LOSING                1e-3    Rounding error times Newton's constant at which
+                                                    an arithmetic gives up.
+tracking.ends.end_run.SAFE                  1e-6    The same at which a point is kept for the next
+                                                    arithmetic to start from.
+tracking.ends.linear_algebra.GONE           1e-6    What a correction leaves of a coordinate that it
+                                                    takes away: a zero along the whole path.
+tracking.ends.linear_algebra.ROUGHEST       1e-6    Coordinate of a point from doubles that may be
+                                                    rounding alone. More would hide corrections that
+                                                    lead away from the path.
+solving.solve.INFINITE                      2e-12   Homogenising coordinates of ends at infinity,
+                                                    beside what is proved of them.
+solving.solve.ROUGHLY_INFINITE              1e-7    The same of ends that are not known to more
+                                                    digits.
+solving.judged_ends.NEARLY                  1e-5    Values, beside their terms, of ends that are no
+                                                    zeros, however badly they are known.
+solving.judged_ends.REAL *                  1e-10   Imaginary parts, beside a point's size, of real
+                                                    points, or the errors if they are larger; the
+                                                    conjugates of all others must be points as well.
+                                                    `nag certify` proves it.
+solving.missing_zeros.SAFETY                1e3     Errors of a zero that was found in which no
+                                                    other one is looked for.
+solving.missing_zeros.EXTREME               26      Binary logarithm of sizes from which zeros are
+                                                    looked for where they cannot be counted; ends so
+                                                    far out may satisfy the least evidence of
+                                                    infinity.
+solving.tropical_zeros.APART                1e-3    Relative distance, beyond those errors, of a
+                                                    zero of extreme size from all that were found:
+                                                    nearer ones are for paths to find.
+solving.branch_solutions.NEAR               1e-7    Relative distance of solutions, in two branches,
+                                                    that are compared in more digits.
+solving.kantorovich.NEARBY                  1.5     Second derivatives in a ball over those at its
+                                                    centre: a bound that holds for radii below a
+                                                    percent and degrees below 30.
+solving.solution_classes.CLEAR              1e-3    Errors of a class's invariants from which on it
+                                                    is not told from others: its path is lost.
+solving.solve_classes.FEW                   0.1     Part of the classes that chance may lose; more,
+                                                    and the parameters are special.
+solving.start.family_monodromy.WORST        1e5     Condition of a first solution that is not begun
+                                                    from.
+solving.start.pencil.ROUNDING               1e-12   Sum of second differences over the points'
+                                                    motion that is rounding.
+solving.start.pencil.VISIBLE                10      Own second difference of each point, in those,
+                                                    without which its absence could not show.
+solving.start.scalings.ZERO                 1e-9    Singular values of matrices of whole numbers
+                                                    that are zero.
+solving.start.total_degree.DEPENDENT        1e-10   Pivots of linear equations, of norm one, that
+                                                    depend on others.
+witness.close_to_sets.CLOSE                 1e-9    Ends of regular paths nearer than this to a zero
+                                                    are compared with it in digits.
+witness.close_to_sets.SAME                  -80     Decimal logarithm of the distance of points that
+                                                    are one, of 100 digits.
+witness.close_to_sets.ZERO                  -80     The same of a pivot that is none.
+witness.close_points.CLOSE                  1e-4    Relative distance of points that are tracked in
+                                                    more digits: corrections that need not contract
+                                                    any more may be as large as a hundredth of it.
+witness.close_points.BASIN                  0.1     Part of the distance to the next point that
+                                                    Newton's method may move one by.
+witness.confirm.CERTAIN *                   1e-14   Values that are rounding where coefficients have
+                                                    at most six digits; with longer ones, zeros are
+                                                    computed to 100 digits.
+witness.confirm.REGULAR                     1e-5    Singular value above which a zero of as many
+                                                    equations as unknowns needs no confirmation.
+witness.cutting.GAP *                       1e3     Quotient of neighbouring singular values at
+                                                    which a rank is read: others lay below 130,
+                                                    ranks above 1e13.
+witness.cutting.NEARLY_SINGULAR             1e-5    Singular values at a point that is known to be
+                                                    singular, perhaps not well, below which the gap
+                                                    is looked for.
+witness.cutting.NEAR                        1e-7    Distance, relative to its size, of a zero from
+                                                    an end of a path that is this zero; estimates of
+                                                    the error of a singular end are themselves
+                                                    uncertain.
+witness.cutting.VANISHING                   1e-11   Values at a point where Newton's method arrived.
+witness.exact_points.RESIDUAL               1e-31   Error of residuals in double-double: a bound, no
+                                                    decision.
+witness.gauss_newton.ZERO                   1e-13   Values at a zero that Newton's method found from
+                                                    a random point.
+witness.gauss_newton.SHARP                  1e-10   Its last step.
+witness.gauss_newton.SMALL                  1e-3    Singular values, over the largest, that may
+                                                    belong to the kernel; the gap decides.
+witness.membership.SPREAD                   10      Distances, in what rounding may do to a point,
+                                                    within which the next zero makes it undecided.
+witness.moving.DEPENDENT                    1e-10   Singular values of a slice, over the largest,
+                                                    that make its equations dependent.
+witness.multiplicity.ACCURACY               1e-11   Error of points that a badly conditioned
+                                                    deflation sharpened in doubles.
+witness.point_multiplicity.MULTIPLE         1e-7    Relative error of singular ends, about a root of
+                                                    rounding.
+witness.projection.SHARP                    1e-8    Newton's last step at points that are counted.
+witness.sampling.SHARP                      1e-10   Newton's last step at a sample; a larger one is
+                                                    no sample.
+witness.real_points.STATIONARY              1e-10   Part of the distance that can still be gained,
+                                                    at a nearest point.
+witness.real_points.ALMOST                  1e-5    The same at a point that may be a nearest one,
+                                                    and is said to be almost.
+witness.at_prompt.ROUNDED                   1e-9    Values, beside their terms, at points that are
+                                                    rounded ones of the set.
+decomposition.monodromy.ROUGH               1e-8    Errors that ends of loops may have, whatever the
+                                                    tracker thinks: a jump to a close point must not
+                                                    join components.
+decomposition.monodromy.NEARER              1e-3    Distance of an end from its point over that from
+                                                    the next; else the loop says nothing.
+decomposition.trace.EVIDENCE                18      Digits to which a trace must be linear beside
+                                                    the points' motion.
+decomposition.trace.ROUND_NUMBERS           6       Digits of coefficients that ask for no more;
+                                                    each further asks for one more: what is nearly
+                                                    reducible has long ones. Points get 28 to 240
+                                                    digits for it.
+decomposition.trace.SMALL                   1e-9    Sums of traces, beside their terms in doubles,
+                                                    that are looked at in those digits.
+decomposition.splitting.MOST_LOOPS *        100     Loops before points are left undecided; 23 were
+                                                    the most needed.
+decomposition.singular_locus.SURELY         10      Errors of a point that it may be off a linear
+                                                    equation, and be a point of the component.
+decomposition.excluded.FORBIDDEN            1e-8    Values, beside their terms, of polynomials that
+                                                    must not vanish and may: looked at more closely.
+decomposition.branch_points.NOTHING         -90     Decimal logarithm of a pivot of the Loewner
+                                                    matrix that is zero, of 200 digits.
+decomposition.singular_parameters.ROUNDING  1e-8    Distance of a number in doubles from the
+                                                    fraction that it is read as.
+interpolation.point_cloud.SMALL             1e-5    Singular values of tangents, over the largest,
+                                                    of directions that the projection loses.
+==========================================  ======  ================================================
+
+Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
+rounding, digits that are taken, where random numbers come from.
+
+numerics.certified_points: FLAT; numerics.curves: CLOSER; numerics.deflated_system: MOST_DIGITS;
+numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY; numerics.digits: LOG10_2, SMALLEST, LARGEST;
+numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: EXACT; numerics.krawczyk:
+WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: REACHES; numerics.located_zero: ROUNDING;
+numerics.rational_relations: LOG10_2; numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
+numerics.sharpening: ROUNDING, NEARLY; numerics.small_values: LEAST; tracking.certified_paths:
+ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME;
+tracking.close_paths: STEEP; tracking.ends.branch: LONGEST; tracking.ends.corrector: DOUBLES;
+tracking.ends.end_run: RESIDUAL, SECOND; tracking.ends.inclusion: TINY; tracking.ends.lane_scalars:
+IDLE, STEP, FINISH; tracking.ends.limits: LOG_2; tracking.ends.linear_algebra: PHASE;
+tracking.ends.runs: ACCURACY, CONTRACTION; tracking.numbers.complex_numbers: HALVED;
+tracking.numbers.double_double: EPSILON, SMALL; tracking.numbers.quad_double: EPSILON, SMALL;
+tracking.predictor: PREDICT, CORRECT; tracking.projective: ROUNDING; tracking.track: LEAST, BASIN;
+solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero:
+WRITTEN; solving.missing_zeros: NEAR; solving.solution_classes: STEP; solving.start.centring: FAR,
+CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy: SHARP;
+solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH;
+solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT, INEXACT; witness.close_to_sets:
+ROUNDED; witness.cutting: FLAT, ROUNDING; witness.error_radii: ENOUGH, ESTIMATE, CORRECTION;
+witness.exact_points: STEP, BITS_PER_DIGIT; witness.fibres: STEEPER; witness.frame: EPS;
+witness.gauss_newton: CLOSE; witness.real_points: SPREAD; decomposition.branch_points: ARRIVED;
+decomposition.curve_genus: NEAR, OUTSIDE, SHRINK; decomposition.discovery: ROUNDED, DEEP;
+decomposition.given_points: ROUGH; decomposition.hypersurface: NEARER; decomposition.singular_locus:
+ROUNDED; decomposition.excluded: ROUNDED; decomposition.superset: REGULAR.
+"""
