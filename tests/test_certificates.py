@@ -313,3 +313,11 @@ def test_answers_are_certified_on_request(command: str, capsys) -> None:
     case = CASES / ("benchmarks/katsura-6.toml" if command == "solve" else "slider-crank.toml")
     assert main([command, str(case), "--certify", "--quiet"]) == 0
     assert "\ncertified" in capsys.readouterr().out
+
+
+def test_combinations_of_lower_degrees_bound_the_number_of_zeros() -> None:
+    x, y = Polynomial.variables(2)
+    system = PolynomialSystem(("x", "y"), (x**2 + y**2 - 2 * x - 3, x**2 + y**2 - y - 5))
+    certificate = certify_solutions(solve(system))
+    assert certificate.bound == 2
+    assert certificate.complete

@@ -133,18 +133,18 @@ def test_all_paths_of_katsura_are_proved_and_lead_to_all_solutions() -> None:
 
 
 def test_paths_to_infinity_end_in_no_solution() -> None:
-    # Both circles go through the two circular points at infinity, where they are transversal.
-    system = PolynomialSystem(("x", "y"), (x**2 + y**2 - 2 * x - 3, x**2 + y**2 - y - 5))
-    proved = prove_paths(solve(system, start="total"))
-    assert (proved.arrived, proved.followed, proved.lost) == (4, 0, 0)
-    assert sorted(proved.ends.tolist()) == [-1, -1, 0, 1]
+    # Circle and cubic go through the two circular points at infinity, where they are transversal.
+    circle, cubic = x**2 + y**2 - 3, x * (x**2 + y**2) + x**2 - 2 * y**2 + y - 5
+    proved = prove_paths(solve(PolynomialSystem(("x", "y"), (circle, cubic)), start="total"))
+    assert (proved.arrived, proved.followed, proved.lost) == (6, 0, 0)
+    assert sorted(proved.ends.tolist()) == [-1, -1, 0, 1, 2, 3]
 
 
 def test_paths_to_singular_ends_are_proved_to_the_endgame_only() -> None:
-    # Three of the four zeros by Bezout's number come together at infinity.
-    system = PolynomialSystem(("x", "y"), (y - x**2, y - x**2 - x + 2))
+    # Five of the six zeros by Bezout's number come together at infinity.
+    system = PolynomialSystem(("x", "y"), (y - x**2, x * (y - x**2) - x + 2))
     proved = prove_paths(solve(system, start="total"))
-    assert (proved.arrived, proved.followed, proved.lost) == (1, 3, 0)
+    assert (proved.arrived, proved.followed, proved.lost) == (1, 5, 0)
     assert proved.solutions.tolist() == [0]
 
 

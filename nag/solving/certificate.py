@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
+from nag.algebra.lowest_degrees import of_lowest_degrees
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.box_relations import overlaps, real_zeros
@@ -111,13 +112,22 @@ def bound_of_zeros(system: PolynomialSystem) -> tuple[int | None, str]:
     """A number that isolated zeros cannot exceed, by Bezout's theorem, and its name.
 
     The product of the degrees, or the coefficient that belongs to groups of variables (Morgan &
-    Sommese 1987); both are integers that are computed exactly.
+    Sommese 1987), of the equations or of combinations of theirs; integers that are computed
+    exactly.
     """
     equations = [f for f in system.polynomials if f]
     if not equations or len(equations) != system.n:
         return None, ""
     if any(f.degree == 0 for f in equations):
         return 0, "a constant that is not zero"
+    number, name = _bezout_number(system, equations)
+    lower = of_lowest_degrees(equations)
+    fewer, how = _bezout_number(system, lower)
+    return (fewer, f"{how} of combinations of the equations") if fewer < number else (number, name)
+
+
+def _bezout_number(system: PolynomialSystem, equations: Sequence[Polynomial]) -> tuple[int, str]:
+    """The smallest of Bezout's numbers of equations in a system's variables, and its name."""
     target = Target(system.n, tuple(dict(f.terms) for f in equations))
     total = bezout(target)
     groups, number = best_groups(target, system.groups)

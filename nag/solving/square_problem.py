@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.small_values import NONZERO
 from nag.numerics.zero_values import possible_zeros, vanishes_at_all
 from nag.solving.isolated_zero import IsolatedZero
+from nag.solving.start.choice import FEW
 from nag.solving.start.target import Target, most_digits
 
 
@@ -45,7 +47,9 @@ class SquareProblem:
         cls, system: PolynomialSystem, equations: Sequence[Polynomial], rng: np.random.Generator
     ) -> SquareProblem:
         n, digits = system.n, most_digits(equations)
-        equations = of_lowest_degrees(equations)
+        lower = of_lowest_degrees(equations)
+        # Of more paths, start systems with the monomials of the equations as given spare as many.
+        equations = lower if prod(f.degree for f in lower) <= FEW else equations
         added = max(0, n - len(equations))
         slices = [_random_linear(n, rng) for _ in range(added)]
         square = _squared([*equations, *slices], n, rng)

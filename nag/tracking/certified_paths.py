@@ -204,8 +204,8 @@ def _controlled(state: _State, active: np.ndarray, tube: _Tube, proved: np.ndarr
     shape = np.where(np.isfinite(tube.image), tube.image, old)
     shape = np.maximum(shape, 1e-3 * shape.max(axis=1, keepdims=True))
     shape = np.sqrt(shape / shape.max(axis=1, keepdims=True) * old / old.max(axis=1, keepdims=True))
-    step = np.minimum((ALONG / tube.along) ** 0.5, (ERROR / error) ** 0.25)
-    step = np.where(np.isfinite(step), step, LEAST_FACTOR)
+    step = np.minimum((ALONG / tube.along) ** 0.5, (ERROR / np.maximum(error, 1e-300)) ** 0.25)
+    step = np.where(np.isnan(step), LEAST_FACTOR, step)
     most = np.where(proved, MOST_FACTOR, 0.7)
     shape *= (old.max(axis=1) / shape.max(axis=1))[:, None]
     state.sides[active] = shape * side[:, None]
@@ -258,7 +258,8 @@ def _tube(
     inverse = inverses(slopes.mid[0])
     moving = -inverse @ slopes.mid[1] @ inverse
     column = Discs(values.mid[..., None], values.rad[..., None])
-    step = sum(_applied(inverse, moving, column, 0.0))[..., 0] * UP
+    off, rounding = (part[..., 0] for part in _applied(inverse, moving, column, 0.0))
+    step = (off + rounding) * UP
     bent, wide = _applied(inverse, moving, slopes, np.eye(n))
     rest = (bent + wide) * UP
     inner = radii
@@ -266,7 +267,12 @@ def _tube(
         inner = (step + (rest @ inner[..., None])[..., 0]) * UP
         if k == 0:
             proved = (inner < radii).all(axis=1)
-    parts = (step, (bent @ radii[..., None])[..., 0], (wide @ radii[..., None])[..., 0])
+    # Shorter steps are of no use where the curve is as good as doubles can say.
+    parts = (
+        np.maximum(off - rounding, 0.0),
+        (bent @ radii[..., None])[..., 0],
+        (wide @ radii[..., None])[..., 0],
+    )
     return _Tube(
         proved,
         inner,
