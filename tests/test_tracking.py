@@ -11,6 +11,7 @@ from oracle import track_one
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
+from nag.tracking.known import Known
 from nag.tracking.newton import aligned_difference, refine
 from nag.tracking.paths import PathStatus, Reason
 from nag.tracking.settings import Settings
@@ -117,7 +118,7 @@ def test_paths_beside_all_zeros_that_there_can_be_lead_to_infinity():
     x, y = Polynomial.variables(2)
     # Two zeros, which is the mixed volume.
     homotopy, starts = total_degree([x * y + x + 2, x * y - 3 * y + 5], 2)
-    followed, counted = track(homotopy, starts), track(homotopy, starts, most=2)
+    followed, counted = track(homotopy, starts), track(homotopy, starts, known=Known(most=2))
     assert (counted.status == followed.status).all()
     assert len(counted.where(PathStatus.REGULAR)) == 2
     infinite = counted.where(PathStatus.AT_INFINITY)
@@ -125,14 +126,14 @@ def test_paths_beside_all_zeros_that_there_can_be_lead_to_infinity():
     assert not np.isfinite(counted.accuracy[infinite]).any()
     # Where zeros seem to be missing, or there are too many, each path is followed.
     for most in (1, 3):
-        other = track(homotopy, starts, most=most)
+        other = track(homotopy, starts, known=Known(most=most))
         assert np.array_equal(other.points, followed.points)
 
 
 def test_zeros_on_coordinate_hyperplanes_do_not_count_as_all():
     x, y = Polynomial.variables(2)
     homotopy, starts = total_degree([x * y, x * y + x + y - 1], 2)
-    followed, counted = track(homotopy, starts), track(homotopy, starts, most=2)
+    followed, counted = track(homotopy, starts), track(homotopy, starts, known=Known(most=2))
     assert len(followed.where(PathStatus.REGULAR)) == 2
     assert np.array_equal(counted.points, followed.points)
 

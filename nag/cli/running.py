@@ -10,14 +10,22 @@ from collections.abc import Iterator, Sequence
 
 from nag.cli.arguments import UsageError
 
+# What NumPy's linear algebra reads, when it is loaded, of how many threads it is to have.
+LINEAR_ALGEBRA_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+
 
 def begin(options: argparse.Namespace) -> None:
     """Start the clock, and refuse a file that the answer could not be written to.
+
+    NumPy's linear algebra gets one thread, unless the environment says otherwise: the matrices are
+    small, threads of its own would wait for each other, and sums would be in another order.
 
     Raises:
         UsageError: for such a file.
     """
     options.started = time.perf_counter()
+    for name in LINEAR_ALGEBRA_THREADS:
+        os.environ.setdefault(name, "1")
     target = getattr(options, "json", None)
     if target is not None:
         source = getattr(options, "case", None) or getattr(options, "export", "")

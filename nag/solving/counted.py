@@ -32,8 +32,8 @@ def counted(problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds
     proved = bool((paths.status == PathStatus.REGULAR).all()) or ends.zeros == len(paths)
     if (begin.complete and proved) or problem.added or len(ends.on_components):
         return ends
-    if ends.zeros == begin.most:
-        return replace(ends, count=ZeroCount(begin.most, False))
+    if ends.zeros == begin.known.most:
+        return replace(ends, count=ZeroCount(begin.known.most, False))
     patient = bool(ends.unclear) or len(paths.where(PathStatus.FAILED)) > 0
     return replace(ends, count=most_zeros(problem.system.polynomials, ends.zeros, patient))
 

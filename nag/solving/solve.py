@@ -93,7 +93,7 @@ def _solve_whole(
     if progress:
         progress("solve", 0, 1)
     begin, reason = choose(problem.target, start, system.groups, rng, threads)
-    paths = track(begin.homotopy, begin.points, settings, threads, most=begin.most)
+    paths = track(begin.homotopy, begin.points, settings, threads, known=begin.known)
 
     def look(paths: Paths, count: ZeroCount | None = None) -> JudgedEnds:
         ends = judged_ends(problem, begin, paths, rng, finite)
@@ -136,7 +136,7 @@ def begin_of(
     problem = SquareProblem.of(system, [f for f in system.polynomials if f], rng)
     begin, _ = choose(problem.target, start, system.groups, rng, 1)
     started = time.perf_counter()
-    paths = track(begin.homotopy, begin.points, settings, most=begin.most)
+    paths = track(begin.homotopy, begin.points, settings, known=begin.known)
     return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())
 
 

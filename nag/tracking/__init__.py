@@ -2,7 +2,8 @@
 
 In order of reading: `compiled` and `homotopy` (what is tracked), `taylor` (values and series of a
 path) on `kernel_arrays`, `straight_run` (many paths at once in doubles), `track` (their ends
-judged), `ends` (the doubtful ones, followed in more digits), `paths` (what is known in the end).
+judged) with `known` (what a start system says of them), `ends` (the doubtful ones, followed in
+more digits), `paths` (what is known in the end).
 
 Thresholds that decide something about an end. ``python tests/measure_thresholds.py`` measures how
 far what they judge lies from those that are marked with a star. Where a threshold is safe on one

@@ -59,6 +59,29 @@ def factorize(n, ar, ai, pivots):
                 store(ai, i * n + j, fnma(li, ur, fnma(lr, ui, load(ai, i * n + j))))
 
 
+def _remainder(n, matrix, vector, i, begin, end):
+    """Entry ``i`` of a vector less entries ``begin .. end - 1`` of row ``i`` times those of it.
+
+    Two sums of each part, which do not wait for one another.
+    """
+    ar, ai = matrix
+    br, bi = vector
+    re = load(br, i)
+    im = load(bi, i)
+    re_too = splat(0.0)
+    im_too = splat(0.0)
+    for j in range(begin, end):
+        lr = load(ar, i * n + j)
+        li = load(ai, i * n + j)
+        xr = load(br, j)
+        xi = load(bi, j)
+        re = fnma(lr, xr, re)
+        im = fnma(lr, xi, im)
+        re_too = fma(li, xi, re_too)
+        im_too = fnma(li, xr, im_too)
+    return re + re_too, im + im_too
+
+
 def substitute(n, ar, ai, pivots, br, bi):
     """Overwrite the right-hand side by the solution, with the factors of `factorize`."""
     half = splat(0.5)
@@ -71,27 +94,11 @@ def substitute(n, ar, ai, pivots, br, bi):
                     br[a], br[b] = br[b], br[a]
                     bi[a], bi[b] = bi[b], bi[a]
     for i in range(1, n):
-        re = load(br, i)
-        im = load(bi, i)
-        for j in range(i):
-            lr = load(ar, i * n + j)
-            li = load(ai, i * n + j)
-            xr = load(br, j)
-            xi = load(bi, j)
-            re = fma(li, xi, fnma(lr, xr, re))
-            im = fnma(li, xr, fnma(lr, xi, im))
+        re, im = _remainder(n, (ar, ai), (br, bi), i, 0, i)
         store(br, i, re)
         store(bi, i, im)
     for i in range(n - 1, -1, -1):
-        re = load(br, i)
-        im = load(bi, i)
-        for j in range(i + 1, n):
-            ur = load(ar, i * n + j)
-            ui = load(ai, i * n + j)
-            xr = load(br, j)
-            xi = load(bi, j)
-            re = fma(ui, xi, fnma(ur, xr, re))
-            im = fnma(ui, xr, fnma(ur, xi, im))
+        re, im = _remainder(n, (ar, ai), (br, bi), i, i + 1, n)
         pr = load(ar, i * n + i)
         pi = load(ai, i * n + i)
         store(br, i, fnma(im, pi, re * pr))

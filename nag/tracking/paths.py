@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
 from fractions import Fraction
@@ -11,6 +11,9 @@ from fractions import Fraction
 import numpy as np
 
 from nag.tracking.homotopy import Homotopy
+
+# The order of a coordinate that vanishes all along a branch.
+NEVER = 1 << 40
 
 
 class PathStatus(IntEnum):
@@ -63,14 +66,19 @@ class Ball:
             for re, im in self.centre
         ]
 
+    def permuted(self, sources: np.ndarray) -> Ball:
+        """The same with coordinate ``sources[i]`` in place ``i``."""
+        return Ball(self.centre[sources], self.radii[sources])
+
 
 @dataclass(frozen=True, eq=False)
 class Branch:
     """What a path is near its end: a power series in ``t ** (1 / winding)``, by its first terms.
 
     Attributes:
-        orders: of the coordinates, in units of ``1 / winding``.
-        logs: logarithms of their leading coefficients over one of each group, shape ``(N,)``.
+        orders: of the coordinates, in units of ``1 / winding``; `NEVER` for those that vanish.
+        logs: logarithms of their leading coefficients over that of the first coordinate of least
+            order in each group, shape ``(N,)``.
         bends: derivatives of these logarithms' power series at t = 0, shape ``(N,)``.
     """
 
@@ -78,6 +86,33 @@ class Branch:
     orders: tuple[int, ...]
     logs: np.ndarray
     bends: np.ndarray
+
+    def permuted(self, sources: np.ndarray, groups: Sequence[Sequence[int]]) -> Branch:
+        """The same with coordinate ``sources[i]`` in place ``i``."""
+        orders = tuple(self.orders[k] for k in sources)
+        logs, bends = self.logs[sources], self.bends[sources]
+        return Branch(
+            self.winding,
+            orders,
+            relative(logs, orders, groups),
+            relative(bends, orders, groups),
+        )
+
+
+def relative(
+    values: np.ndarray, orders: Sequence[int], groups: Sequence[Sequence[int]]
+) -> np.ndarray:
+    """Values less that of the first coordinate of least order in each group, 0 where there is none.
+
+    Shape ``(N,)``.
+    """
+    result = np.zeros(len(values), dtype=np.complex128)
+    for indices in groups:
+        first = min(indices, key=lambda j: (orders[j], j))
+        for j in indices:
+            if orders[j] < NEVER:
+                result[j] = values[j] - values[first]
+    return result
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from nag.machine_code.lanes import fma, fnma, load, select_less, splat, store
 
 # What a lane does: predict from its base point, correct there, or correct once more.
@@ -60,7 +62,7 @@ def convergence_radius(norms, order, lane):
         return 1e6
     second = norms[8 * (order - 1) + lane]
     third = norms[8 * (order - 2) + lane]
-    return min(1e6, max((second / last) ** 0.5, (third / last) ** 0.25))
+    return min(1e6, max(math.sqrt(second / last), (third / last) ** 0.25))
 
 
 def next_step(w, order, lane, aim, factor):
@@ -73,7 +75,7 @@ def next_step(w, order, lane, aim, factor):
     f = w.scalars
     top = order + 1
     radius = convergence_radius(w.norms, top, lane)
-    last = w.norms[8 * top + lane] ** 0.5
+    last = math.sqrt(w.norms[8 * top + lane])
     if f[8 * GROWTH + lane] > 0.0:
         h = f[8 * H_USED + lane] * f[8 * GROWTH + lane]
     elif last > 0.0:

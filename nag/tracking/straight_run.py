@@ -6,6 +6,7 @@ as long as it gets on: what happens to it there is for `nag.tracking.ends` to fi
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -183,8 +184,8 @@ def _judged(w, lane, b):
     """Whether the corrections of a lane let it be accepted; sizes for the next step."""
     f, c = w.scalars, w.counters
     stepping = c[8 * STATE + lane] == STEPPING
-    first = w.norms[lane] ** 0.5
-    second = w.norms[8 + lane] ** 0.5
+    first = math.sqrt(w.norms[lane])
+    second = math.sqrt(w.norms[8 + lane])
     if not first < 1e100 or not second < 1e100:
         return REJECTED
     theta = second / first if first > 0.0 else 0.0
@@ -233,7 +234,7 @@ def _accepted(w, lane, b):
 def _failed(w, lane, b):
     """Try a shorter step; the reason why there is none, or 0."""
     f, c = w.scalars, w.counters
-    first = w.norms[lane] ** 0.5
+    first = math.sqrt(w.norms[lane])
     finite = first < 1e100
     if c[8 * STATE + lane] == STARTING:
         return START

@@ -17,6 +17,7 @@ import numpy as np
 from nag.numerics.coincidence import neighbours
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.known import NOTHING, Known
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
 from nag.tracking.settings import Settings, named, tighter
@@ -46,7 +47,7 @@ def track(
     *,
     endgame: bool = True,
     distinct: bool = True,
-    most: int | None = None,
+    known: Known = NOTHING,
 ) -> Paths:
     """Track ``starts`` from t = 1 to t = 0.
 
@@ -59,8 +60,7 @@ def track(
             end, and one that ends otherwise has failed.
         distinct: the starts are pairwise distinct, so that equal regular ends betray a path jump;
             such paths are tracked again with tighter control.
-        most: where it is known that a target with so many regular zeros, none of whose coordinates
-            vanish, has no other zeros: once these are found, all other paths lead to infinity.
+        known: what is known of the paths beforehand; of use where the starts are distinct.
 
     Raises:
         ValueError: if the starts have a wrong shape, or settings an unknown name.
@@ -70,7 +70,7 @@ def track(
     if starts.ndim != 2 or starts.shape[1] != homotopy.N:
         raise ValueError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
     starts = homotopy.normalized(starts)
-    paths = _attempt(homotopy, starts, chosen, threads, endgame, most if distinct else None)
+    paths = _attempt(homotopy, starts, chosen, threads, endgame, known if distinct else NOTHING)
     for attempt in range(chosen.retries if distinct else 0):
         jumped = collisions(homotopy, paths)
         if attempt == 0:
@@ -131,16 +131,36 @@ def _attempt(
     settings: Settings,
     threads: int,
     endgame: bool,
-    most: int | None = None,
+    known: Known = NOTHING,
 ) -> Paths:
+    orbits = known.orbits
+    if orbits is not None:
+        starts = starts[orbits.chosen]
     raw = _run(homotopy, starts, settings, threads, endgame)
     paths, regular = _judged(homotopy, raw)
     doubtful = paths.where(PathStatus.FAILED)
     doubtful = doubtful[raw.reason[doubtful] != Reason.START]
-    if not len(doubtful) or settings.digits < 32:
-        return paths
-    if most is not None and _all_are_found(homotopy, paths, most):
-        return _to_infinity(homotopy, paths, doubtful)
+    if len(doubtful) and settings.digits >= 32:
+        every = paths if orbits is None else orbits.expanded(paths, homotopy.groups)
+        if known.most is not None and _all_are_found(homotopy, every, known.most):
+            paths = _to_infinity(homotopy, paths, doubtful)
+        else:
+            more = _followed(homotopy, raw, regular, doubtful, settings, threads)
+            if not endgame:
+                more = without(more, more.where(PathStatus.SINGULAR))
+            paths = merged(paths, more, doubtful)
+    return paths if orbits is None else orbits.expanded(paths, homotopy.groups)
+
+
+def _followed(
+    homotopy: Homotopy,
+    raw: _Raw,
+    regular: np.ndarray,
+    doubtful: np.ndarray,
+    settings: Settings,
+    threads: int,
+) -> Paths:
+    """The doubtful paths, followed in more digits."""
     from nag.tracking.ends.follow import Unfinished, follow
 
     reached = raw.reason[doubtful] == Reason.NONE
@@ -151,10 +171,7 @@ def _attempt(
         raw.safe[doubtful],
         raw.safe_t[doubtful],
     )
-    new = follow(homotopy, unfinished, settings, threads)
-    if not endgame:
-        new = without(new, new.where(PathStatus.SINGULAR))
-    return merged(paths, new, doubtful)
+    return follow(homotopy, unfinished, settings, threads)
 
 
 def _all_are_found(homotopy: Homotopy, paths: Paths, most: int) -> bool:

@@ -14,7 +14,8 @@ from nag.solving.start.multihomogeneous import (
     terms_of_start,
 )
 from nag.solving.start.target import Start, StartError, Target, group_degrees
-from nag.solving.start.total_degree import bezout, total_degree
+from nag.solving.start.total_degree import Shape, bezout, total_degree
+from nag.tracking.known import Known
 
 KINDS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy")
 # So few paths are tracked in less time than another start system takes to be found.
@@ -65,28 +66,34 @@ def choose(
 
         start = monodromy(target, rng, threads)
         return start, f"monodromy, as asked: {_paths(len(start.points))}; {start.detail}"
-    groups, number = _usable_groups(target, given)
     if kind == "multihomogeneous":
+        groups, number = _usable_groups(target, given)
         start = multihomogeneous(target, groups, rng)
         return start, f"multihomogeneous, as asked: {_paths(number)} in {_groups(groups)}"
-    return _least_work(target, groups, number, rng, threads, generic)
+    return _least_work(target, given, rng, threads, generic)
 
 
 def _least_work(
     target: Target,
-    groups: Groups,
-    number: int,
+    given: Groups,
     rng: np.random.Generator,
     threads: int,
     generic: bool,
 ) -> tuple[Start, str]:
-    """The start system of least work; one in ``groups`` has ``number`` paths."""
-    total = bezout(target)
+    """The start system of least work; ``given`` groups are tried."""
+    total, shape = bezout(target), Shape.of(target)
+    tracked = total if generic else shape.interchange.paths(target.degrees)
     counts = [f"total degree {total}"]
+    groups, number = (tuple(range(target.n)),), total
+    if tracked < total:
+        counts = [f"total degree {total} ({tracked} but for interchanges of variables)"]
+    if tracked == total or tracked > FEW:
+        groups, number = _usable_groups(target, given)
     if len(groups) > 1:
         counts.append(f"multihomogeneous {number} in {_groups(groups)}")
-    least, most = min(total, number), None
-    if least > FEW:
+    least, most = min(tracked, number), None
+    # Few paths may still have infinite ends, which so many zeros show to be that.
+    if min(total, number) > FEW:
         from nag.solving.start.mixed_cells import mixed_cells
         from nag.solving.start.polyhedral import polyhedral
 
@@ -107,10 +114,11 @@ def _least_work(
             counts.append(str(error))
     elif least > 1:
         counts.append("so few that the mixed volume was not computed")
-    if number < total:
-        start = replace(multihomogeneous(target, groups, rng), most=most)
+    if number < tracked:
+        start = replace(multihomogeneous(target, groups, rng), known=Known(most))
         return start, f"multihomogeneous, the least work: {', '.join(counts)}"
-    start = replace(total_degree(target, rng, generic), most=most)
+    start = total_degree(target, rng, generic, shape)
+    start = replace(start, known=replace(start.known, most=most))
     return start, f"total degree, the least work: {', '.join(counts)}"
 
 

@@ -16,6 +16,7 @@ from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.solving.start.centring import centres, shifted
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.known import NOTHING, Known
 
 Terms = Mapping[Exponents, Number | complex]
 
@@ -127,8 +128,7 @@ class Start:
         complete: whether each isolated solution of the target is the end of as many paths as its
             multiplicity is.
         detail: how the start system came about, for the reader.
-        most: where it is known that the target, if it has so many regular zeros without zero
-            coordinates, has no other zeros.
+        known: what is known of the paths beforehand.
     """
 
     name: str
@@ -137,7 +137,7 @@ class Start:
     groups: tuple[tuple[int, ...], ...]
     complete: bool = True
     detail: str = ""
-    most: int | None = None
+    known: Known = NOTHING
 
     def affine(self, points: np.ndarray) -> np.ndarray:
         """Values of the variables at projective points, shape ``(P, n)``."""

@@ -97,7 +97,7 @@ def binomial_solutions(
     if not np.array_equal(vectors @ adjugate, exact):
         raise StartError("polyhedral: the exponents are too large")
     first = (inverse @ right[:, :, None])[:, :, 0]
-    angles, owners = [], []
+    angles, owners = [np.zeros((0, n))], [np.zeros(0, dtype=np.int64)]
     for k, volume in enumerate(volumes.tolist()):
         turns = _span(adjugate[k].T % volume, volume)
         angles.append(first[k] + 2 * np.pi / volume * turns)

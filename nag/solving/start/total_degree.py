@@ -10,6 +10,7 @@ near the end. The price is longer polynomials.
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations_with_replacement
 from math import comb, factorial, frexp, hypot, lcm, prod
@@ -17,6 +18,7 @@ from math import comb, factorial, frexp, hypot, lcm, prod
 import numpy as np
 
 from nag.algebra.polynomial import Exponents
+from nag.solving.start.interchange import Interchange, interchange
 from nag.solving.start.target import (
     Start,
     StartError,
@@ -27,6 +29,7 @@ from nag.solving.start.target import (
     unit,
 )
 from nag.tracking.homotopy import straight_line
+from nag.tracking.known import Known
 
 # Longest generic start systems.
 MOST_TERMS = 10_000
@@ -134,13 +137,85 @@ def _generic_rows(
     return result
 
 
-def total_degree(target: Target, rng: np.random.Generator, generic: bool = False) -> Start:
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """What a total degree start system consists of.
+
+    Attributes:
+        linear, matrix, solved: see `_linear_rows`.
+        rows: the other rows, in the order of ``free``, the variables that are not solved for.
+        interchange: which of these may be interchanged.
+    """
+
+    linear: list[int]
+    matrix: np.ndarray
+    solved: list[int]
+    rows: list[int]
+    free: list[int]
+    interchange: Interchange
+
+    @classmethod
+    def of(cls, target: Target) -> Shape:
+        linear, matrix, solved = _linear_rows(target)
+        free = [j for j in range(target.n) if j not in solved]
+        rows = [i for i in range(target.n) if i not in linear]
+        found = interchange(target, rows, free)
+        others = iter([i for i in rows if i not in found.owner.values()])
+        rows = [found.owner[j] if j in found.owner else next(others) for j in free]
+        return cls(linear, matrix, solved, rows, free, found)
+
+    def paths(self, target: Target) -> int:
+        """The number of paths that are not images of others."""
+        return self.interchange.paths(target.degrees)
+
+
+def _powers(
+    n: int, free: list[int], forms: np.ndarray, degrees: list[int], constants: np.ndarray
+) -> list[Row]:
+    """Powers of linear forms in the free variables, less constants."""
+    rows: list[Row] = []
+    for form, d, c in zip(forms.tolist(), degrees, constants, strict=True):
+        line = {_unit_vector(j, n): a for j, a in zip(free, form, strict=True) if a}
+        row: Row = {(0,) * n: 1.0}
+        for _ in range(d):
+            row = _product(row, line)
+        rows.append({**row, (0,) * n: -complex(c)} if d else row)
+    return rows
+
+
+def _roots(
+    n: int, free: list[int], degrees: list[int], constants: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """All combinations of roots of the constants, at the free variables' coordinates.
+
+    Points of shape ``(P, 1 + n)``, and the numbers of the roots, shape ``(P, n)``.
+    """
+    index = np.arange(prod(degrees))
+    points = np.ones((len(index), 1 + n), dtype=np.complex128)
+    roots = np.zeros((len(index), n), dtype=np.int64)
+    for j, d, c in zip(free, degrees, constants, strict=True):
+        if d:
+            roots[:, j] = index % d
+            points[:, 1 + j] = complex(c) ** (1 / d) * np.exp(2j * np.pi * roots[:, j] / d)
+            index = index // d
+    return points, roots
+
+
+def total_degree(
+    target: Target,
+    rng: np.random.Generator,
+    generic: bool = False,
+    shape: Shape | None = None,
+) -> Start:
     """The straight-line homotopy from ``x_i^d_i = c_i`` with random ``|c_i| = 1``.
+
+    The constants of variables that may be interchanged are the same.
 
     Args:
         target: the system to be solved.
         rng: gives the constants.
         generic: whether the start system is to be generic, unless it would be too long.
+        shape: what `Shape.of` says of the target, if that is known.
 
     Raises:
         StartError: if there are more paths than memory is for.
@@ -149,40 +224,34 @@ def total_degree(target: Target, rng: np.random.Generator, generic: bool = False
     paths = bezout(target)
     if paths > MOST_PATHS:
         raise StartError(f"total degree: {paths} paths; at most {MOST_PATHS} are tracked")
-    linear, matrix, solved = _linear_rows(target)
-    free = [j for j in range(n) if j not in solved]
-    rows = [i for i in range(n) if i not in linear]
+    shape = shape or Shape.of(target)
+    free, rows, matrix = shape.free, shape.rows, shape.matrix
     constants = unit(rng, len(rows))
     gamma = complex(unit(rng, 1)[0])
     wanted = [degrees[i] for i in rows]
     generic = generic and sum(comb(len(free) + d, d) for d in wanted) <= MOST_TERMS
+    if not generic:
+        for block in shape.interchange.blocks:
+            places = [free.index(j) for j in block]
+            constants[places] = constants[places[0]]
     forms = _unitary(len(free), rng) if generic else np.eye(len(free))
-    start_rows: list[Row] = []
-    for form, d, c in zip(forms.tolist(), wanted, constants, strict=True):
-        line = {_unit_vector(j, n): a for j, a in zip(free, form, strict=True) if a}
-        row: Row = {(0,) * n: 1.0}
-        for _ in range(d):
-            row = _product(row, line)
-        start_rows.append({**row, (0,) * n: -complex(c)} if d else row)
+    start_rows = _powers(n, free, forms, wanted, constants)
     if generic:
         start_rows = _generic_rows(start_rows, n, free, wanted, rng)
     groups = (tuple(range(n)),)
-    shape = group_degrees([target.rows[i] for i in rows], groups)
-    goal = homogenized([target.rows[i] for i in rows], n, groups, shape)
-    begin = homogenized(start_rows, n, groups, shape)
-    points = np.ones((paths, 1 + n), dtype=np.complex128)
-    index = np.arange(paths)
-    for j, i, c in zip(free, rows, constants, strict=True):
-        d = degrees[i]
-        if d:
-            points[:, 1 + j] = complex(c) ** (1 / d) * np.exp(2j * np.pi * (index % d) / d)
-            index = index // d
+    degrees_of_rows = group_degrees([target.rows[i] for i in rows], groups)
+    goal = homogenized([target.rows[i] for i in rows], n, groups, degrees_of_rows)
+    begin = homogenized(start_rows, n, groups, degrees_of_rows)
+    points, roots = _roots(n, free, wanted, constants)
     # What stands there are values of the forms; the adjoint of a unitary matrix is its inverse.
     columns = [1 + j for j in free]
     points[:, columns] = points[:, columns] @ forms.conj()
-    if linear:
-        columns = [1 + j for j in solved]
-        known = [0] + [1 + j for j in free]
+    if shape.linear:
+        columns = [1 + j for j in shape.solved]
+        known = [0, *(1 + j for j in free)]
         right = points[:, known] @ matrix[:, known].T
         points[:, columns] = -np.linalg.solve(matrix[:, columns], right.T).T
-    return Start("total", straight_line(begin, goal, gamma, matrix), points, groups)
+    symmetric = bool(shape.interchange.blocks) and not generic
+    orbits = shape.interchange.orbits(roots, 1) if symmetric else None
+    homotopy = straight_line(begin, goal, gamma, matrix)
+    return Start("total", homotopy, points, groups, known=Known(orbits=orbits))

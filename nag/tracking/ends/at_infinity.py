@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from nag.tracking.ends.inclusion import patches_through, system_at
+from nag.tracking.ends.inclusion import patches_through, system_at, values_at
 from nag.tracking.ends.terms import Terms, number
 
 BITS = 700
 # Coordinates of size one that are zero; Newton's method has arrived where its step is as small.
 ZERO = 1e-150
-MOST_STEPS = 10
+MOST_STEPS = 12
 
 
 def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) -> bool:
@@ -40,15 +40,18 @@ def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) ->
 
 
 def _vanishes(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) -> bool:
+    """By Newton's method with the first point's Jacobian, as it is near enough for that."""
     patches = patches_through(flint, terms, x)
     size = max(float(abs(z).mid()) for z in x)
+    values, jacobian = system_at(flint, terms, patches, x)
+    try:
+        inverse = jacobian.mid().inv().mid()
+    except ZeroDivisionError:
+        return False
     for _ in range(MOST_STEPS):
-        values, jacobian = system_at(flint, terms, patches, x)
-        try:
-            step = jacobian.mid().solve(values.mid())
-        except ZeroDivisionError:
-            return False
+        step = inverse * values.mid()
         x = [(z - step[j, 0]).mid() for j, z in enumerate(x)]
         if max(float(abs(step[j, 0]).mid()) for j in range(len(x))) < ZERO * size:
             return any(float(abs(x[j]).mid()) < ZERO * size for j in coordinates)
+        values = values_at(flint, terms, patches, x)
     return False

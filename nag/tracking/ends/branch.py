@@ -8,6 +8,8 @@ series in r converges as far as the next branch point is from 0, for the true w 
 
 from __future__ import annotations
 
+import math
+
 from nag.machine_code.lanes import fma, load, select_less, splat, square_root, store
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
@@ -100,7 +102,7 @@ def predict(s, r, order, wanted, finishing, h):
 
 
 def _size(data, q, lane):
-    return (data[8 * q + lane] ** 2 + data[8 * (q + 1) + lane] ** 2) ** 0.5
+    return math.sqrt(data[8 * q + lane] ** 2 + data[8 * (q + 1) + lane] ** 2)
 
 
 def _reach(first, second, order, goal):

@@ -6,6 +6,8 @@ The parameter of the Taylor series is h in ``t exp(h)``; ``z`` stands for
 
 from __future__ import annotations
 
+import math
+
 from nag.machine_code.lanes import fma, load, splat, store
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
@@ -72,8 +74,8 @@ def values(s, r):
         size = zero
         for j in range(s.N):
             q = 2 * (k * s.N + j)
-            still = splat((s.A0[q] ** 2 + s.A0[q + 1] ** 2) ** 0.5)
-            slope = splat((s.A1[q] ** 2 + s.A1[q + 1] ** 2) ** 0.5)
+            still = splat(math.sqrt(s.A0[q] ** 2 + s.A0[q + 1] ** 2))
+            slope = splat(math.sqrt(s.A1[q] ** 2 + s.A1[q + 1] ** 2))
             size = fma(fma(load(r.t, 0), slope, still), z.magnitude(z.read(r.slots, j)), size)
         store(r.sizes, s.rows + k, size)
     _patches(s, r)

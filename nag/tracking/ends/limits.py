@@ -14,13 +14,12 @@ from typing import Any
 import numpy as np
 
 from nag.tracking.ends.terms import BITS, Terms, doubles, number, real
+from nag.tracking.paths import NEVER, relative
 
 # An order in units of 1 / w is a whole number to so many units.
 WHOLE = 1e-3
 LARGEST = 100
 LOG_2 = 0.6931471805599453
-# Order of a coordinate that is zero as far as its digits go.
-NEVER = 1 << 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +121,7 @@ class Limits:
         bends = found[:, 3, 0].sum(axis=1) + 1j * found[:, 3, 1].sum(axis=1)
         rates = np.array([k / denominator if k < NEVER else 0.0 for k in orders])
         bends = np.where(known, bends - winding * self.order * rates, 0.0)
-        bends = self._relative(bends, orders) / t[0] ** (1.0 / winding)
+        bends = relative(bends, orders, self.terms.homotopy.groups) / t[0] ** (1.0 / winding)
         winding = denominator
         residual = self._residual(flint, tuple(orders), leading, winding)
         centre = self._centre(orders, leading)
@@ -141,16 +140,6 @@ class Limits:
             for j in first:
                 centre[j] = doubles(leading[j] / size, self.words)
         return centre
-
-    def _relative(self, values: np.ndarray, orders: list[int]) -> np.ndarray:
-        """Values less that of the first coordinate of least order in each group."""
-        result = np.zeros(len(values), dtype=np.complex128)
-        for indices in self.terms.homotopy.groups:
-            first = min(indices, key=lambda j: (orders[j], j))
-            for j in indices:
-                if orders[j] < NEVER:
-                    result[j] = values[j] - values[first]
-        return result
 
     def _branch(self, orders: list[int], leading: list[Any]) -> np.ndarray:
         logs = np.zeros(self.terms.homotopy.N, dtype=np.complex128)

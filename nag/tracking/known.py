@@ -1,0 +1,60 @@
+"""What is known of paths before they are tracked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nag.tracking.paths import Paths
+
+
+@dataclass(frozen=True, eq=False)
+class PathOrbits:
+    """Paths that permutations of the coordinates carry into each other.
+
+    Attributes:
+        chosen: indices of the paths that stand for the others, one of each orbit, shape ``(R,)``.
+        orbit: which of these stands for each path, shape ``(P,)``.
+        sources: coordinate ``i`` of path ``p`` is coordinate ``sources[p, i]`` of the path that
+            stands for it, at every t; shape ``(P, N)``.
+    """
+
+    chosen: np.ndarray
+    orbit: np.ndarray
+    sources: np.ndarray
+
+    def expanded(self, paths: Paths, groups: Sequence[Sequence[int]]) -> Paths:
+        """All paths, from those chosen; steps count where they were taken."""
+        steps = np.zeros(len(self.orbit), dtype=paths.steps.dtype)
+        steps[self.chosen] = paths.steps
+        names = ("status", "winding", "accuracy", "condition", "precision", "reason", "simple")
+        columns = {name: getattr(paths, name)[self.orbit] for name in names}
+        points = np.take_along_axis(paths.points[self.orbit], self.sources, axis=1)
+        number = list(enumerate(self.orbit.tolist()))
+        balls = {p: paths.balls[k].permuted(self.sources[p]) for p, k in number if k in paths.balls}
+        branches = {
+            p: paths.branches[k].permuted(self.sources[p], groups)
+            for p, k in number
+            if k in paths.branches
+        }
+        return replace(paths, points=points, steps=steps, balls=balls, branches=branches, **columns)
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What a start system knows of its paths.
+
+    Attributes:
+        most: where it is known that the target, if it has so many regular zeros without zero
+            coordinates, has no other zeros: once these are found, all other paths lead to
+            infinity.
+        orbits: paths that need not be tracked, as others are their images.
+    """
+
+    most: int | None = None
+    orbits: PathOrbits | None = None
+
+
+NOTHING = Known()
