@@ -117,6 +117,17 @@ def test_parts_are_taken_at_a_general_configuration_in_any_formulation(
     capsys.readouterr()
 
 
+def test_parts_that_do_not_fit_are_answered_with_one_line(tmp_path, capsys) -> None:
+    file = tmp_path / "loop.toml"
+    rows = "{a = 1, alpha = 0}, " * 3 + '{a = 1, alpha = "pi/2"}'
+    file.write_text(f'title = "t"\nkind = "dh"\njoint = [{rows}]\n')
+    assert main(["mobility", str(file), "--quiet"]) == 2
+    error = capsys.readouterr().err
+    assert error.endswith("its parts cannot be assembled, not even with complex coordinates\n")
+    assert main(["mobility", str(file), "--local", "--quiet"]) == 2
+    assert "give --at, or leave out --local" in capsys.readouterr().err
+
+
 def test_a_framework_by_lengths_is_placed_by_x_and_y(tmp_path, capsys) -> None:
     file = tmp_path / "framework.toml"
     file.write_text(

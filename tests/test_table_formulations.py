@@ -95,7 +95,7 @@ def test_a_table_is_decomposed_in_the_coordinates_that_were_asked_for(capsys) ->
         (["decompose", "--formulation", "S"], "a table has formulations H and E"),
         (["decompose", "--coordinates", "joint", "--formulation", "E"], "use --formulation H"),
         (["decompose", "--modes", "all"], "--modes is for assembled mechanisms"),
-        (["mobility", "--check"], "give --at"),
+        (["mobility", "--local"], "give --at"),
     ],
 )
 def test_what_a_table_has_not_is_refused_with_one_line(arguments, text: str, capsys) -> None:

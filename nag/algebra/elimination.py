@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 from nag.algebra.factoring import factored
@@ -84,6 +84,11 @@ def eliminate_linear(
         keep: indices of variables that must stay.
         graphs: whether equations of degree two and more may be solved.
     """
+    return _eliminated(system, frozenset(keep), graphs)
+
+
+@lru_cache(maxsize=64)
+def _eliminated(system: PolynomialSystem, keep: frozenset[int], graphs: bool) -> Elimination:
     n = system.n
     equations = [f for f in system.polynomials if f]
     nonzero = list(system.nonzero)
@@ -91,7 +96,7 @@ def eliminate_linear(
     kept = set(range(n))
     groups = system.groups
     while True:
-        pivot = _pivot(equations, nonzero, kept - set(keep), groups, graphs)
+        pivot = _pivot(equations, nonzero, kept - keep, groups, graphs)
         if pivot is None:
             break
         row, index = pivot

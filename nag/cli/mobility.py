@@ -162,7 +162,7 @@ def _reference(case: Case, made: Model | None) -> tuple[Number, ...]:
 def _report(
     options: argparse.Namespace, case: Case, formulation: str, at: tuple[Number, ...] | None
 ) -> MobilityReport:
-    from nag.mechanism.mobility_at import mobility
+    from nag.mechanism.mobility_at import NoAssembly, mobility
     from nag.numerics.local_dimension import NoSolution
 
     subject = case.mechanism or case.assembly
@@ -177,6 +177,8 @@ def _report(
             threads=options.threads,
             settings=options.settings,
         )
+    except NoAssembly as reason:
+        raise UsageError(f"{options.case}: {reason}") from None
     except NoSolution as reason:
         raise UsageError(f"--at: {reason}; it is no configuration of the mechanism") from None
 

@@ -32,6 +32,10 @@ from nag.witness.expansion import expanded
 from nag.witness.witness import Decomposition, WitnessSet
 
 
+class NoAssembly(ValueError):
+    """Parts that cannot be assembled, with the reason."""
+
+
 @dataclass(frozen=True)
 class Subject:
     """Equations of configurations, and what counting says of them.
@@ -116,8 +120,8 @@ def mobility(
     Raises:
         nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
         nag.numerics.local_dimension.NoSolution: if an exact point is no configuration.
-        ValueError: if parts cannot be assembled, or are to be looked at without a decomposition
-            where no assembly is known.
+        NoAssembly: if parts cannot be assembled.
+        ValueError: if parts are to be looked at without a decomposition where no assembly is known.
 
     >>> import nag
     >>> print(nag.mobility(nag.read_case("cases/bennett.toml").mechanism))
@@ -177,7 +181,7 @@ def _in_general(subject: Subject, detail: str, options: dict[str, Any]) -> Mobil
     found = _decomposed(subject, **options)
     components = expanded(found).components
     if found.complete and not components:
-        raise ValueError("the parts cannot be assembled, not even with complex coordinates")
+        raise NoAssembly("its parts cannot be assembled, not even with complex coordinates")
     general = max(components, key=lambda c: (c.dimension, c.corank), default=None)
     known = general if found.complete else None
     curves = [c for c in components if c.dimension == 1] if detail == "curves" else []
