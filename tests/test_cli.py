@@ -394,7 +394,7 @@ def test_ctrl_c_ends_a_process_with_status_130_and_one_line(case, tmp_path) -> N
     script = tmp_path / "run.py"
     script.write_text(
         "import sys, time\n"
-        "import nag.cli\n"
+        "import nag.cli.model\n"
         "def wait(arguments):\n"
         "    print('ready', flush=True)\n"
         "    time.sleep(60)\n"

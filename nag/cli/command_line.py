@@ -1,8 +1,8 @@
 """The command line's grammar, and how a command ends.
 
 Exit status: 0 for a complete answer, 1 for an incomplete one, 2 for bad input (one line on
-standard error), 130 after Ctrl-C. Modules that load numpy or llvmlite are imported by the commands
-that need them, so that ``nag --help`` answers at once.
+standard error), 130 after Ctrl-C. A command is imported when it is asked for, and modules that load
+numpy or llvmlite by the commands that need them, so that ``nag --help`` answers at once.
 """
 
 from __future__ import annotations
@@ -12,25 +12,9 @@ import contextlib
 import os
 import sys
 from collections.abc import Sequence
-from types import ModuleType
+from importlib import import_module
 
 import nag
-from nag.cli import (
-    bench,
-    certify,
-    chart,
-    check,
-    decompose,
-    eliminate,
-    intersect,
-    local,
-    member,
-    mobility,
-    model,
-    sample,
-    singular,
-    solve,
-)
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 from nag.cli.running import begin
 
@@ -39,56 +23,48 @@ FROM_COMPONENTS = (
     "decomposed first."
 )
 
-# Each command: its module, what it does, and more about it.
-COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
+# Each command, which is a module of this package: what it does, and more about it.
+COMMANDS: tuple[tuple[str, str, str], ...] = (
     (
         "decompose",
-        decompose,
         "find the irreducible components of a case",
         "Find the irreducible components of a mechanism's configuration space, or of the zero set "
         "of a polynomial system, and the mobility.",
     ),
     (
         "member",
-        member,
         "say which components a point lies on",
         f"Say which components a point lies on. {FROM_COMPONENTS}",
     ),
     (
         "local",
-        local,
         "say what dimension the solutions have at a point",
         "Say what dimension the solution set has at a point: isolated, of which multiplicity, or "
         "on a component of which dimension, singular or not. Nothing is decomposed for it.",
     ),
     (
         "mobility",
-        mobility,
         "say how a mechanism moves at a configuration",
         "Say how a mechanism moves at a configuration: what counting predicts, the tangent and the "
         "local dimension, the components through it, and what that means.",
     ),
     (
         "sample",
-        sample,
         "find random points of a component",
         f"Find random points of a component. {FROM_COMPONENTS}",
     ),
     (
         "singular",
-        singular,
         "find singular points of components, and where components meet",
         f"Find singular points of components, and where components meet. {FROM_COMPONENTS}",
     ),
     (
         "intersect",
-        intersect,
         "find the intersection of two components",
         f"Find the intersection of two components. {FROM_COMPONENTS}",
     ),
     (
         "eliminate",
-        eliminate,
         "find exact equations of a component in some variables",
         "Find the exact equations that a component's points satisfy in some of the variables, and "
         "the maps from there to the other variables, by interpolation; prove them where possible. "
@@ -96,14 +72,12 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
     ),
     (
         "solve",
-        solve,
         "find the isolated solutions of a case",
         "Find all isolated solutions of a polynomial system, with multiplicities, by tracking "
         "paths from a solved system.",
     ),
     (
         "check",
-        check,
         "test the statements of the founding papers, on a case or all",
         "Test what the founding papers state, one by one: exactly where exact algebra decides, "
         "else numerically, with a counterexample where a statement fails; and compare the "
@@ -111,36 +85,32 @@ COMMANDS: tuple[tuple[str, ModuleType, str, str], ...] = (
     ),
     (
         "certify",
-        certify,
         "prove the points of an export",
         "Prove that there is exactly one zero in a box about each solution of `nag solve --json`, "
         "or witness point of `nag decompose --json`, that they are distinct, and which are real.",
     ),
     (
         "bench",
-        bench,
         "solve the benchmark systems and measure how fast",
         "Solve the benchmark systems, check their numbers of solutions and measure the time, "
         "beside other programs if they are installed.",
     ),
     (
         "chart",
-        chart,
         "chart where methods fail, and speed against accuracy",
         "Run families of systems that are hard in one way each, or solve cases in many settings "
         "and arithmetics, and draw what comes of it.",
     ),
     (
         "model",
-        model,
         "print the polynomial system of a case",
         "Print the polynomial system that `nag decompose` decomposes.",
     ),
 )
 
 
-def parser() -> argparse.ArgumentParser:
-    """The command line's grammar."""
+def parser(words: Sequence[str]) -> argparse.ArgumentParser:
+    """The command line's grammar, with the options of the command that is among the words."""
     root = Parser(
         prog="nag",
         description="Numerical algebraic geometry for mechanisms.",
@@ -149,10 +119,13 @@ def parser() -> argparse.ArgumentParser:
     )
     root.add_argument("--version", action="version", version=f"nag {nag.__version__}")
     commands = root.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, module, text, description in COMMANDS:
+    named = next((word for word in words if not word.startswith("-")), None)
+    for name, text, description in COMMANDS:
         command = commands.add_parser(name, allow_abbrev=False, help=text, description=description)
-        module.add_arguments(command)
-        command.set_defaults(module=module)
+        if name == named:
+            module = import_module(f"nag.cli.{name}")
+            module.add_arguments(command)
+            command.set_defaults(module=module)
     return root
 
 
@@ -186,6 +159,7 @@ def _abandon_output() -> None:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
+    words = sys.argv[1:] if argv is None else list(argv)
     # A stream that was closed before the start is None.
     sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115
     sys.stderr = sys.stderr or open(os.devnull, "w")  # noqa: SIM115
@@ -195,7 +169,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     try:
         try:
-            arguments = parser().parse_args(argv)
+            arguments = parser(words).parse_args(words)
         except SystemExit:  # after --help or --version
             _print()
             return COMPLETE

@@ -175,7 +175,6 @@ def _decomposed(
     arguments: argparse.Namespace, case: Case, model: Model | None, progress: Progress
 ) -> tuple[Case, Model | None, Decomposition]:
     """The components, and the case or the model in whose coordinates they are."""
-    from nag.decomposition import by_sampling
     from nag.files.problem import decomposed, symmetries_of, system_of
 
     options = {
@@ -185,6 +184,8 @@ def _decomposed(
         "progress": progress,
     }
     if arguments.method == "sampling":
+        from nag.decomposition import by_sampling
+
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
         starts["symmetries"] = symmetries_of(case, model)
         return case, model, by_sampling(system_of(case, model), **options, **starts)

@@ -79,7 +79,7 @@ class CommonSlices:
         if d:
             gamma = complex(unit_complex(rng))
             ends = move(fibre, rows, self.flag[:d], gamma, tracker)
-            z, error, counts = ends.points[0], float(ends.accuracy[0]), ends.counts.repeatable
+            z, error, counts = ends.points[0], float(ends.accuracy[0]), ends.counts.judged_elsewhere
             if not ends.regular.all():
                 return self, None, counts
         # A cut that leaves out an equation which only seems to hold gives itself away elsewhere.

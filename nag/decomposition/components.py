@@ -9,18 +9,11 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.branch_components import decompose_apart
-from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.independent_parts import decompose_parts
-from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once
 from nag.decomposition.one_equation import decompose_one_equation
-from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.witness.fibres import Progress, Tracker
-from nag.witness.points import Points
-from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition
 
 
@@ -88,49 +81,7 @@ def _decompose_whole(
     exact = decompose_one_equation(reduction, rng, tracker, scheme, one=moving)
     if exact is not None:
         return replace(exact, seed=seed)
-    if is_finite(reduction.reduced, rng, tracker):
-        points = solved_at_once(system, rng, tracker, symmetries, finite=True)
-        if points is not None:
-            return replace(points, seed=seed, settings=tracker.settings)
+    # Paths take longer to load than most of what needs none takes altogether.
+    from nag.decomposition.several_equations import decompose_several
 
-    answer = _one_by_one(reduction, np.random.default_rng(seed), tracker, symmetries, scheme)
-    if not answer.complete and answer.dimension <= 0:
-        points = solved_at_once(system, rng, tracker, symmetries)
-        if points is not None and contains(points, answer):
-            tracked = answer.paths.tracked + points.paths.tracked
-            answer = replace(points, paths=replace(points.paths, tracked=tracked))
-    return counted(replace(answer, seed=seed, settings=tracker.settings), scheme)
-
-
-def _one_by_one(
-    reduction: Reduction,
-    rng: np.random.Generator,
-    tracker: Tracker,
-    symmetries: Sequence[SignedPermutation],
-    scheme: bool,
-) -> Decomposition:
-    """The components by intersecting with one equation after the other."""
-    reduced = reduction.reduced
-    order = intersection_order(reduced.polynomials)
-    equations = [reduced.polynomials[i] for i in order]
-    flag = random_rows(rng, reduced.n, reduced.n, NEARER)
-    superset = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, tracker)
-    notes = list(superset.notes)
-    if superset.counts.failed:
-        notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-    known = Known(
-        actions=[Action.of(g, reduction.frame) for g in symmetries if not g.is_identity],
-        scheme=scheme,
-    )
-    points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
-    found = assembled(points, reduction, rng, tracker, known)
-    return Decomposition(
-        system=reduction.system,
-        components=found.components,
-        paths=superset.counts + found.counts,
-        seed=0,
-        settings=tracker.settings,
-        order=tuple(order),
-        complete=found.complete and not notes,
-        notes=(*notes, *found.notes),
-    )
+    return decompose_several(reduction, seed, rng, tracker, symmetries, scheme)

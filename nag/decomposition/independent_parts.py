@@ -16,7 +16,6 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.given_points import components_through_points
 from nag.witness.witness import Decomposition, PathCounts
 
 # Products beyond this number, or with more witness points, are not worked out one by one.
@@ -51,6 +50,8 @@ def decompose_parts(
     points = [prod(c.degree for c in chosen) for chosen in choices]
     if len(choices) > MOST_PRODUCTS or max(points, default=0) > MOST_POINTS:
         return None
+    from nag.decomposition.given_points import components_through_points
+
     starts = []
     for chosen in choices:
         x = np.zeros(system.n, dtype=complex)

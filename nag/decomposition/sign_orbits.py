@@ -78,5 +78,5 @@ def _moved(
     there = rows * np.concatenate([[1.0], factor])
     ends = move(moved, there, rows, complex(unit_complex(rng)), tracker)
     if not ends.regular.all():
-        return None, 0.0, ends.counts.repeatable
-    return ends.points, float(ends.accuracy.max(initial=0.0)), ends.counts.repeatable
+        return None, 0.0, ends.counts.judged_elsewhere
+    return ends.points, float(ends.accuracy.max(initial=0.0)), ends.counts.judged_elsewhere

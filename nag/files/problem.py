@@ -25,12 +25,13 @@ def system_of(case: Case, model: Model | None) -> PolynomialSystem:
 
 def decomposed(case: Case, model: Model | None, **options: Any) -> Decomposition:
     """The components of what a case asks; options as of `nag.decomposition.decompose`."""
-    from nag.decomposition import decompose
-    from nag.mechanism.parts_decomposition import decompose_parts
-
     options["symmetries"] = symmetries_of(case, model)
     if case.assembly is not None:
+        from nag.mechanism.parts_decomposition import decompose_parts
+
         return decompose_parts(case.assembly, **options)
+    from nag.decomposition import decompose
+
     return decompose(system_of(case, model), **options)
 
 

@@ -50,7 +50,7 @@ def decompose_parts(
         carried = _carried(parts, found, symmetries, **options) if found.complete else None
         if carried is not None:
             return carried
-        tracked = found.paths.repeatable
+        tracked = found.paths.judged_elsewhere
     answer = decompose(parts.system, progress=progress, symmetries=symmetries, **options)
     return answer if tracked is None else replace(answer, paths=answer.paths + tracked)
 

@@ -132,7 +132,7 @@ def _rows(rows: CompiledRows) -> tuple[Any, ...]:
 
 def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
     """The table of `System` for ``homotopy``; with ``weights``, (paths, parts), of a toric one."""
-    known = homotopy.__dict__.get("_system")
+    known = homotopy._cache.get("system")
     if known is not None and weights is None:
         return known
     factors = np.array(homotopy.factors, dtype=np.complex128).reshape(-1, 2)
@@ -156,7 +156,7 @@ def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
         weights=np.zeros(1) if weights is None else np.ascontiguousarray(weights, float).ravel(),
     )
     if weights is None:
-        homotopy.__dict__["_system"] = made
+        homotopy._cache["system"] = made
     return made
 
 

@@ -304,7 +304,7 @@ def carried(
     counts, result = PathCounts(), []
     for fibre in fibres:
         ends = move(fibre, source, target, gamma, tracker)
-        counts += ends.counts.repeatable
+        counts += ends.counts.judged_elsewhere
         if not ends.regular.all():
             return None, counts
         result.append(ends.fibre(fibre.cut, fibre.dimension, range(len(fibre))))

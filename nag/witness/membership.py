@@ -56,7 +56,7 @@ def is_member(
     unclear = False
     for fibre in fibres:
         ends = move(fibre, flag[:dimension], target, gamma, tracker, endgame=True)
-        counts += ends.counts.repeatable
+        counts += ends.counts.judged_elsewhere
         if ends.fine:
             answers = [_at_end(point, accuracy * scale, fibre, ends, i, target) for i in ends.fine]
             if Membership.MEMBER in answers:

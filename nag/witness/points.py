@@ -165,7 +165,7 @@ def moved_points(
     for fibre in fibres:
         own, first = order[first : first + len(fibre)], first + len(fibre)
         there = move(fibre, points.rows, target, gamma, tracker)
-        counts += there.counts.repeatable
+        counts += there.counts.judged_elsewhere
         for k in np.flatnonzero(there.regular).tolist():
             found[int(own[k])] = there.points[k], there.fine.get(k)
     origins = np.array(sorted(found), dtype=int)

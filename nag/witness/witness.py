@@ -318,8 +318,8 @@ class PathCounts:
     at_infinity: int = 0
 
     @property
-    def repeatable(self) -> PathCounts:
-        """The counts of paths that are tracked again, elsewhere, where they fail."""
+    def judged_elsewhere(self) -> PathCounts:
+        """The counts without failures, where what they leave open is said in another way."""
         return PathCounts(self.tracked, 0, self.at_infinity)
 
     def __add__(self, other: PathCounts) -> PathCounts:
