@@ -181,5 +181,5 @@ def test_systems_without_generic_solutions_have_volume_zero() -> None:
 def test_a_bound_for_all_zeros_needs_constant_terms() -> None:
     rng = np.random.default_rng(1)
     noon = benchmark("noon-5")
-    assert choose(noon, "auto", (), rng, 1)[0].most == 233
-    assert choose(benchmark("katsura-8"), "auto", (), rng, 1)[0].most is None
+    assert choose(noon, "auto", (), rng, 1)[0].known.most == 233
+    assert choose(benchmark("katsura-8"), "auto", (), rng, 1)[0].known.most is None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -114,12 +115,9 @@ def judged_ends(
         groups = [*zeros.alone()[:, None], *groups]
     else:
         isolated = _simple(begin, zeros, zeros.alone(), paths)
-
-    def judge(i: int) -> _Place:
-        return _place(problem, begin, zeros, i, paths, evaluator, rng)
-
+    judge = partial(_place, problem, begin, zeros, paths, evaluator, rng)
+    whole = begin.complete and not problem.squared
     for group in groups:
-        whole = begin.complete and not problem.squared
         best, found = _together(judge, zeros, group, whole)
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
         # Of a cluster with as many zeros as paths, each is the end of its own.
@@ -138,16 +136,15 @@ def judged_ends(
         if finite and found.place is Place.ON_COMPONENT:
             unclear.append("the solution set is not finite; the other ends were not looked at")
             break
-    if elsewhere[Place.UNDECIDED]:
-        unclear.append(
-            f"{len(elsewhere[Place.UNDECIDED])} end points may or may not be isolated solutions, "
-            "or several that are close together"
-        )
+    on_components, undecided = elsewhere[Place.ON_COMPONENT], elsewhere[Place.UNDECIDED]
+    if undecided:
+        may_be = "may or may not be isolated solutions, or several that are close together"
+        unclear.append(f"{len(undecided)} end points {may_be}")
     original = problem.target.original
     return JudgedEnds(
         *_solutions(problem, isolated),
-        original(np.array(elsewhere[Place.ON_COMPONENT]).reshape(-1, n)),
-        original(np.array(elsewhere[Place.UNDECIDED]).reshape(-1, n)),
+        original(np.array(on_components).reshape(-1, n)),
+        original(np.array(undecided).reshape(-1, n)),
         tuple(unclear),
         np.array(sorted(close), dtype=np.int64),
         tuple(isolated),
@@ -213,10 +210,10 @@ def _place(
     problem: SquareProblem,
     begin: Start,
     zeros: _Zeros,
-    i: int,
     paths: Paths,
     evaluator: Evaluator,
     rng: np.random.Generator,
+    i: int,
 ) -> _Place:
     """Where the zero ``i`` lies."""
     point, accuracy, path = zeros.points[i], float(zeros.accuracy[i]), zeros.path[i]
