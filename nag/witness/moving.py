@@ -123,7 +123,10 @@ def witness_at(
     rows, goal = component.slice.rows, orthonormal_rows(target.rows)
     fibres = component_fibres(system, component)
     evaluator = Evaluator.of(system.polynomials, system.n)
-    there = arrival(fibres, rows, goal, rng, Tracker(settings, threads))
+    for tracker in Tracker(settings, threads).attempts():
+        there = arrival(fibres, rows, goal, rng, tracker)
+        if not there.irregular:
+            break
     found = [in_order(each) for each in there.sharp]
     points = np.vstack([each.fibre.x for each in found])
     residual = float(evaluator.residuals(points).max(initial=0.0))

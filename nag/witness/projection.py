@@ -133,9 +133,12 @@ def _pseudo_witness(
     """Degrees of the image and of the fibre, the slice's rows, and the points on it."""
     rows, d = component.slice.rows, component.dimension
     target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
-    there = arrival(fibres, rows, target, rng, tracker)
-    # Finite points of a generic slice are regular (Bertini's theorem).
-    if there.irregular or not there.accuracy < SHARP:
+    for how in tracker.attempts():
+        there = arrival(fibres, rows, target, rng, how)
+        # Finite points of a generic slice are regular (Bertini's theorem).
+        if not there.irregular and there.accuracy < SHARP:
+            break
+    else:
         raise ProjectionError("paths failed; the component may not be irreducible")
     x = there.x
     images = clusters(x[:, list(coordinates)], np.full(len(x), there.accuracy))

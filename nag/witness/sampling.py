@@ -70,12 +70,15 @@ def sample(
     evaluator = Evaluator.of(system.polynomials, system.n)
     points, accuracy = np.zeros((count, system.n), dtype=complex), float(np.finfo(float).eps)
     for k in range(count):
-        _, there = at_random(fibres, component.slice.rows, rng, tracker)
-        x = there.x
-        if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
+        for how in tracker.attempts():
+            _, there = at_random(fibres, component.slice.rows, rng, how)
+            x = there.x
+            if len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON:
+                points[k], accuracy = x[0], max(accuracy, there.accuracy)
+                break
+        else:
             some = _samples(evaluator, points[:k], accuracy)
             raise SamplingError(f"point {k + 1} of {count}: the path to it failed", some)
-        points[k], accuracy = x[0], max(accuracy, there.accuracy)
     return _samples(evaluator, points, accuracy)
 
 
