@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from nag.numerics.digits import point
 from nag.numerics.singular_point import SingularEnd
 from nag.solving.start.target import Start
 from nag.tracking.ends.terms import number
@@ -46,10 +45,12 @@ class FinePoint:
     @classmethod
     def of_end(cls, end: SingularEnd) -> FinePoint | None:
         """The coordinates that the judgement of an end gives; None if it gives none."""
-        import flint
-
         if not end.digits:
             return None
+        import flint
+
+        from nag.numerics.digits import point
+
         with flint.ctx.workdps(DIGITS):
             return cls(tuple(point(end.digits)), WRITTEN)
 
