@@ -47,12 +47,12 @@ class FinePoint:
     @classmethod
     def of_end(cls, end: SingularEnd) -> FinePoint | None:
         """The coordinates that the judgement of an end gives; None if it gives none."""
+        if not end.digits:
+            return None
         import flint
 
         from nag.numerics.digits import point
 
-        if not end.digits:
-            return None
         with flint.ctx.workdps(DIGITS):
             return cls(tuple(point(end.digits)), WRITTEN)
 
