@@ -33,6 +33,8 @@ FIRST = 40
 # Doubles are no more accurate than this, relative to the point; regular ends nearer to a zero than
 # this are compared with it in digits.
 ROUNDED, CLOSE = 1e-15, 1e-9
+# An end is looked at as far about it as so many times its error.
+REACH = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,8 +59,14 @@ def meant(
     zeros: list[SingularEnd] = []
     known: list[list[flint.acb]] = []
     slices, decided = padded(rows, 1 + equations.n), True
-    for x, accuracy in ends:
-        end = analyse(equations.polynomials, x, max(accuracy, ROUNDED), rng, slices)
+    seen = np.zeros((0, equations.n), dtype=complex)
+    # What lies within the error of one end is looked at with it: the least known ones come first.
+    for x, accuracy in sorted(ends, key=lambda end: -end[1]):
+        error = max(accuracy, ROUNDED)
+        if (np.linalg.norm(seen - x, axis=1) <= REACH * error * (1 + np.linalg.norm(x))).any():
+            continue
+        end = analyse(equations.polynomials, x, error, rng, slices)
+        seen = np.vstack([seen, x])
         decided &= end.place is not Place.UNDECIDED
         for zero in end.nearby or ((end,) if end.place is Place.ISOLATED else ()):
             with flint.ctx.workdps(DIGITS):
