@@ -198,6 +198,9 @@ solving.start.total_degree.DEPENDENT        1e-10   Pivots of linear equations, 
                                                     depend on others.
 witness.close_to_sets.CLOSE                 1e-9    Ends of regular paths nearer than this to a zero
                                                     are compared with it in digits.
+witness.close_to_sets.REACH                 10      Errors of an end within which others are taken
+                                                    to stand for the same zeros, which are looked at
+                                                    once.
 witness.close_to_sets.SAME                  -80     Decimal logarithm of the distance of points that
                                                     are one, of 100 digits.
 witness.close_to_sets.ZERO                  -80     The same of a pivot that is none.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -47,7 +47,7 @@ class JudgedEnds:
     isolated: tuple[IsolatedZero, ...]
     count: ZeroCount | None = None
 
-    @property
+    @cached_property
     def zeros(self) -> int:
         """The number of isolated zeros, by multiplicity."""
         return sum(zero.multiplicity for zero in self.isolated)
