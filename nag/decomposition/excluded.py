@@ -89,5 +89,5 @@ def _beside(
     tell them from it nor hold a cut that makes them regular.
     """
     slices, rng = padded(rows, 1 + len(z)), np.random.default_rng(0)
-    zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices)
+    zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices, True)
     return not all(any(vanish_at([g], zero.digits) for g in nonzero) for zero in zeros)

@@ -52,6 +52,7 @@ def judged(
     accuracy: float,
     rng: np.random.Generator,
     slices: np.ndarray | None,
+    place_only: bool = False,
 ) -> SingularEnd:
     """See `nag.numerics.singular_point.analyse`."""
     with working(DIGITS):
@@ -62,7 +63,7 @@ def judged(
         system = ExactSystem.of(polynomials, rounded, slices)
         y = [middle(c / flint.arb(2) ** k) for c, k in zip(precise, system.scales, strict=True)]
         reach = log10(max(accuracy, 1e-300))
-        return _judged(system, y, max(reach, 5.0 - DIGITS), rng, 0)
+        return _judged(system, y, max(reach, 5.0 - DIGITS), rng, not place_only)
 
 
 def _judged(
@@ -70,8 +71,10 @@ def _judged(
     y: Sequence[flint.acb],
     claimed: float,
     rng: np.random.Generator,
-    depth: int,
+    hold: bool,
+    depth: int = 0,
 ) -> SingularEnd:
+    """With ``hold`` what vanishes must do so to as many digits as the coefficients ask for."""
     reasons: list[str] = []
     tried: set[float] = set()
     # Errors count relative to the whole point, the scales to each of its coordinates.
@@ -87,11 +90,11 @@ def _judged(
             reasons.append(str(reason))
             continue
         if found.exact:
-            return _at_zero(system, found, rng)
+            return _at_zero(system, found, rng, hold)
         reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
         if found.free or depth == DEEPEST:
             continue
-        nearby = _resolved(system, found, reach, rng, depth)
+        nearby = _resolved(system, found, reach, rng, hold, depth)
         if len(nearby) == 1 and (found.corank > 1 or nearby[0].place is Place.ON_COMPONENT):
             return nearby[0]
         if nearby:
@@ -100,7 +103,9 @@ def _judged(
     return _undecided(here, 10**claimed, reasons[0] if reasons else "")
 
 
-def _at_zero(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> SingularEnd:
+def _at_zero(
+    system: ExactSystem, found: Deflated, rng: np.random.Generator, hold: bool
+) -> SingularEnd:
     """The judgement of an exact zero."""
     if found.free:
         reason = "the equations vanish along a smooth set that was followed"
@@ -109,7 +114,8 @@ def _at_zero(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> 
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
-    if (found.corank or len(system.rows) > system.n) and not _held(system, found):
+    doubtful = hold and (found.corank > 0 or len(system.rows) > system.n)
+    if doubtful and not _held(system, found):
         reason = "more digits show several zeros there, or none, nearer than 150 digits tell"
         return _end(system, found, Place.UNDECIDED, 0, reason)
     if found.corank == 0:
@@ -184,7 +190,12 @@ def _dual_space(
 
 
 def _resolved(
-    system: ExactSystem, found: Deflated, reach: float, rng: np.random.Generator, depth: int
+    system: ExactSystem,
+    found: Deflated,
+    reach: float,
+    rng: np.random.Generator,
+    hold: bool,
+    depth: int,
 ) -> list[SingularEnd]:
     """The zeros of a cluster about a point, each judged by itself.
 
@@ -196,7 +207,7 @@ def _resolved(
     for start, size, regular in close_zeros(system, found, reach, rng):
         if component is not None and not regular:
             break
-        end = _judged(system, start, size - 4.0, rng, depth + 1)
+        end = _judged(system, start, size - 4.0, rng, hold, depth + 1)
         if end.dimension:
             component = end
         for one in end.nearby or (end,):

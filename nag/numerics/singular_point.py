@@ -61,6 +61,7 @@ def analyse(
     accuracy: float,
     rng: np.random.Generator,
     slices: np.ndarray | None = None,
+    place_only: bool = False,
 ) -> SingularEnd:
     """Sharpen a zero, and decide whether it is isolated, and of which multiplicity.
 
@@ -76,7 +77,9 @@ def analyse(
         accuracy: how far the zero may be, relative to the size of ``x`` or to one.
         rng: chooses directions and hyperplanes.
         slices: further linear equations as rows on ``(1, x)``, complex, taken as exact.
+        place_only: whether 150 digits will do for coefficients of any length, as only where the
+            zero lies is of interest: not how many zeros it may be, nearer together than that.
     """
     from nag.numerics.local_structure import judged
 
-    return judged(polynomials, x, accuracy, rng, slices)
+    return judged(polynomials, x, accuracy, rng, slices, place_only)

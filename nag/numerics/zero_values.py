@@ -26,6 +26,7 @@ def possible_zeros(
     accuracy: float,
     rng: np.random.Generator,
     slices: np.ndarray | None = None,
+    place_only: bool = False,
 ) -> tuple[SingularEnd, ...]:
     """The isolated zeros of ``equations`` that ``x`` may stand for; none if that is left open.
 
@@ -33,8 +34,9 @@ def possible_zeros(
 
     Args:
         slices: further linear equations, rows on ``(1, x)``.
+        place_only: whether multiplicities are of no interest, see `analyse`.
     """
-    end = analyse(equations, x, accuracy, rng, slices)
+    end = analyse(equations, x, accuracy, rng, slices, place_only)
     if end.place is Place.CLUSTER:
         return () if end.dimension else end.nearby
     return (end,) if end.place is Place.ISOLATED else ()
