@@ -264,6 +264,10 @@ decomposition.trace.SMALL                   1e-9    Sums of traces, beside their
                                                     that are looked at in those digits.
 decomposition.splitting.MOST_LOOPS *        100     Loops before points are left undecided; 23 were
                                                     the most needed.
+decomposition.superset.IN_PASSING           0.02    Part of the usual work after which a multiple
+                                                    zero that lies on a larger set as far as doubles
+                                                    can tell passes for a point of it; simple ones
+                                                    are told in any case.
 decomposition.singular_locus.SURELY         10      Errors of a point that it may be off a linear
                                                     equation, and be a point of the component.
 decomposition.excluded.FORBIDDEN            1e-8    Values, beside their terms, of polynomials that

@@ -26,6 +26,8 @@ from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
+# Part of the usual work after which a multiple zero beside a set passes for a point of it.
+IN_PASSING = 0.02
 # Other flags on which a doubtful intersection is tried again.
 ELSEWHERE = 1
 
@@ -239,10 +241,15 @@ class _Stage:
         return answer, counts
 
     def beside(
-        self, cluster: _Cluster, so_far: Equations, own: list[Fibre], rows: np.ndarray
+        self,
+        cluster: _Cluster,
+        so_far: Equations,
+        own: list[Fibre],
+        rows: np.ndarray,
+        patience: float = 1.0,
     ) -> tuple[list[str], Meant]:
         """Add the isolated zeros that ends in doubles may stand for; doubts, and what was found."""
-        notes, found = [], meant(cluster, so_far, rows, self.rng)
+        notes, found = [], meant(cluster, so_far, rows, self.rng, patience)
         for zero in found.zeros:
             known = among(zero, own, rows)
             if known or any(vanish_at([g], zero.digits) for g in self.avoid):
@@ -272,7 +279,9 @@ class _Stage:
             return [], PathCounts()
         answer, counts = self.larger(x, accuracy, d, kept, flag)
         if answer is not Membership.FOREIGN:
-            doubts, found = self.beside(cluster, so_far, kept[d], rows)
+            # Singular ends mostly lie on the set that they seem to lie on, however hard to judge.
+            patience = IN_PASSING if answer is Membership.MEMBER else 1.0
+            doubts, found = self.beside(cluster, so_far, kept[d], rows, patience)
             if found.decided or answer is Membership.MEMBER:
                 return doubts, counts
         holding = self.holding(so_far, x, accuracy)

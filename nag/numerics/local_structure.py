@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from math import log10
 from typing import Any
 
@@ -46,13 +47,26 @@ REPEATED = 20.0
 DEEPEST = 3
 
 
+@dataclass(frozen=True)
+class Effort:
+    """How much a zero is judged by.
+
+    Attributes:
+        hold: whether what vanishes must do so to as many digits as the coefficients ask for.
+        patience: part of the usual work after which its local ring is left undecided.
+    """
+
+    hold: bool = True
+    patience: float = 1.0
+
+
 def judged(
     polynomials: Sequence[Polynomial],
     x: Sequence[Any] | np.ndarray,
     accuracy: float,
     rng: np.random.Generator,
     slices: np.ndarray | None,
-    place_only: bool = False,
+    effort: Effort,
 ) -> SingularEnd:
     """See `nag.numerics.singular_point.analyse`."""
     with working(DIGITS):
@@ -63,7 +77,7 @@ def judged(
         system = ExactSystem.of(polynomials, rounded, slices)
         y = [middle(c / flint.arb(2) ** k) for c, k in zip(precise, system.scales, strict=True)]
         reach = log10(max(accuracy, 1e-300))
-        return _judged(system, y, max(reach, 5.0 - DIGITS), rng, not place_only)
+        return _judged(system, y, max(reach, 5.0 - DIGITS), rng, effort)
 
 
 def _judged(
@@ -71,10 +85,9 @@ def _judged(
     y: Sequence[flint.acb],
     claimed: float,
     rng: np.random.Generator,
-    hold: bool,
+    effort: Effort,
     depth: int = 0,
 ) -> SingularEnd:
-    """With ``hold`` what vanishes must do so to as many digits as the coefficients ask for."""
     reasons: list[str] = []
     tried: set[float] = set()
     # Errors count relative to the whole point, the scales to each of its coordinates.
@@ -90,11 +103,11 @@ def _judged(
             reasons.append(str(reason))
             continue
         if found.exact:
-            return _at_zero(system, found, rng, hold)
+            return _at_zero(system, found, rng, effort)
         reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
         if found.free or depth == DEEPEST:
             continue
-        nearby = _resolved(system, found, reach, rng, hold, depth)
+        nearby = _resolved(system, found, reach, rng, effort, depth)
         if len(nearby) == 1 and (found.corank > 1 or nearby[0].place is Place.ON_COMPONENT):
             return nearby[0]
         if nearby:
@@ -104,7 +117,7 @@ def _judged(
 
 
 def _at_zero(
-    system: ExactSystem, found: Deflated, rng: np.random.Generator, hold: bool
+    system: ExactSystem, found: Deflated, rng: np.random.Generator, effort: Effort
 ) -> SingularEnd:
     """The judgement of an exact zero."""
     if found.free:
@@ -114,7 +127,7 @@ def _at_zero(
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
-    doubtful = hold and (found.corank > 0 or len(system.rows) > system.n)
+    doubtful = effort.hold and (found.corank > 0 or len(system.rows) > system.n)
     if doubtful and not _held(system, found):
         reason = "more digits show several zeros there, or none, nearer than 150 digits tell"
         return _end(system, found, Place.UNDECIDED, 0, reason)
@@ -124,7 +137,7 @@ def _at_zero(
         order = found.rounds[0].order
         return _end(system, found, Place.ISOLATED, order, "the order of a power series")
     try:
-        return _by_dual_space(system, found, rng)
+        return _by_dual_space(system, found, rng, effort.patience)
     except (UnclearRank, _TooLarge) as reason:
         return _end(system, found, Place.UNDECIDED, 0, str(reason))
 
@@ -141,7 +154,9 @@ def _held(system: ExactSystem, found: Deflated) -> bool:
     return exact is not None and exact[1].defect < ZERO / DIGITS * digits
 
 
-def _by_dual_space(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> SingularEnd:
+def _by_dual_space(
+    system: ExactSystem, found: Deflated, rng: np.random.Generator, patience: float
+) -> SingularEnd:
     exact = rational_point(found.point, DIGITS) if system.rational else None
     if exact is not None and not system.vanishes_exactly(exact):
         raise UnclearRank("the equations vanish to all digits, but not at the rational point there")
@@ -149,7 +164,7 @@ def _by_dual_space(system: ExactSystem, found: Deflated, rng: np.random.Generato
     spaces: list[DualSpace] = []
     for field in [PrimeField(p) for p in PRIMES] if exact is not None else [NUMBERS]:
         centre = found.point if exact is None else [modular(q, field.modulus) for q in exact]
-        spaces.append(_dual_space(system, field, centre, found, search.succeeds))
+        spaces.append(_dual_space(system, field, centre, found, search.succeeds, patience))
         if search.dimension:
             reason = "a curve of zeros was followed to the point"
             return _end(system, found, Place.ON_COMPONENT, 0, reason, search.dimension)
@@ -173,12 +188,14 @@ def _dual_space(
     centre: Sequence[Any],
     found: Deflated,
     stop: Callable[[Sequence[int]], bool],
+    patience: float,
 ) -> DualSpace:
     rows = system.modulo(field.modulus) if field.modulus else system.at(DIGITS)
     first = found.rounds[0]
 
     def series(order: int) -> tuple[SeriesRing, list[Series]]:
-        if work(found.corank, order, [first]) > MOST_WORK * (5 if field.modulus else 1):
+        most = MOST_WORK * patience * (5 if field.modulus else 1)
+        if work(found.corank, order, [first]) > most:
             raise _TooLarge(f"its series in {found.corank} variables are too long")
         reduction = eliminate(rows, centre, first.rows, first.columns, order, field.modulus)
         if reduction is None:
@@ -194,7 +211,7 @@ def _resolved(
     found: Deflated,
     reach: float,
     rng: np.random.Generator,
-    hold: bool,
+    effort: Effort,
     depth: int,
 ) -> list[SingularEnd]:
     """The zeros of a cluster about a point, each judged by itself.
@@ -207,7 +224,7 @@ def _resolved(
     for start, size, regular in close_zeros(system, found, reach, rng):
         if component is not None and not regular:
             break
-        end = _judged(system, start, size - 4.0, rng, hold, depth + 1)
+        end = _judged(system, start, size - 4.0, rng, effort, depth + 1)
         if end.dimension:
             component = end
         for one in end.nearby or (end,):

@@ -62,6 +62,7 @@ def analyse(
     rng: np.random.Generator,
     slices: np.ndarray | None = None,
     place_only: bool = False,
+    patience: float = 1.0,
 ) -> SingularEnd:
     """Sharpen a zero, and decide whether it is isolated, and of which multiplicity.
 
@@ -79,7 +80,8 @@ def analyse(
         slices: further linear equations as rows on ``(1, x)``, complex, taken as exact.
         place_only: whether 150 digits will do for coefficients of any length, as only where the
             zero lies is of interest: not how many zeros it may be, nearer together than that.
+        patience: part of the usual work after which a local ring is left undecided.
     """
-    from nag.numerics.local_structure import judged
+    from nag.numerics.local_structure import Effort, judged
 
-    return judged(polynomials, x, accuracy, rng, slices, place_only)
+    return judged(polynomials, x, accuracy, rng, slices, Effort(not place_only, patience))

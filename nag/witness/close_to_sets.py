@@ -50,11 +50,13 @@ def meant(
     equations: Equations,
     rows: np.ndarray,
     rng: np.random.Generator,
+    patience: float = 1.0,
 ) -> Meant:
     """The isolated zeros on the slice ``rows`` that ends may stand for; others lie on larger sets.
 
     Args:
         ends: points in doubles with their relative errors.
+        patience: part of the usual work after which multiple zeros are left undecided.
     """
     zeros: list[SingularEnd] = []
     known: list[list[flint.acb]] = []
@@ -65,7 +67,7 @@ def meant(
         error = max(accuracy, ROUNDED)
         if (np.linalg.norm(seen - x, axis=1) <= REACH * error * (1 + np.linalg.norm(x))).any():
             continue
-        end = analyse(equations.polynomials, x, error, rng, slices)
+        end = analyse(equations.polynomials, x, error, rng, slices, patience=patience)
         seen = np.vstack([seen, x])
         decided &= end.place is not Place.UNDECIDED
         for zero in end.nearby or ((end,) if end.place is Place.ISOLATED else ()):
