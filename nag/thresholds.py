@@ -283,28 +283,29 @@ interpolation.point_cloud.SMALL             1e-5    Singular values of tangents,
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
 rounding, digits that are taken, where random numbers come from.
 
-numerics.certified_points: FLAT; numerics.curves: CLOSER; numerics.deflated_system: MOST_DIGITS;
-numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY; numerics.digits: LOG10_2, SMALLEST, LARGEST;
-numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: EXACT; numerics.krawczyk:
-WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: REACHES; numerics.located_zero: ROUNDING;
-numerics.rational_relations: LOG10_2; numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
-numerics.sharpening: ROUNDING, NEARLY; numerics.small_values: LEAST; tracking.certified_paths:
-ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME;
-tracking.close_paths: STEEP; tracking.ends.branch: LONGEST; tracking.ends.corrector: DOUBLES;
-tracking.ends.end_run: RESIDUAL, SECOND; tracking.ends.inclusion: TINY; tracking.ends.lane_scalars:
-IDLE, STEP, FINISH; tracking.ends.limits: LOG_2; tracking.ends.linear_algebra: PHASE;
-tracking.ends.runs: ACCURACY, CONTRACTION; tracking.numbers.complex_numbers: HALVED;
-tracking.numbers.double_double: EPSILON, SMALL; tracking.numbers.quad_double: EPSILON, SMALL;
-tracking.predictor: PREDICT, CORRECT; tracking.projective: ROUNDING; tracking.track: LEAST, BASIN;
-solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero:
-WRITTEN; solving.missing_zeros: NEAR; solving.solution_classes: STEP; solving.start.centring: FAR,
-CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy: SHARP;
-solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH;
-solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT, INEXACT; witness.close_to_sets:
-ROUNDED; witness.cutting: FLAT, ROUNDING; witness.error_radii: ENOUGH, ESTIMATE, CORRECTION;
-witness.exact_points: STEP, BITS_PER_DIGIT; witness.fibres: STEEPER; witness.frame: EPS;
-witness.gauss_newton: CLOSE; witness.real_points: SPREAD; decomposition.branch_points: ARRIVED;
-decomposition.curve_genus: NEAR, OUTSIDE, SHRINK; decomposition.discovery: ROUNDED, DEEP;
-decomposition.given_points: ROUGH; decomposition.hypersurface: NEARER; decomposition.singular_locus:
-ROUNDED; decomposition.excluded: ROUNDED; decomposition.superset: REGULAR.
+numerics.certified_points: FLAT; numerics.curves: CLOSER, PATIENCE; numerics.deflated_system:
+MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY; numerics.digits: LOG10_2, SMALLEST,
+LARGEST; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: EXACT;
+numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: REACHES;
+numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2; numerics.scaling: INERTIA,
+NEARLY_ORTHOGONAL; numerics.sharpening: ROUNDING, NEARLY; numerics.small_values: LEAST;
+tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
+ENDGAME; tracking.close_paths: STEEP; tracking.ends.branch: LONGEST; tracking.ends.corrector:
+DOUBLES; tracking.ends.end_run: RESIDUAL, SECOND; tracking.ends.inclusion: TINY;
+tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
+tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
+tracking.numbers.complex_numbers: HALVED; tracking.numbers.double_double: EPSILON, SMALL;
+tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
+tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
+solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: WRITTEN; solving.missing_zeros:
+NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED; solving.start.choice:
+WORK; solving.start.family_monodromy: SHARP; solving.start.multihomogeneous: EXACT;
+solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR;
+witness.at_prompt: EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;
+witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT;
+witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE; witness.real_points:
+SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK;
+decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
+decomposition.hypersurface: NEARER; decomposition.singular_locus: ROUNDED; decomposition.excluded:
+ROUNDED; decomposition.superset: REGULAR.
 """

@@ -32,6 +32,8 @@ CLOSER = (12.5, 8.0, 5.0, 2.0)
 LEAST_DIGITS, VANISHING = 150, 0.75
 # Digits of coefficients that ask for no more.
 ROUND_NUMBERS = 20
+# Part of the usual work for a zero on a hyperplane: there are others.
+PATIENCE = 0.05
 # Binary logarithms of distances at which hyperplanes pass a singular point.
 DISTANCES = (5, 9, 13, 17)
 
@@ -189,7 +191,7 @@ def _on_hyperplane(
     sliced = system.with_row([((0,) * system.n, middle(constant)), *row])
     for closer in CLOSER:
         try:
-            zero = deflate(sliced, start, -k * LOG10_2 - closer, rng)
+            zero = deflate(sliced, start, -k * LOG10_2 - closer, rng, PATIENCE)
         except NotDeflated:
             continue
         if zero.exact:

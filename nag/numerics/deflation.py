@@ -133,7 +133,11 @@ def regular_block(
 
 
 def deflate(
-    system: ExactSystem, x: Sequence[flint.acb], reach: float, rng: np.random.Generator
+    system: ExactSystem,
+    x: Sequence[flint.acb],
+    reach: float,
+    rng: np.random.Generator,
+    patience: float = 1.0,
 ) -> Deflated:
     """Rounds that make the zero within ``reach`` of ``x`` regular, and that zero.
 
@@ -145,6 +149,7 @@ def deflate(
         system: equations, exact.
         x: in the system's scaled variables.
         reach: decimal logarithm of how far the zero may be.
+        patience: part of the usual work after which series are too long.
 
     Raises:
         NotDeflated: if the rounds lead nowhere, or away from ``x``.
@@ -166,7 +171,7 @@ def deflate(
                 raise NotDeflated("the zero found is further away than the error of the point")
             if not left:
                 return _regular(system, point, rounds, descent)
-            lowest = _lowest_terms(system, point, rounds, reach)
+            lowest = _lowest_terms(system, point, rounds, reach, patience)
             if lowest is None:
                 return Deflated(point, tuple(rounds), left, descent.defect, descent.inverse)
             order, descent = lowest
@@ -192,12 +197,12 @@ def _regular(
 
 
 def _lowest_terms(
-    system: ExactSystem, point: Point, rounds: Sequence[Round], reach: float
+    system: ExactSystem, point: Point, rounds: Sequence[Round], reach: float, patience: float
 ) -> tuple[int, Descent] | None:
     from nag.numerics.curves import smooth_set
 
     left = len(point) - sum(len(r.columns) for r in rounds)
-    least, most = 0.0, MOST_WORK
+    least, most = 0.0, patience * MOST_WORK
     for order in ORDERS:
         if order < min(least, ORDERS[-1]):
             continue
@@ -211,7 +216,7 @@ def _lowest_terms(
         ring, noisy = descent.ring, _noise(order, descent.inverse) > 0
         sizes = ((log_size(c), ring.degree(k)) for s in descent.remaining for k, c in s.items())
         if any(size > _noise(degree, descent.inverse) for size, degree in sizes):
-            most = MOST_WORK_ROUGHLY
+            most = patience * MOST_WORK_ROUGHLY
         elif not least:
             least = smooth_set(system, point, rounds, descent.inverse)
             if least == 0:
