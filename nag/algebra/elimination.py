@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any
 
 from nag.algebra.factoring import factored
@@ -84,11 +84,6 @@ def eliminate_linear(
         keep: indices of variables that must stay.
         graphs: whether equations of degree two and more may be solved.
     """
-    return _eliminated(system, frozenset(keep), graphs)
-
-
-@lru_cache(maxsize=64)
-def _eliminated(system: PolynomialSystem, keep: frozenset[int], graphs: bool) -> Elimination:
     n = system.n
     equations = [f for f in system.polynomials if f]
     nonzero = list(system.nonzero)
@@ -96,7 +91,7 @@ def _eliminated(system: PolynomialSystem, keep: frozenset[int], graphs: bool) ->
     kept = set(range(n))
     groups = system.groups
     while True:
-        pivot = _pivot(equations, nonzero, kept - keep, groups, graphs)
+        pivot = _pivot(equations, nonzero, kept - set(keep), groups, graphs)
         if pivot is None:
             break
         row, index = pivot

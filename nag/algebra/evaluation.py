@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
@@ -29,11 +29,6 @@ class Evaluator:
 
     @classmethod
     def of(cls, polynomials: Sequence[Polynomial], n: int) -> Evaluator:
-        """The evaluator of some polynomials; the same one as long as it is remembered."""
-        return _evaluator(tuple(polynomials), n)
-
-    @classmethod
-    def _of(cls, polynomials: Sequence[Polynomial], n: int) -> Evaluator:
         monomials = sorted({e for f in polynomials for e in f.terms})
         index = {e: i for i, e in enumerate(monomials)}
         coefficients = np.zeros((len(polynomials), len(monomials)))
@@ -43,8 +38,6 @@ class Evaluator:
             for e, c in values.items():
                 coefficients[row, index[e]] = c / scale
         exponents = np.array(monomials, dtype=np.int64).reshape(len(monomials), n)
-        for array in (exponents, coefficients):
-            array.setflags(write=False)
         return cls(n, exponents, coefficients)
 
     @cached_property
@@ -163,11 +156,6 @@ class Evaluator:
             )
             return scaled.jacobian(np.asarray(point) / size)
         return self.jacobian(point) / size ** (self.degrees - 1)[:, None]
-
-
-@lru_cache(maxsize=256)
-def _evaluator(polynomials: tuple[Polynomial, ...], n: int) -> Evaluator:
-    return Evaluator._of(polynomials, n)
 
 
 @dataclass(frozen=True, eq=False)

@@ -64,7 +64,6 @@ def ring(n: int) -> Ring:
 Factors = tuple[tuple[Polynomial, int], ...]
 
 
-@lru_cache(maxsize=4096)
 def factored(f: Polynomial) -> Factors:
     """The distinct irreducible factors of ``f`` over the rationals, with their exponents.
 

@@ -166,10 +166,6 @@ class Shape:
         rows = [found.owner[j] if j in found.owner else next(others) for j in free]
         return cls(linear, matrix, solved, rows, free, found)
 
-    def paths(self, target: Target) -> int:
-        """The number of paths that are not images of others."""
-        return self.interchange.paths(target.degrees)
-
 
 def _powers(
     n: int, free: list[int], forms: np.ndarray, degrees: list[int], constants: np.ndarray
