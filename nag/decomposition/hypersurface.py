@@ -24,14 +24,13 @@ from nag.witness.fibres import (
     Fibre,
     Moved,
     Tracker,
-    carried,
     homogeneous,
     joined,
     moved,
     moved_close,
 )
 from nag.witness.points import with_fine
-from nag.witness.slices import padded, random_rows, unit_complex
+from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import PathCounts
 
 # Slices to which points may have to be moved to get to another flag.
@@ -142,8 +141,11 @@ def _intersect_close(
     return joined(places, (intersect(rest, f, flag, gamma, tracker), close))
 
 
-def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracker) -> Crossing:
-    counts = PathCounts()
+def crossing(
+    sections: Sections, f: Polynomial, rng: np.random.Generator, tracker: Tracker
+) -> Crossing:
+    """All points of the sets where ``f`` vanishes, and how many paths led there."""
+    gamma, counts = complex(unit_complex(rng)), PathCounts()
     kept: dict[int, list[Fibre]] = {}
     ends: dict[int, list[tuple[Cut, Moved]]] = {}
     for d in sorted(sections.fibres, reverse=True):
@@ -159,43 +161,3 @@ def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracke
                 counts += new.counts
                 ends.setdefault(d - 1, []).append((fibre.cut.extended(f), new))
     return Crossing(sections, kept, ends, counts)
-
-
-def _elsewhere(
-    sections: Sections, rng: np.random.Generator, tracker: Tracker
-) -> tuple[Sections | None, PathCounts]:
-    """The same sets on another flag; None if points could not be moved."""
-    counts = PathCounts()
-    n = sections.flag.shape[1] - 1
-    flag = random_rows(rng, n, n, NEARER)
-    gamma = complex(unit_complex(rng))
-    fibres: dict[int, list[Fibre]] = {}
-    for d in sorted(sections.fibres, reverse=True):
-        there, spent = carried(sections.fibres[d], sections.flag[:d], flag[:d], gamma, tracker)
-        counts += spent
-        if there is None:
-            return None, counts
-        fibres[d] = there
-    return Sections(fibres, flag), counts
-
-
-def crossing(
-    sections: Sections,
-    f: Polynomial,
-    rng: np.random.Generator,
-    tracker: Tracker,
-    elsewhere: bool = False,
-) -> Crossing:
-    """All points of the sets where ``f`` vanishes, and how many paths led there.
-
-    Args:
-        elsewhere: whether the sets are moved to another flag first.
-    """
-    tracked = 0
-    if elsewhere:
-        there, spent = _elsewhere(sections, rng, tracker)
-        tracked += spent.tracked
-        sections = sections if there is None else there
-    crossed = _crossing(sections, f, complex(unit_complex(rng)), tracker)
-    tracked += crossed.counts.tracked
-    return replace(crossed, counts=replace(crossed.counts, tracked=tracked))

@@ -28,8 +28,6 @@ from nag.witness.witness import PathCounts
 REGULAR = 1e-13
 # Part of the usual work after which a multiple zero beside a set passes for a point of it.
 IN_PASSING = 0.02
-# Other flags on which a doubtful intersection is tried again.
-ELSEWHERE = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,11 +124,6 @@ class _Meeting:
     crossed: Crossing
     settled: Superset | None
 
-    @property
-    def doubts(self) -> tuple[int, int]:
-        notes = self.settled.notes if self.settled is not None else ()
-        return len(notes), self.crossed.counts.failed
-
 
 @dataclass(frozen=True, eq=False)
 class _Stage:
@@ -151,7 +144,7 @@ class _Stage:
         return len(self.found.flag)
 
     def best(self, f: Polynomial, mixing: bool) -> tuple[_Meeting, bool, PathCounts]:
-        """The least doubtful meeting with ``f``, or with a combination of it with later ones.
+        """The meeting with ``f``, or with a combination of it with later ones.
 
         The first equations alone may define components that are not reduced where all together do
         not. A general combination of an equation with later ones of its degree meets a reduced set
@@ -172,19 +165,11 @@ class _Stage:
                 settled, spent = self.settled(best.polynomial, best.crossed, deflate=True)
                 counts += spent
                 best = replace(best, settled=settled)
-        for _ in range(ELSEWHERE):
-            if best.doubts == (0, 0):
-                break
-            other, spent = self.meeting(best.polynomial, deflate=True, elsewhere=True)
-            counts += spent
-            best = min(best, other, key=lambda meeting: meeting.doubts)
         return best, mixing, counts
 
-    def meeting(
-        self, f: Polynomial, deflate: bool, elsewhere: bool = False
-    ) -> tuple[_Meeting, PathCounts]:
+    def meeting(self, f: Polynomial, deflate: bool) -> tuple[_Meeting, PathCounts]:
         sections = Sections(self.found.fibres, self.found.flag)
-        crossed = crossing(sections, f, self.rng, self.tracker, elsewhere)
+        crossed = crossing(sections, f, self.rng, self.tracker)
         settled, spent = self.settled(f, crossed, deflate)
         return _Meeting(f, crossed, settled), PathCounts(crossed.counts.tracked) + spent
 

@@ -91,6 +91,7 @@ def _batch(
         states.curvature[own],
         np.where([path in states.limits for path in own.tolist()], 0, states.most[own]),
         MAX_WINDING,
+        int(states.close),
         ACCURACY * settings.tolerance,
         CONTRACTION * settings.contraction,
         TAIL,
