@@ -27,6 +27,8 @@ STEP = 3
 CLOSER = (12.5, 8.0, 5.0, 2.0)
 # The digits that are taken at least. Values below this share of the digits are zero.
 LEAST_DIGITS, VANISHING = 150, 0.75
+# Digits in which a zero on a hyperplane is looked at before the set that it may lie on is.
+MORE_DIGITS = 600
 # Digits of coefficients that ask for no more.
 ROUND_NUMBERS = 20
 # Part of the usual work for a zero on a hyperplane: there are others.
@@ -161,7 +163,9 @@ def _followed(
         sliced = _on_hyperplane(system, found, k, plane)
         if zero is None:
             zero = _zero_near(sliced, start, k, rng)
-            if zero is None or not _on_set(system, zero, rng):
+            if zero is None or not _vanishes(sliced, zero, MORE_DIGITS):
+                return 0
+            if not _on_set(system, zero, rng):
                 return 0
         elif not _continues(sliced, start, k, zero):
             return 0
@@ -198,7 +202,7 @@ def _zero_near(
 def _on_set(system: ExactSystem, zero: Deflated, rng: np.random.Generator) -> bool:
     """Whether a zero on a hyperplane lies on a smooth set of zeros that leaves the hyperplane."""
     try:
-        whole = deflate(system, zero.point, ARRIVED + CLOSE, rng)
+        whole = deflate(system, zero.point, ARRIVED + CLOSE, rng, PATIENCE)
     except NotDeflated:
         return False
     return whole.exact and whole.free > zero.free

@@ -19,6 +19,8 @@ BITS = 10
 MASK = (1 << BITS) - 1
 # Sums of up to so many terms are not worth a matrix.
 SMALL = 400
+# Terms from which on series in one variable are multiplied in compiled code.
+LONG = 12
 
 Series = dict[int, Any]
 Terms = Sequence[tuple[tuple[int, ...], Any]]
@@ -50,6 +52,8 @@ class SeriesRing:
         return tuple(key >> BITS * i & MASK for i in range(self.m))
 
     def multiply(self, a: Series, b: Series) -> Series:
+        if self.m == 1 and min(len(a), len(b)) >= LONG:
+            return self._multiply_long(a, b)
         limit = (self.order + 1) << BITS * self.m
         second = sorted(b.items())
         result: Series = {}
@@ -60,6 +64,18 @@ class SeriesRing:
                     break
                 result[key] = result[key] + x * y if key in result else x * y
         return {k: c % self.modulus for k, c in result.items()} if self.modulus else result
+
+    def _multiply_long(self, a: Series, b: Series) -> Series:
+        """The product in one variable, in compiled code."""
+        unit = self.unit(0)
+        dense = [[x.get(k * unit, 0) for k in range(max(x) // unit + 1)] for x in (a, b)]
+        if self.modulus:
+            first, second = (flint.nmod_poly(x, self.modulus) for x in dense)
+            found = [int(c) for c in first.mul_low(second, self.order + 1).coeffs()]
+        else:
+            first, second = (flint.acb_poly(x) for x in dense)
+            found = [c.mid() for c in (first * second).coeffs()[: self.order + 1]]
+        return {k * unit: c for k, c in enumerate(found) if c}
 
     def add(self, total: Series, a: Series, factor: Any) -> None:
         """Add ``factor * a`` to ``total``."""
