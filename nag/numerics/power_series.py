@@ -127,6 +127,31 @@ def composed(rows: Sequence[Terms], images: Sequence[Series], ring: SeriesRing) 
     return result
 
 
+def shifted(rows: Sequence[Terms], centre: Sequence[Any], ring: SeriesRing) -> list[Series]:
+    """Polynomials about another point, one variable after the other."""
+    result = []
+    for row in rows:
+        terms: dict[tuple[int, ...], Any] = {}
+        for e, c in row:
+            terms[e] = terms[e] + c if e in terms else c
+        for i, x in enumerate(centre):
+            if not x:
+                continue
+            moved: dict[tuple[int, ...], Any] = {}
+            powers: list[Any] = [1]
+            for e, c in terms.items():
+                while len(powers) <= e[i]:
+                    powers.append(powers[-1] * x % ring.modulus if ring.modulus else powers[-1] * x)
+                for k in range(e[i] + 1):
+                    to = (*e[:i], k, *e[i + 1 :])
+                    part = c * (comb(e[i], k) * powers[e[i] - k])
+                    moved[to] = moved[to] + part if to in moved else part
+            terms = {e: c % ring.modulus for e, c in moved.items()} if ring.modulus else moved
+        kept = {ring.key(e): c for e, c in terms.items() if sum(e) <= ring.order}
+        result.append(kept if ring.modulus else {k: flint.acb(c).mid() for k, c in kept.items()})
+    return result
+
+
 def product_of(matrix: list[list[Any]], column: Sequence[Series], modulus: int) -> list[Series]:
     """A matrix times a column of series, in compiled code."""
     keys = sorted({k for value in column for k in value})
