@@ -30,12 +30,13 @@ FAR, AT_MOST, STEPS = 10.0, 100.0, 600
 # Directions that are tried: some lead into a branch point.
 DIRECTIONS = 3
 # What Newton's steps may change after a step, as shares of it, so that it leads to no other sheet:
-# the first one after steps by a high order and by a low one, the second one beside the first.
-SMALL, SMALL_ROUGHLY, CONTRACTION = 0.01, 0.1, 0.05
+# the first one after steps by a high order and by a low one; the second one beside the first,
+# or, where both are rounding, beside the step.
+SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING = 0.01, 0.1, 0.05, 1e-6
 # The first step, and the least one beside the distance that was gone.
 FIRST, LEAST = 1e-2, 1e-12
-# Rounding of a point in doubles, and the inverse (decimal logarithm) up to which they do.
-ROUNDING, GOOD = 1e-11, 5.0
+# Inverses (decimal logarithm) up to which doubles do.
+GOOD = 5.0
 
 
 def far_value(
@@ -126,8 +127,7 @@ def _followed(block: _Block, x: np.ndarray) -> list[flint.acb] | None:
         except np.linalg.LinAlgError:
             return None
         moved, one, two = (float(np.abs(v).max()) for v in (start - x, first, second))
-        rounding = ROUNDING * max(1.0, float(np.abs(start).max()))
-        if not one <= SMALL * moved or not two <= max(CONTRACTION * one, rounding):
+        if not (one <= SMALL * moved and two <= max(CONTRACTION * one, ROUNDING * moved)):
             h /= 2
             if h < LEAST * max(gone, FIRST):
                 return None
