@@ -102,7 +102,7 @@ class Evaluator:
             _Monomials.of(table),
             np.array(places, dtype=np.int64),
             np.array(monomials, dtype=np.int64),
-            np.array(factors, dtype=float),
+            np.array(factors, dtype=self.coefficients.dtype),
         )
 
     def jacobian(self, point: np.ndarray) -> np.ndarray:
