@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from systems import kinds, system
 
+import nag
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
@@ -123,3 +124,15 @@ def test_points_are_members_of_the_components_they_lie_on() -> None:
     assert components_through(answer, np.array([3, 1, 2])) == [1]
     assert components_through(answer, np.array([0, 1, 2])) == [0, 1]
     assert components_through(answer, np.array([1, 1, 1])) == []
+
+
+@pytest.mark.parametrize("conditions", [[], ["c - f"], ["a", "c - f"]])
+def test_what_no_equation_restricts_is_free_however_many_restrict_the_rest(
+    conditions: list[str],
+) -> None:
+    # Three equations for a and b have no path at all, as no general ones have a zero.
+    block = ["5*a^2 - 2*a*b + 2*b^2", "16*a^2 - 8*a + 5", "32*b^2 - 56*b + 25"]
+    first = "25*c^2 - 50*a*c + 4*b^2 - 8*a*b + 29*a^2"
+    answer = decompose(nag.system([first, *block], "a b c f", nonzero=conditions))
+    assert answer.complete
+    assert [(c.dimension, c.degree) for c in answer.components] == [(1, 1)] * 4

@@ -99,6 +99,8 @@ GENERAL = {
     "spatial/bennett": (1, 1, "overconstrained", "E"),
     "spatial/assembled-5r": (0, 0, "rigid", "E"),
     "planar/henneberg-6": (0, 0, "rigid", "coordinates (x, y)"),
+    "planar/watt-six-bar": (1, 1, "mobile", "pins"),
+    "spatial/octahedron": (0, 0, "rigid", "A-B-F pinned"),
 }
 
 

@@ -1,24 +1,19 @@
 """Zero sets that fall apart exactly, because equations factor over the rationals.
 
 ``V(f g, h)`` is ``V(f, h)`` and ``V(g, h)`` together. Linear factors are solved, so that what is
-left may factor again, until every equation of a branch is irreducible.
+left may factor again, until every equation of a branch is irreducible (`branch_search`); then what
+follows from the equations of a branch is factored as well (`consequences`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
-from nag.algebra.factoring import Ring, ring
+from nag.algebra.branch_search import Search, State, TooManyBranches, product_of
+from nag.algebra.factoring import ring
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 
-# A system that falls apart into more branches is better solved as a whole; those that are a linear
-# space, or the zeros of one polynomial in one variable, cost next to nothing.
-MOST_BRANCHES = 64
-MOST_SIMPLE_BRANCHES = 1000
-MOST_CHOICES = 5000
 # Polynomials of more terms are not factored.
 MOST_TERMS = 30_000
 
@@ -56,318 +51,26 @@ def branches(system: PolynomialSystem) -> tuple[Branch, ...] | None:
     rest = tuple(dict.fromkeys(f for f in equations if not f.exact or len(f.terms) > MOST_TERMS))
     if not exact:
         return None
-    search = _Search(ring(system.n), system.groups, bool(rest))
+    search = Search(ring(system.n), system.groups, bool(rest))
     start = search.start(exact, [f for f in system.nonzero if f and f.exact])
     if start is None:
         return ()
     try:
         leaves = list(search.leaves(start))
-    except _TooManyError:
+    except TooManyBranches:
         leaves = search.parted(start)
     else:
         if len(leaves) == 1 and (not search.changed or search.without_factors(exact, leaves[0])):
             return None
+        leaves = search.refined(leaves)
     leaves = [leaf for leaf in leaves if not search.contradictory(leaf)]
-    found = [search.branch(leaf, rest) for leaf in search.irredundant(leaves)]
+    found = [_branch(search, leaf, rest) for leaf in search.irredundant(leaves)]
     return tuple(sorted(found, key=lambda b: len(b.polynomials)))
 
 
-class _TooManyError(Exception):
-    """There are more branches than are worth it."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Irreducible:
-    """An irreducible polynomial; ``key`` is the same for equal ones."""
-
-    key: str
-    f: Any
-    support: frozenset[int]
-    degree: int
-
-
-_Equation = tuple[_Irreducible, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class _State:
-    """A branch on the way: each equation is the product of its distinct irreducible factors.
-
-    Attributes:
-        equations: in the variables that are left.
-        solved: equations of degree one, each with a variable that occurs nowhere else.
-        excluded: polynomials whose zeros need not be found: they lie in a branch that was followed
-            before, or must not be found at all.
-    """
-
-    equations: tuple[_Equation, ...]
-    solved: tuple[tuple[int, _Irreducible], ...]
-    excluded: tuple[_Irreducible, ...]
-
-
-class _Search:
-    def __init__(
-        self, over: Ring, groups: Sequence[Sequence[int]], others: bool, split: bool = True
-    ) -> None:
-        self.ring, self.others, self.split = over, others, split
-        self.groups = tuple(tuple(g) for g in groups)
-        self.known: dict[str, _Equation] = {}
-        self.generators = list(over.context.gens())
-        self.changed = False
-        self.choices = self.hard = self.simple = 0
-
-    def factors(self, f: Any) -> _Equation:
-        """The distinct irreducible factors of a polynomial that is no constant."""
-        text = str(f)
-        if text not in self.known:
-            found = self.ring.factors(f) if self.split else [(f, 1)]
-            self.known[text] = tuple(self._irreducible(p) for p, _ in found)
-            self.changed |= len(found) != 1 or found[0][1] != 1
-        return self.known[text]
-
-    def _irreducible(self, p: Any) -> _Irreducible:
-        support = frozenset(i for i, k in enumerate(p.degrees()) if k)
-        return _Irreducible(str(p), p, support, int(p.total_degree()))
-
-    def start(
-        self, equations: Sequence[Polynomial], nonzero: Sequence[Polynomial]
-    ) -> _State | None:
-        found = []
-        for f in equations:
-            if f.degree == 0:
-                return None
-            found.append(self.factors(self.ring.of(f)))
-        changed, self.changed = self.changed, False
-        excluded = [p for f in nonzero if f.degree > 0 for p in self.factors(self.ring.of(f))]
-        self.changed = changed
-        return _State(tuple(found), (), tuple(excluded))
-
-    def leaves(self, state: _State) -> Iterator[_State]:
-        self.choices += 1
-        simpler = self.simplified(state)
-        if simpler is None:
-            self.changed = True
-            return
-        choice = self.choice(simpler)
-        if choice is None:
-            self._count(simpler)
-            yield simpler
-            return
-        rest = [e for e in simpler.equations if e is not choice]
-        often = {p.key: -sum(any(p.key == q.key for q in e) for e in rest) for p in choice}
-        tried: list[_Irreducible] = []
-        for p in sorted(choice, key=lambda p: (often[p.key], p.degree, len(p.f), p.key)):
-            excluded = (*simpler.excluded, *tried)
-            yield from self.leaves(_State((*rest, (p,)), simpler.solved, excluded))
-            tried.append(p)
-
-    def without_factors(self, equations: Sequence[Polynomial], leaf: _State) -> bool:
-        """Whether solving linear equations alone leads to the equations of a branch.
-
-        Such a branch is the system's only one, and the same scheme.
-        """
-        plain = _Search(self.ring, self.groups, self.others, split=False)
-        start = plain.start(equations, ())
-        state = None if start is None else plain.simplified(start)
-        if state is None or len(state.solved) != len(leaf.solved):
-            return False
-        images = self._images(leaf)
-        found = set()
-        for (p,) in state.equations:
-            value = p.f.compose(*images, ctx=self.ring.context)
-            found.add(str(value / value.leading_coefficient()))
-        return found == {str(f / f.leading_coefficient()) for f in map(_product, leaf.equations)}
-
-    def _count(self, leaf: _State) -> None:
-        if _in_one_variable(leaf.equations) and not self.others:
-            self.simple += 1
-        else:
-            self.hard += 1
-        if (
-            self.hard > MOST_BRANCHES
-            or self.simple > MOST_SIMPLE_BRANCHES
-            or self.choices > MOST_CHOICES
-        ):
-            raise _TooManyError
-
-    def choice(self, state: _State) -> _Equation | None:
-        """The equation to follow the factors of; None where that is not needed."""
-        if _in_one_variable(state.equations):
-            return None
-        several = [e for e in state.equations if len(e) > 1]
-        return min(several, key=len, default=None)
-
-    def simplified(self, state: _State) -> _State | None:
-        """The state with linear equations solved; None if it has no zeros that are asked for."""
-        while True:
-            equations = self._distinct(state)
-            if equations is None:
-                return None
-            state = replace(state, equations=equations)
-            pivot = self.pivot(equations)
-            if pivot is None:
-                return state
-            reduced = self._substituted(state, *pivot)
-            if reduced is None:
-                return None
-            state = reduced
-
-    def _distinct(self, state: _State) -> tuple[_Equation, ...] | None:
-        """The equations without excluded factors, and without those that others imply."""
-        excluded = {p.key for p in state.excluded}
-        found: list[_Equation] = []
-        for e in state.equations:
-            kept = tuple(p for p in e if p.key not in excluded)
-            if not kept:
-                return None
-            found.append(kept if len(kept) < len(e) else e)
-        single = {e[0].key: e for e in found if len(e) == 1}
-        seen: dict[frozenset[str], _Equation] = {}
-        for e in found:
-            keys = frozenset(p.key for p in e)
-            if len(e) > 1 and keys & single.keys():
-                continue
-            seen.setdefault(keys, e)
-        self.changed |= any(len(e) < len(f) for e, f in zip(found, state.equations, strict=True))
-        if not self.split:
-            return tuple(seen.values())
-        # Two irreducible polynomials in one variable have no zero in common.
-        alone = [next(iter(e[0].support)) for e in single.values() if len(e[0].support) == 1]
-        if len(set(alone)) < len(alone):
-            return None
-        result = tuple(seen.values())
-        if len(result) > 1 and _in_one_variable(result):
-            self.changed = True
-            common = set.intersection(*({p.key for p in e} for e in result))
-            kept = tuple(p for p in result[0] if p.key in common)
-            return (kept,) if kept else None
-        return result
-
-    def pivot(self, equations: Sequence[_Equation]) -> tuple[_Irreducible, int] | None:
-        """A linear equation and the variable to solve it for: the one that fills in least."""
-        best: tuple[tuple[int, int, int], _Irreducible] | None = None
-        supports = [frozenset().union(*(p.support for p in e)) for e in equations]
-        for e in equations:
-            p = e[0]
-            if len(e) > 1 or p.degree != 1:
-                continue
-            # Elsewhere it would raise the degree in a group of variables.
-            if self.groups and not any(p.support <= set(g) for g in self.groups):
-                continue
-            for index in p.support:
-                used = sum(index in s for s in supports) - 1
-                key = ((len(p.f) - 2) * used, len(p.f), index)
-                if best is None or key < best[0]:
-                    best = key, p
-        return None if best is None else (best[1], best[0][2])
-
-    def _substituted(self, state: _State, p: _Irreducible, index: int) -> _State | None:
-        image = self._image(p, index)
-        images = [*self.generators[:index], image, *self.generators[index + 1 :]]
-
-        def put(q: _Irreducible) -> Any:
-            return q.f.compose(*images, ctx=self.ring.context) if index in q.support else q.f
-
-        equations: list[_Equation] = []
-        for e in state.equations:
-            if len(e) == 1 and e[0] is p:
-                continue
-            if all(index not in q.support for q in e):
-                equations.append(e)
-                continue
-            values = [put(q) for q in e]
-            if any(v.is_zero() for v in values):
-                continue
-            parts = [r for v in values if not v.is_constant() for r in self.factors(v)]
-            if not parts:
-                return None
-            if len(parts) < len(e):
-                self.changed = True
-            equations.append(tuple({r.key: r for r in parts}.values()))
-        excluded: list[_Irreducible] = []
-        for q in state.excluded:
-            value = put(q)
-            if value.is_zero():
-                return None
-            if index not in q.support:
-                excluded.append(q)
-            elif not value.is_constant():
-                changed = self.changed
-                excluded.extend(self.factors(value))
-                self.changed = changed
-        solved = [(i, self._irreducible(put(q))) for i, q in state.solved]
-        return _State(tuple(equations), (*solved, (index, p)), tuple(excluded))
-
-    def _image(self, p: _Irreducible, index: int) -> Any:
-        """What ``p = 0`` says the variable is."""
-        variable = self.generators[index]
-        unit = tuple(int(i == index) for i in range(self.ring.n))
-        return variable - p.f / p.f[unit]
-
-    def parted(self, start: _State) -> list[_State]:
-        """Branches where there are too many: common factors, and the system without them."""
-        common = set.intersection(*({p.key for p in e} for e in start.equations))
-        excluded = {p.key for p in start.excluded}
-        shared = [p for p in start.equations[0] if p.key in common - excluded]
-        leaves = [_State(((p,),), (), start.excluded) for p in shared]
-        rest = [tuple(p for p in e if p.key not in common | excluded) for e in start.equations]
-        return [*leaves, _State(tuple(rest), (), start.excluded)] if all(rest) else leaves
-
-    def contradictory(self, leaf: _State) -> bool:
-        """Whether a combination of the equations, by numbers, is a constant that is not zero."""
-        if len(leaf.equations) < 2:
-            return False
-        import flint
-
-        rows = [_product(e).to_dict() for e in leaf.equations]
-        monomials = sorted({e for row in rows for e in row}, reverse=True)
-        if any(monomials[-1]) or len(rows) * len(monomials) > MOST_TERMS:
-            return False
-        entries = [row.get(e, 0) for row in rows for e in monomials]
-        reduced, rank = flint.fmpq_mat(len(rows), len(monomials), entries).rref()
-        return all(reduced[rank - 1, j] == 0 for j in range(len(monomials) - 1))
-
-    def irredundant(self, leaves: Sequence[_State]) -> list[_State]:
-        """The branches without those whose zero sets are seen to lie in others."""
-        kept = list(leaves)
-        if len(kept) > MOST_BRANCHES:
-            return kept
-        for leaf in reversed(leaves):
-            if any(other is not leaf and self._contained(leaf, other) for other in kept):
-                kept.remove(leaf)
-        return kept
-
-    def _contained(self, leaf: _State, other: _State) -> bool:
-        images = self._images(leaf)
-        zero = [_product(e) for e in leaf.equations]
-        for f in [p.f for _, p in other.solved] + [_product(e) for e in other.equations]:
-            value = f.compose(*images, ctx=self.ring.context) if leaf.solved else f
-            if not value.is_zero() and not any(divmod(value, g)[1].is_zero() for g in zero):
-                return False
-        return True
-
-    def _images(self, leaf: _State) -> list[Any]:
-        """The variables, those that were solved for as polynomials in the others."""
-        images = list(self.generators)
-        for i, p in leaf.solved:
-            images[i] = self._image(p, i)
-        return images
-
-    def branch(self, leaf: _State, rest: tuple[Polynomial, ...]) -> Branch:
-        make = self.ring.factor_polynomial
-        linear = [make(p.f) for _, p in leaf.solved]
-        others = [make(_product(e)) for e in leaf.equations]
-        linear += [f for f in others if f.degree == 1]
-        return Branch(tuple(linear), (*(f for f in others if f.degree > 1), *rest))
-
-
-def _product(equation: _Equation) -> Any:
-    result = equation[0].f
-    for p in equation[1:]:
-        result = result * p.f
-    return result
-
-
-def _in_one_variable(equations: Sequence[_Equation]) -> bool:
-    """Whether all equations are in one and the same variable; so it is if there are none."""
-    return len(frozenset().union(*(p.support for e in equations for p in e))) < 2
+def _branch(search: Search, leaf: State, rest: tuple[Polynomial, ...]) -> Branch:
+    make = search.ring.factor_polynomial
+    linear = [make(p.f) for _, p in leaf.solved]
+    others = [make(product_of(e)) for e in leaf.equations]
+    linear += [f for f in others if f.degree == 1]
+    return Branch(tuple(linear), (*(f for f in others if f.degree > 1), *rest))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -107,29 +108,51 @@ def _modulo(linear: Sequence[Polynomial], others: Collection[Polynomial]) -> set
     return {f * (1 / f.terms[max(f.terms)]) for f in rest if f}
 
 
+@dataclass(frozen=True, eq=False)
+class Gradients:
+    """The derivatives of polynomials, to be evaluated at points.
+
+    Attributes:
+        rows: number of polynomials.
+        derivatives: of each by each variable, one after the other.
+        scales: largest coefficient of each derivative.
+    """
+
+    rows: int
+    derivatives: Evaluator
+    scales: np.ndarray
+
+    @classmethod
+    def of(cls, polynomials: Sequence[Polynomial], n: int) -> Gradients:
+        derivatives = [f.derivative(i) for f in polynomials for i in range(n)]
+        scales = [max((abs(float(c)) for c in f.terms.values()), default=1.0) for f in derivatives]
+        return cls(len(polynomials), Evaluator.of(derivatives, n), np.array(scales))
+
+    def rank(self, x: np.ndarray, error: float) -> int:
+        """How many gradients are certainly independent at a point.
+
+        A derivative counts where it is no rounding error of its terms, nor one that an error of
+        the coordinates explains. Rows and columns are brought to length one.
+
+        Args:
+            x: the point, shape ``(n,)``.
+            error: how far, at most, a coordinate may be from the exact one.
+        """
+        point = np.asarray(x, dtype=complex)[None]
+        values = self.derivatives.values(point)[0]
+        sizes = self.derivatives.absolute(point)[0]
+        doubt = self.derivatives.absolute(np.abs(point) + error)[0] - sizes
+        gradients = np.where(np.abs(values) > NOT_ZERO * sizes + doubt, values, 0)
+        gradients = (gradients * self.scales).reshape(self.rows, len(x))
+        for axis in (1, 0, 1):
+            lengths = np.linalg.norm(gradients, axis=axis, keepdims=True)
+            gradients = gradients / np.where(lengths == 0, 1.0, lengths)
+        return int(np.sum(np.linalg.svd(gradients, compute_uv=False) > INDEPENDENT))
+
+
 def independent_gradients(polynomials: Sequence[Polynomial], x: np.ndarray, error: float) -> bool:
     """Whether the gradients of polynomials are certainly independent at a point.
 
-    A derivative counts where it is no rounding error of its terms, nor one that an error of the
-    coordinates explains. Rows and columns are brought to length one.
-
-    Args:
-        x: the point, shape ``(n,)``.
-        error: how far, at most, a coordinate may be from the exact one.
+    See `Gradients.rank`.
     """
-    n = len(x)
-    derivatives = [f.derivative(i) for f in polynomials for i in range(n)]
-    point = np.asarray(x, dtype=complex)[None]
-    values = Evaluator.of(derivatives, n).values(point)[0]
-    sizes = Evaluator.of(derivatives, n).absolute(point)[0]
-    doubt = Evaluator.of(derivatives, n).absolute(np.abs(point) + error)[0] - sizes
-    gradients = np.where(np.abs(values) > NOT_ZERO * sizes + doubt, values, 0)
-    scales = [max((abs(float(c)) for c in f.terms.values()), default=1.0) for f in derivatives]
-    gradients = (gradients * scales).reshape(len(polynomials), n)
-    for axis in (1, 0, 1):
-        lengths = np.linalg.norm(gradients, axis=axis, keepdims=True)
-        if axis == 1 and not (lengths > 0).all():
-            return False
-        gradients = gradients / np.where(lengths == 0, 1.0, lengths)
-    s = np.linalg.svd(gradients, compute_uv=False)
-    return len(polynomials) <= n and bool(s[-1] > INDEPENDENT)
+    return Gradients.of(polynomials, len(x)).rank(x, error) == len(polynomials)

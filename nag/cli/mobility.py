@@ -22,7 +22,7 @@ from nag.cli.witness_input import point_at, write_document
 if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.files.cases import Case
-    from nag.mechanism.mobility_report import MobilityReport
+    from nag.mechanism.mobility_report import Alike, MobilityReport
     from nag.mechanism.model import Model
 
 FORMAT = "nag-mobility"
@@ -69,8 +69,9 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     at = None if options.at is None else point_at(options.at, variables)
     if options.check and not _has_another(case, made, at):
         raise UsageError(
-            "--check: is for reference configurations that have two formulations, for tables in "
-            "half-angles, and for frameworks in the plane"
+            "--check: there is no second formulation: that is for mechanisms with loops at their "
+            "reference configuration, for tables in half-angles, linkages and frameworks; one in "
+            "space needs a second triangle of bars, and no --at"
         )
     from nag.cli.progress import compilation_notice
     from nag.mechanism.mobility_report import MobilityStatus
@@ -137,14 +138,15 @@ def _with_real_coordinates(case: Case) -> Case:
 
 def _has_another(case: Case, made: Model | None, at: tuple[Number, ...] | None) -> bool:
     """Whether the configuration is known in another formulation as well."""
+    from nag.mechanism.another_model import another_model
     from nag.mechanism.dh import DHModel
-    from nag.mechanism.framework_model import FrameworkModel
 
     if made is not None:
         return at is None
-    if isinstance(case.assembly, FrameworkModel):
-        return case.assembly.framework.dimension == 2
-    return isinstance(case.assembly, DHModel)
+    parts = case.assembly
+    if parts is None:
+        return False
+    return isinstance(parts, DHModel) or another_model(parts, at) is not None
 
 
 def _variables(case: Case, made: Model | None) -> tuple[str, ...]:
@@ -185,51 +187,46 @@ def _report(
 
 def _others(
     options: argparse.Namespace, case: Case, report: MobilityReport, at: tuple[Number, ...] | None
-) -> Iterator[tuple[str, MobilityReport]]:
-    """What other formulations say, each with its name."""
+) -> Iterator[tuple[str, MobilityReport, Alike]]:
+    """What other formulations say, each with its name and what of the components is the same."""
+    from nag.mechanism.another_model import another_model
     from nag.mechanism.formulation_names import FORMULATIONS
-    from nag.mechanism.framework_model import FrameworkModel
     from nag.mechanism.model import ModelError
 
-    if isinstance(case.assembly, FrameworkModel):
-        yield _framework_otherwise(options, case, at)
-        return
     if case.mechanism is None:
+        assert case.assembly is not None
+        another = another_model(case.assembly, at)
+        if another is not None:
+            other = replace(case, assembly=another.parts)
+            found = _report(options, other, "auto", another.at)
+            yield another.name, found, another.alike
+            return
         from nag.files.dh_case import in_formulation
 
         other = in_formulation(case, "E")
         there = None
         if at is not None:
             there = tuple(other.assembly.of_half_angles(case.assembly, at))
-        yield "formulation E", _report(options, other, "auto", there)
+        yield "formulation E", _report(options, other, "auto", there), "dimensions"
         return
     for formulation in FORMULATIONS:
         if report.formulation != f"formulation {formulation}":
             with suppress(ModelError):
-                yield f"formulation {formulation}", _report(options, case, formulation, None)
-
-
-def _framework_otherwise(
-    options: argparse.Namespace, case: Case, at: tuple[Number, ...] | None
-) -> tuple[str, MobilityReport]:
-    """A framework in the plane in the coordinates x and y, without isotropic ones."""
-    from nag.mechanism.framework_model import FrameworkModel, cartesian_model
-
-    assert isinstance(case.assembly, FrameworkModel)
-    plain = replace(cartesian_model(case.assembly.framework), smaller=None)
-    return "coordinates (x, y)", _report(options, replace(case, assembly=plain), "auto", at)
+                found = _report(options, case, formulation, None)
+                yield f"formulation {formulation}", found, "dimensions"
 
 
 def _compared(
     options: argparse.Namespace, case: Case, report: MobilityReport, at: tuple[Number, ...] | None
 ) -> tuple[str, bool, dict[str, Any] | None]:
     """What another formulation says, whether it agrees, and that as a JSON object."""
-    for formulation, other in _others(options, case, report, at):
-        agree = other.same_motion(report)
+    for formulation, other, alike in _others(options, case, report, at):
+        agree = other.same_motion(report, alike)
         text = (
             f"{formulation}, {other.equations} equations in {other.variables} "
             f"unknowns, {'agrees' if agree else 'DISAGREES'}: local dimension "
             f"{other.local_dimension}, tangent dimension {other.tangent_dimension}"
+            f"{_alike_text(other, alike)}"
         )
         if other.open:
             text += f"; its components are not known: {other.open}"
@@ -241,6 +238,14 @@ def _compared(
         }
         return text, agree and not other.open, found
     return "no other formulation covers this mechanism", True, None
+
+
+def _alike_text(other: MobilityReport, alike: Alike) -> str:
+    """What was compared of the components."""
+    if other.components is None or alike == "dimensions":
+        return ""
+    what = {"counts": "dimension", "degrees": "dimension and degree"}[alike]
+    return f"; components of each {what} were counted"
 
 
 def _document(

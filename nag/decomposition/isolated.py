@@ -52,7 +52,7 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
         plane = plane + x * Fraction(float(weight))
     cut = PolynomialSystem(system.variables, (*others, plane), system.nonzero)
     found = _solved(cut, rng, tracker, True)
-    if found is None:
+    if found is None or found.pathless:
         return False
     last = system.polynomials[hardest]
     near = Evaluator.of([last], n).residuals(found.points)[:, 0] <= NONZERO
@@ -103,7 +103,7 @@ def solved_at_once(
         return None
     outside = finite and bool(system.nonzero)
     found = _solved(system, rng, tracker, not outside)
-    if found is None or not found.complete:
+    if found is None or not found.complete or (found.pathless and not finite):
         return None
     if found.positive_dimensional and not (outside and _all_excluded(system, found.on_components)):
         return None

@@ -167,8 +167,19 @@ def cartesian_model(framework: Framework) -> FrameworkModel:
 
 def _in_fewer_paths(made: FrameworkModel) -> FrameworkModel:
     """With the isotropic coordinates in which components are found by fewer paths, if they are."""
+    found = in_isotropic_coordinates(made)
+    if found is None or found.smaller is None or found.smaller.paths >= made.paths:
+        return made
+    return found
+
+
+def in_isotropic_coordinates(made: FrameworkModel) -> FrameworkModel | None:
+    """With isotropic coordinates in which components are found, whatever the number of paths.
+
+    None if a loop is too long for them.
+    """
     other = _by_places(made.framework)
-    return made if other is None or other.paths >= made.paths else replace(made, smaller=other)
+    return None if other is None else replace(made, smaller=other)
 
 
 def _plane_model(framework: Framework) -> FrameworkModel:
@@ -185,8 +196,32 @@ def _plane_model(framework: Framework) -> FrameworkModel:
     return _metric_model(framework, pinned, reference, [unit, unit])
 
 
-def _space_model(framework: Framework) -> FrameworkModel:
+def differently_pinned(model: FrameworkModel) -> FrameworkModel | None:
+    """The same realisations with other points held: another triangle, or another bar.
+
+    Coordinates in one frame are polynomials in those in the other. None if there is no other.
+    """
+    framework, known = model.framework, frozenset(model.pinned)
+    if framework.dimension == 3:
+        try:
+            return _space_model(framework, known)
+        except FrameworkError:
+            return None
+    count = len(framework.bars)
+    first = next((i for i in range(count) if frozenset(framework.bars[i]) != known), None)
+    if first is None:
+        return None
+    order = [first, *(i for i in range(count) if i != first)]
+    bars = tuple(framework.bars[i] for i in order)
+    squared = tuple(framework.squared_lengths[i] for i in order)
+    turned = replace(framework, bars=bars, squared_lengths=squared)
+    return replace(cartesian_model(turned), smaller=None)
+
+
+def _space_model(framework: Framework, without: frozenset[str] = frozenset()) -> FrameworkModel:
     for pinned in framework.triangles():
+        if without == frozenset(pinned):
+            continue
         sides = [
             framework.squared_length(pinned[i], pinned[j]) for i, j in ((0, 1), (0, 2), (1, 2))
         ]

@@ -118,12 +118,14 @@ class LinkageModel:
         loops: number of independent loops.
         free: links that hang on one pin only, or on nothing that closes; each turns freely.
         system: norms and loop equations in (c, s) of the moving links that are in loops.
+        in_loops: the links that are in loops, the one that is held first.
     """
 
     linkage: Linkage
     loops: int
     free: tuple[str, ...]
     system: PolynomialSystem
+    in_loops: tuple[Link, ...]
 
     reference = None
     symmetries = ()
@@ -160,6 +162,7 @@ def linkage_model(linkage: Linkage) -> LinkageModel:
     if len(moving) == len(kept):
         # The ground hangs on a part that turns freely: hold another link instead.
         moving = moving[1:]
+    held = next(link for link in kept if link not in moving)
     n = 2 * len(moving)
     variables = Polynomial.variables(n)
     turns: dict[str, tuple[Any, Any]] = {
@@ -175,7 +178,8 @@ def linkage_model(linkage: Linkage) -> LinkageModel:
             total = [total[0] + c * x - s * y, total[1] + s * x + c * y]
         equations += total
     names = tuple(f"{t}_{link.name}" for link in moving for t in "cs")
-    return LinkageModel(linkage, len(loops), free, PolynomialSystem(names, tuple(equations)))
+    system = PolynomialSystem(names, tuple(equations))
+    return LinkageModel(linkage, len(loops), free, system, (held, *moving))
 
 
 def _in_loops(linkage: Linkage) -> tuple[list[Link], tuple[str, ...]]:

@@ -27,6 +27,7 @@ from nag.mechanism.mobility import gruebler_kutzbach
 from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model, model
 from nag.mechanism.parts_decomposition import decompose_parts
+from nag.mechanism.pins import PinModel
 from nag.numerics.local_dimension import local_dimension
 from nag.witness.expansion import expanded
 from nag.witness.witness import Decomposition, WitnessSet
@@ -59,6 +60,16 @@ class Subject:
     free: tuple[tuple[int, str], ...] = ()
     model: object = None
 
+    @property
+    def freedoms(self) -> int:
+        """How many freedoms every configuration has besides."""
+        return sum(freedoms for freedoms, _ in self.free)
+
+    @property
+    def free_of(self) -> str:
+        """Whose they are, in words."""
+        return " and ".join(f"{freedoms} by {whose}" for freedoms, whose in self.free)
+
     @classmethod
     def of_model(cls, made: Model) -> Subject:
         """The equations of a mechanism's model."""
@@ -76,11 +87,15 @@ class Subject:
     @classmethod
     def of_parts(cls, parts: AssemblyModel) -> Subject:
         """The equations of all assemblies of given parts."""
+        free: tuple[tuple[int, str], ...] = ()
         if isinstance(parts, FrameworkModel):
             space = "planar" if parts.framework.dimension == 2 else "spatial"
             counted, what = parts.framework.freedoms, "of a framework"
-        elif isinstance(parts, LinkageModel):
-            space, counted, what = "planar", parts.linkage.gruebler_kutzbach, "of a linkage"
+        elif isinstance(parts, LinkageModel | PinModel):
+            turns = parts.turns if isinstance(parts, PinModel) else parts
+            space, counted, what = "planar", turns.linkage.gruebler_kutzbach, "of a linkage"
+            if turns.free:
+                free = ((len(turns.free), "the links that hang on one pin"),)
         elif isinstance(parts, DHModel | DHEulerModel):
             space, counted = "spatial", len(parts.loop.open) - 6
             what = f"formulation {parts.formulation} of the closed table"
@@ -88,7 +103,7 @@ class Subject:
             raise ValueError(f"parts of type {type(parts).__name__} are not known")
         reference = None if parts.reference is None else tuple(parts.reference)
         symmetries = tuple(parts.symmetries)
-        return cls(parts.system, symmetries, reference, space, counted, what, (), parts)
+        return cls(parts.system, symmetries, reference, space, counted, what, free, parts)
 
 
 def mobility(
@@ -150,7 +165,7 @@ def _report(
     subject: Subject, at: Sequence[Number], detail: str, options: dict[str, Any]
 ) -> MobilityReport:
     found = local_dimension(subject.system, at, seed=options["seed"])
-    free, tangent = sum(freedoms for freedoms, _ in subject.free), found.tangent_dimension
+    free, tangent = subject.freedoms, found.tangent_dimension
     through, doubt = (None, "") if detail == "local" else _components(subject, at, **options)
     motions = []
     if detail == "curves" and through is not None:
@@ -163,7 +178,7 @@ def _report(
         variables=subject.system.n,
         equations=len(subject.system.polynomials),
         free=free,
-        free_of=" and ".join(f"{freedoms} by {whose}" for freedoms, whose in subject.free),
+        free_of=subject.free_of,
         tangent_dimension=None if tangent is None else tangent + free,
         lower=found.lower + free,
         upper=found.upper + free,
@@ -184,6 +199,7 @@ def _in_general(subject: Subject, detail: str, options: dict[str, Any]) -> Mobil
         raise NoAssembly("its parts cannot be assembled, not even with complex coordinates")
     general = max(components, key=lambda c: (c.dimension, c.corank), default=None)
     known = general if found.complete else None
+    free = subject.freedoms
     curves = [c for c in components if c.dimension == 1] if detail == "curves" else []
     return MobilityReport(
         space=subject.space,
@@ -191,11 +207,14 @@ def _in_general(subject: Subject, detail: str, options: dict[str, Any]) -> Mobil
         formulation=subject.formulation,
         variables=subject.system.n,
         equations=len(subject.system.polynomials),
-        free=0,
-        tangent_dimension=None if known is None else known.corank,
-        lower=0 if known is None else known.dimension,
-        upper=subject.system.n if known is None else known.dimension,
-        components=tuple((c.dimension, c.degree) for c in components) if found.complete else None,
+        free=free,
+        free_of=subject.free_of,
+        tangent_dimension=None if known is None else known.corank + free,
+        lower=free + (0 if known is None else known.dimension),
+        upper=free + (subject.system.n if known is None else known.dimension),
+        components=tuple((c.dimension + free, c.degree) for c in components)
+        if found.complete
+        else None,
         open="" if found.complete else _incomplete(found),
         local=None,
         curves=tuple(_curve(subject, c, **options) for c in curves),

@@ -8,13 +8,18 @@ References:
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Literal
 
 from nag.mechanism.bonds import Bonds
 from nag.numerics.local_dimension import LocalDimension
 from nag.text.table import html_table
 from nag.witness.witness import WitnessSet
+
+# What must be the same of components in two formulations.
+Alike = Literal["dimensions", "counts", "degrees"]
 
 
 class MobilityStatus(StrEnum):
@@ -115,10 +120,15 @@ class MobilityReport:
             return True
         return self.lower <= max(d for d, _ in self.components) <= self.upper
 
-    def same_motion(self, other: MobilityReport) -> bool:
-        """Whether both say the same of the configuration, in whatever formulation."""
+    def same_motion(self, other: MobilityReport, alike: Alike = "dimensions") -> bool:
+        """Whether both say the same of the configuration, in whatever formulation.
+
+        Args:
+            alike: what of the components must be the same: which dimensions there are, how many
+                components of each, or of each dimension and degree.
+        """
         dimensions = [
-            None if r.components is None else {d for d, _ in r.components} for r in (self, other)
+            None if r.components is None else _kinds(r.components, alike) for r in (self, other)
         ]
         known = self.local_dimension is not None
         same = self.local_dimension == other.local_dimension
@@ -175,6 +185,13 @@ class MobilityReport:
             ("mobility", f"{self.status}: {self.sentence}"),
             *(("curve", str(curve)) for curve in self.curves),
         ]
+
+
+def _kinds(components: Iterable[tuple[int, int]], alike: Alike) -> object:
+    if alike == "degrees":
+        return Counter(components)
+    counted = Counter(d for d, _ in components)
+    return counted if alike == "counts" else set(counted)
 
 
 def _local_text(report: MobilityReport) -> str:

@@ -61,7 +61,7 @@ def assembly_rows(kind: str, assembly: AssemblyModel, decomposition: Decompositi
     moving = [c for c in decomposition.components if c.dimension > 0]
     parts = []
     if moving:
-        largest = max(c.dimension for c in moving)
+        largest = max(c.dimension for c in moving) + _free_links(assembly)
         count = sum(c.orbit for c in moving)
         on = f"{count} component{'' if count == 1 else 's'}"
         parts.append(f"mobile, mobility {largest} at most, on {on}{_reality(assembly)}")
@@ -73,10 +73,17 @@ def assembly_rows(kind: str, assembly: AssemblyModel, decomposition: Decompositi
         parts.append(
             f"{count} {what if count == 1 else plural}{motions}, {real} of them real"
             + (", that cannot move" if moving else "; rigid in each of them")
+            + (", but for the links that turn freely" if _free_links(assembly) else "")
         )
     if not parts:
         parts = [f"no {what}, not even a complex one: the parts do not fit"]
     return [(plural, "; ".join(parts))]
+
+
+def _free_links(assembly: AssemblyModel) -> int:
+    from nag.mechanism.linkage import LinkageModel
+
+    return len(assembly.free) if isinstance(assembly, LinkageModel) else 0
 
 
 def _reality(assembly: AssemblyModel) -> str:

@@ -243,6 +243,7 @@ def _joined(
         complete=complete,
         notes=tuple(dict.fromkeys(notes)),
         excluded_solutions=excluded,
+        pathless=any(r.pathless for r in results),
     )
 
 

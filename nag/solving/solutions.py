@@ -88,6 +88,8 @@ class SolveResult:
         settings: name of the tracking settings.
         complete: whether nothing is known that speaks against a complete list.
         notes: what a reader must know.
+        pathless: whether a part has no paths at all, as no zero of it can be isolated: whether it
+            has any, on sets of positive dimension, is not seen then.
     """
 
     system: PolynomialSystem
@@ -103,6 +105,7 @@ class SolveResult:
     complete: bool
     notes: tuple[str, ...] = ()
     excluded_solutions: tuple[Solution, ...] = ()
+    pathless: bool = False
 
     @property
     def points(self) -> np.ndarray:

@@ -220,6 +220,7 @@ def _result(
         complete=complete,
         notes=tuple(notes),
         excluded_solutions=ends.excluded,
+        pathless=not len(paths),
     )
 
 

@@ -1,0 +1,134 @@
+"""Linkages and frameworks in two formulations: what corresponds, and what the check can see."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from linkages import CASES
+
+import nag
+from nag.cli import main
+from nag.decomposition import decompose
+from nag.mechanism.another_model import another_model
+from nag.mechanism.framework import placed_framework
+from nag.mechanism.framework_model import framework_model
+from nag.mechanism.linkage import Link, Linkage, LinkageModel, linkage_model
+from nag.mechanism.pins import pin_model
+
+F = Fraction
+
+
+def turn(t: Fraction) -> tuple[Fraction, Fraction]:
+    """A rational point of the circle."""
+    return (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+
+
+def assembled_linkage(
+    plates: dict[str, tuple[str, ...]], ground: str, seed: int
+) -> tuple[LinkageModel, dict[str, tuple[Fraction, Fraction]], list[Fraction]]:
+    """Links through random rational places, each in a frame of its own; places and turns."""
+    rng = np.random.default_rng(seed)
+    pins = sorted({p for own in plates.values() for p in own})
+    places = {p: tuple(F(int(k), 7) for k in rng.integers(-30, 31, 2)) for p in pins}
+    turns, links = {}, []
+    for name, own in plates.items():
+        c, s = (F(1), F(0)) if name == ground else turn(F(int(rng.integers(1, 9)), 5))
+        turns[name] = (c, s)
+        shape = tuple((c * x + s * y, c * y - s * x) for x, y in (places[p] for p in own))
+        links.append(Link(name, own, shape))
+    made = linkage_model(Linkage(ground, tuple(links)))
+    point = [t for link in made.in_loops[1:] for t in turns[link.name]]
+    return made, places, point
+
+
+STEPHENSON = {
+    "ground": ("A", "B"),
+    "crank": ("A", "C"),
+    "plate": ("C", "D", "E"),
+    "rocker": ("D", "B", "G"),
+    "upper": ("E", "H"),
+    "last": ("H", "G"),
+}
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_turns_and_pins_are_the_same_assembly_exactly(seed: int) -> None:
+    made, places, point = assembled_linkage(STEPHENSON, "ground", seed)
+    assert not any(made.system(point))
+    pins = pin_model(made)
+    at = pins.at(point)
+    assert at == tuple(x for p in pins.pins for x in places[p])
+    assert not any(pins.system(at))
+
+
+def test_the_mirror_image_of_a_plate_is_no_assembly() -> None:
+    triangle = (Link("g", ("A", "B"), ((F(0), F(0)), (F(4), F(0)))),)
+    plate = Link("p", ("A", "B", "C"), ((F(0), F(0)), (F(4), F(0)), (F(1), F(2))))
+    bar = Link("b", ("C", "D"), ((F(0), F(0)), (F(1), F(0))))
+    last = Link("l", ("D", "A"), ((F(0), F(0)), (F(2), F(0))))
+    system = pin_model(linkage_model(Linkage("g", (*triangle, plate, bar, last)))).system
+    names = system.variables
+    upper, lower = ({"x_C": F(1), "y_C": y} for y in (F(2), F(-2)))
+    shape = [f for f in system.polynomials if f.degree == 1 and f.support]
+    assert shape
+    for there, fits in ((upper, True), (lower, False)):
+        point = [there.get(name, F(0)) for name in names]
+        assert (not any(f(point) for f in shape)) is fits
+
+
+@pytest.mark.parametrize(
+    "name", ["double-parallelogram", "watt-six-bar", "stephenson-six-bar", "burmester-focal"]
+)
+def test_pins_and_turns_have_components_of_the_same_degrees(name: str) -> None:
+    parts = nag.read_case(CASES / "planar" / f"{name}.toml").assembly
+    other = another_model(parts)
+    assert other is not None and other.alike == "degrees"
+    kinds = [
+        Counter((c.dimension, c.degree) for c in decompose(p.system).components)
+        for p in (parts, other.parts)
+    ]
+    assert kinds[0] == kinds[1]
+
+
+def test_another_triangle_in_space_has_as_many_components() -> None:
+    parts = nag.read_case(CASES / "spatial" / "octahedron-plane-symmetric.toml").assembly
+    other = another_model(parts)
+    assert other is not None and set(other.parts.pinned) != set(parts.pinned)
+    assert not any(other.parts.system(other.parts.reference))
+    reports = [nag.mobility(p) for p in (parts, other.parts)]
+    assert reports[0].same_motion(reports[1], "counts")
+
+
+def test_the_check_sees_other_components() -> None:
+    report = nag.mobility(nag.read_case(CASES / "planar" / "henneberg-6.toml").assembly)
+    fewer = replace(report, components=report.components[1:])
+    assert fewer.same_motion(report) and not fewer.same_motion(report, "counts")
+    higher = replace(report, components=((0, 2), *report.components[1:]))
+    assert higher.same_motion(report, "counts") and not higher.same_motion(report, "degrees")
+
+
+def test_links_that_hang_on_one_pin_add_their_turns(tmp_path, capsys) -> None:
+    plates = {**STEPHENSON, "tail": ("H", "T")}
+    made, _, _ = assembled_linkage(plates, "ground", 3)
+    report = nag.mobility(made)
+    assert (report.gruebler_kutzbach, report.local_dimension, report.free) == (2, 2, 1)
+    assert report.same_motion(nag.mobility(pin_model(made)), "degrees")
+
+
+def test_one_triangle_in_space_leaves_no_second_frame(tmp_path, capsys) -> None:
+    places = {"A": (0, 0, 0), "B": (1, 0, 0), "C": (0, 1, 0), "D": (1, 1, 1), "E": (2, 0, 2)}
+    bars = [("A", "B"), ("A", "C"), ("B", "C"), ("C", "D"), ("D", "E"), ("E", "B")]
+    exact = {name: tuple(map(F, place)) for name, place in places.items()}
+    assert another_model(framework_model(placed_framework(3, exact, bars))) is None
+    file = tmp_path / "one.toml"
+    file.write_text(
+        'kind = "framework"\ntitle = "t"\ndimension = 3\n'
+        f"bars = {[list(bar) for bar in bars]}\n[points]\n"
+        + "\n".join(f"{name} = {list(place)}" for name, place in places.items())
+    )
+    assert main(["mobility", str(file), "--check", "--quiet"]) == 2
+    assert "second triangle" in capsys.readouterr().err
