@@ -164,10 +164,11 @@ solving.isolated_zero.TWO                   1e-80   Distance, beside their size,
                                                     place stand for.
 solving.judged_ends.NEARLY                  1e-5    Values, beside their terms, of ends that are no
                                                     zeros, however badly they are known.
-solving.judged_ends.REAL *                  1e-10   Imaginary parts, beside a point's size, of real
-                                                    points, or the errors if they are larger; the
-                                                    conjugates of all others must be points as well.
-                                                    `nag certify` proves it.
+solving.reality.REAL *                      1e-10   Imaginary parts, beside a point's size, of zeros
+                                                    in doubles that are real unless another zero is
+                                                    their conjugate; beyond that, or their errors in
+                                                    more digits, they are not. `nag certify` proves
+                                                    it.
 solving.missing_zeros.SAFETY                1e3     Errors of a zero that was found in which no
                                                     other one is looked for.
 solving.missing_zeros.EXTREME               26      Binary logarithm of sizes from which zeros are
