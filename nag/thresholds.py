@@ -301,7 +301,8 @@ tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_p
 solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: WRITTEN; solving.missing_zeros:
 NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED; solving.start.choice:
 WORK; solving.start.family_monodromy: SHARP; solving.start.multihomogeneous: EXACT;
-solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR;
+solving.start.polyhedral: WIDTH; solving.start.target: HALF_UNIT; solving.start.toric: LENGTH;
+solving.tropical_zeros: ARRIVED, NEAR;
 witness.at_prompt: EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;
 witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT;
 witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE; witness.real_points:

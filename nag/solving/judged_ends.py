@@ -284,9 +284,10 @@ def _solutions(
         answers = [problem.excluded(s) for s in isolated]
     original = np.array(problem.target.original(points), dtype=np.complex128)
     original.setflags(write=False)
+    errors = (accuracy + problem.target.rounding(points)).tolist()
     solutions = [
-        Solution(point, s.multiplicity, is_real, s.residual, s.accuracy, s.condition, s.precision)
-        for point, s, is_real in zip(original, isolated, real.tolist(), strict=True)
+        Solution(point, s.multiplicity, is_real, s.residual, error, s.condition, s.precision)
+        for point, s, is_real, error in zip(original, isolated, real.tolist(), errors, strict=True)
     ]
     kept, left_out = (
         tuple(s for s, answer in zip(solutions, answers, strict=True) if answer is wanted)
