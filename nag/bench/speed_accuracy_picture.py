@@ -14,7 +14,12 @@ from nag.bench.whole_paths import ARITHMETICS, DIGITS
 # Colours of different lightness, and marks, so that greyscale will do.
 COLOURS = ("#1b1b4b", "#b2182b", "#1f78b4", "#e08214", "#35978f", "#7b9e2f", "#c994c7", "#8c6d31")
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
-PEERS = {"M2": ("#555555", "<"), "phc": ("#999999", ">"), "bertini2": ("#222222", "d")}
+PEERS = {
+    "M2": ("#555555", "<"),
+    "M2, refined": ("#555555", "4"),
+    "phc": ("#999999", ">"),
+    "bertini2": ("#222222", "d"),
+}
 # Errors below these are drawn there: of points that are doubles, and in more digits.
 FLOOR, DEEPEST = 1e-17, 1e-110
 ACCURATE = 1e-12
