@@ -1,8 +1,8 @@
 """Paths tracked wholly in one arithmetic, from their starts to their ends: error against time.
 
 Doubles, with ends as they are or sharpened with residuals in double-double; double-double and
-quad-double throughout. In balls only the ends are sharpened: a step of a path takes some hundred
-times as long in them as in doubles, and in no more digits than it needs is it better for that.
+quad-double throughout. In balls, in which a step of Newton's method takes some hundred times as
+long as in doubles, only the ends of paths in doubles are sharpened.
 """
 
 from __future__ import annotations
