@@ -164,10 +164,11 @@ solving.isolated_zero.TWO                   1e-80   Distance, beside their size,
                                                     place stand for.
 solving.judged_ends.NEARLY                  1e-5    Values, beside their terms, of ends that are no
                                                     zeros, however badly they are known.
-solving.judged_ends.REAL *                  1e-10   Imaginary parts, beside a point's size, of real
-                                                    points, or the errors if they are larger; the
-                                                    conjugates of all others must be points as well.
-                                                    `nag certify` proves it.
+solving.reality.REAL *                      1e-10   Imaginary parts, beside a point's size, of zeros
+                                                    in doubles that are real unless another zero is
+                                                    their conjugate; beyond that, or their errors in
+                                                    more digits, they are not. `nag certify` proves
+                                                    it.
 solving.missing_zeros.SAFETY                1e3     Errors of a zero that was found in which no
                                                     other one is looked for.
 solving.missing_zeros.EXTREME               26      Binary logarithm of sizes from which zeros are
@@ -300,7 +301,8 @@ tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_p
 solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: WRITTEN; solving.missing_zeros:
 NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED; solving.start.choice:
 WORK; solving.start.family_monodromy: SHARP; solving.start.multihomogeneous: EXACT;
-solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR;
+solving.start.polyhedral: WIDTH; solving.start.target: HALF_UNIT; solving.start.toric: LENGTH;
+solving.tropical_zeros: ARRIVED, NEAR;
 witness.at_prompt: EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;
 witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT;
 witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE; witness.real_points:

@@ -10,17 +10,16 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import ZeroCount
-from nag.numerics.coincidence import SAFETY, clusters, coincident, conjugates_present
+from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.small_values import ON
 from nag.solving.isolated_zero import FinePoint, IsolatedZero
+from nag.solving.reality import which_are_real
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
 from nag.tracking.paths import Paths, PathStatus
 
-# Imaginary parts of real points, relative to their size; their conjugates must be points as well.
-REAL = 1e-10
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
 # Points evaluated at once.
@@ -278,18 +277,17 @@ def _solutions(
     points = np.array([s.point for s in isolated], dtype=complex).reshape(-1, problem.system.n)
     accuracy = np.array([s.accuracy for s in isolated])
     multiplicity = np.array([s.multiplicity for s in isolated], dtype=np.int64)
-    sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
-    imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
-    real = imaginary <= np.maximum(SAFETY * accuracy, REAL) * sizes
+    real = which_are_real(isolated)
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
     answers: list[bool | None] = [False] * len(isolated)
     if problem.nonzero:
         answers = [problem.excluded(s) for s in isolated]
     original = np.array(problem.target.original(points), dtype=np.complex128)
     original.setflags(write=False)
+    errors = (accuracy + problem.target.rounding(points)).tolist()
     solutions = [
-        Solution(point, s.multiplicity, is_real, s.residual, s.accuracy, s.condition, s.precision)
-        for point, s, is_real in zip(original, isolated, real.tolist(), strict=True)
+        Solution(point, s.multiplicity, is_real, s.residual, error, s.condition, s.precision)
+        for point, s, is_real, error in zip(original, isolated, real.tolist(), errors, strict=True)
     ]
     kept, left_out = (
         tuple(s for s, answer in zip(solutions, answers, strict=True) if answer is wanted)

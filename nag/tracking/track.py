@@ -120,7 +120,7 @@ def track_regular(
         weights: where each part is one term: part ``p`` is multiplied by
             ``exp(-weights[path, p] t)``, shape ``(P, parts)``.
     """
-    raw = _run(homotopy, homotopy.normalized(starts), settings, threads, False, weights)
+    raw = run_in_doubles(homotopy, homotopy.normalized(starts), settings, threads, False, weights)
     ended = np.flatnonzero(raw.reason == Reason.NONE)
     # A row may be small at a point near infinity, so that singular values would say nothing.
     sharp = refine(homotopy, None, raw.points[ended])
@@ -131,8 +131,11 @@ def track_regular(
 
 
 @dataclass(frozen=True, eq=False)
-class _Raw:
-    """Where the paths are after a run in doubles: see `nag.tracking.straight_run.Batch`."""
+class StraightRun:
+    """Where the paths are after a run in doubles: see `nag.tracking.straight_run.Batch`.
+
+    ``points``: shape ``(P, N)``, at t = 0 where ``reason`` is `Reason.NONE`.
+    """
 
     points: np.ndarray
     safe: np.ndarray
@@ -153,7 +156,7 @@ def _attempt(
     orbits = known.orbits
     if orbits is not None:
         starts = starts[orbits.chosen]
-    raw = _run(homotopy, starts, settings, threads, endgame)
+    raw = run_in_doubles(homotopy, starts, settings, threads, endgame)
     paths, regular = _judged(homotopy, raw)
     doubtful = paths.where(PathStatus.FAILED)
     doubtful = doubtful[raw.reason[doubtful] != Reason.START]
@@ -171,7 +174,7 @@ def _attempt(
 
 def _followed(
     homotopy: Homotopy,
-    raw: _Raw,
+    raw: StraightRun,
     regular: np.ndarray,
     doubtful: np.ndarray,
     settings: Settings,
@@ -211,18 +214,19 @@ def _to_infinity(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> Paths:
     return replace(paths, points=points, status=status, reason=reason)
 
 
-def _run(
+def run_in_doubles(
     homotopy: Homotopy,
     starts: np.ndarray,
     settings: Settings,
     threads: int,
     endgame: bool,
     weights: np.ndarray | None = None,
-) -> _Raw:
+) -> StraightRun:
+    """Track paths once, in doubles alone; nothing is said of their ends."""
     from nag.tracking import kernel_arrays, straight_run
 
     P = len(starts)
-    raw = _Raw(
+    raw = StraightRun(
         starts.copy(),
         starts.copy(),
         np.ones(P),
@@ -266,7 +270,7 @@ def _run(
     return raw
 
 
-def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
+def _judged(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
     """Finite ends that Newton's method proves regular; the others have failed.
 
     Also which ends are regular ones of the homogenised system, shape ``(P,)``: whether those that

@@ -18,6 +18,8 @@ from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import NOTHING, Known
 
+# Largest relative error of a number that is rounded to a double.
+HALF_UNIT = 2.0**-53
 Terms = Mapping[Exponents, Number | complex]
 
 
@@ -74,6 +76,18 @@ class Target:
             return points
         origins = np.array([float(b) for b in self.centres])
         return points * np.exp2(self.scales) + origins
+
+    def rounding(self, points: np.ndarray) -> np.ndarray:
+        """Errors that `original` adds, relative to one and the size of the result, shape ``(P,)``.
+
+        A shift may cancel most of a coordinate, of which doubles round all of it.
+        """
+        if not any(self.centres):
+            return np.zeros(len(points))
+        before = np.linalg.norm(points * np.exp2(self.scales), axis=1)
+        after = np.linalg.norm(self.original(points), axis=1)
+        shift = float(np.linalg.norm([float(b) for b in self.centres]))
+        return HALF_UNIT * (before + shift + after) / (1 + after)
 
     @cached_property
     def degrees(self) -> tuple[int, ...]:

@@ -149,6 +149,9 @@ def follow(
     left = unfinished
     states = States.of(left.ends, left.reached, left.safe, left.t)
     states.regular[:] = left.regular
+    # An end that must hold to more digits is looked for as much further in.
+    asked = digits_of_evidence(homotopy, settings.evidence)[0]
+    states.most[:] = MAX_STEPS * asked // LEAST_EVIDENCE
     # What doubles lost on the way may have come close to other paths there.
     states.most[left.t > settings.radius] = MOST_STEPS
     pending = np.arange(len(left.safe))
