@@ -125,11 +125,9 @@ def table(values: Any) -> Table:
     if isinstance(values, Table):
         return values
     layout = _layout(type(values))
-    if len(values) != len(layout):
-        raise TypeError(f"{type(values).__name__} has {len(layout)} fields")
+    pairs = zip(values, layout, strict=True)
     words = np.array(
-        [_word(k, value, dtype, values) for k, (value, dtype) in enumerate(zip(values, layout))],
-        dtype=np.int64,
+        [_word(k, value, dtype, values) for k, (value, dtype) in enumerate(pairs)], dtype=np.int64
     )
     return Table(words, address(words), values)
 
@@ -157,7 +155,7 @@ def _word(k: int, value: Any, dtype: Any, values: Any) -> int:
         return bool(value)
     if dtype is float:
         return _WHOLE.unpack(_REAL.pack(value))[0]
-    if value.dtype is not dtype and value.dtype != dtype or not value.flags.c_contiguous:
+    if (value.dtype is not dtype and value.dtype != dtype) or not value.flags.c_contiguous:
         name = f"{type(values).__name__}.{values._fields[k]}"
         raise TypeError(f"{name} is no contiguous array of {dtype.name}")
     return address(value)

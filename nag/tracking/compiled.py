@@ -207,9 +207,7 @@ class _Products:
 
 
 def _parents(exponents: Exponents) -> list[tuple[Exponents, int]]:
-    return [
-        ((*exponents[:j], k - 1, *exponents[j + 1 :]), j) for j, k in enumerate(exponents) if k
-    ]
+    return [((*exponents[:j], k - 1, *exponents[j + 1 :]), j) for j, k in enumerate(exponents) if k]
 
 
 _Block = list[tuple[Exponents, complex]]

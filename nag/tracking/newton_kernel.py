@@ -54,7 +54,9 @@ def low_parts(homotopy: Homotopy) -> Low:
     rows = homotopy.rows
     if "low" not in rows._cache:
         parts = []
-        for row, blocks, scale in zip(rows.parts, rows.in_doubles, rows.scales.tolist(), strict=True):
+        for row, blocks, scale in zip(
+            rows.parts, rows.in_doubles, rows.scales.tolist(), strict=True
+        ):
             for (_, terms), block in zip(row, blocks, strict=True):
                 parts += [_low(terms[e], c, scale) for e, c in block]
         rows._cache["low"] = np.array(parts).reshape(-1, 2).T.copy()
