@@ -130,6 +130,24 @@ def track_regular(
     return RegularEnds(points[good], ended[good], sharp.error[good])
 
 
+def ended(homotopy: Homotopy, points: np.ndarray, error: float) -> Paths | None:
+    """Zeros at t = 0 as paths that ended there, from points near them.
+
+    Args:
+        points: shape ``(P, N)``.
+        error: about how far they are from the zeros, relative to them.
+
+    Returns:
+        None unless each is proved to be near a finite regular zero, of its own.
+    """
+    P, points = len(points), homotopy.normalized(points)
+    raw = _Raw(
+        points, points, np.zeros(P), np.full(P, error), *(np.zeros(P, dtype=np.int64),) * 2
+    )
+    paths, _ = _judged(homotopy, raw)
+    return paths if paths.simple.all() and not len(collisions(homotopy, paths)) else None
+
+
 @dataclass(frozen=True, eq=False)
 class _Raw:
     """Where the paths are after a run in doubles: see `nag.tracking.straight_run.Batch`."""
