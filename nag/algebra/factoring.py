@@ -68,9 +68,9 @@ def ring(n: int) -> Ring:
 def is_surely_irreducible(f: Any, n: int) -> bool:
     """Whether a polynomial of FLINT's, no constant, is seen to have one factor and no other.
 
-    Where a variable occurs linearly, beside a single monomial, common factors of that and of what
-    the variable is not in are monomials; a quadric of rank three and more is irreducible. To see
-    either takes a fraction of the time of looking for factors.
+    Where a variable occurs linearly, factors without it are common to what it is multiplied by and
+    to the rest: monomials, if one of both is a single term. A quadric of rank three and more is
+    irreducible. To see either takes a fraction of the time of looking for factors.
     """
     if f.total_degree() < 2:
         return True
@@ -79,8 +79,9 @@ def is_surely_irreducible(f: Any, n: int) -> bool:
         if degree == 1:
             beside = [e for e in exponents if e[i]]
             rest = [e for e in exponents if not e[i]]
-            if len(beside) == 1 and all(
-                j == i or not k or not all(e[j] for e in rest) for j, k in enumerate(beside[0])
+            few, many = (beside, rest) if len(beside) == 1 else (rest, beside)
+            if len(few) == 1 and not any(
+                k and j != i and all(e[j] for e in many) for j, k in enumerate(few[0])
             ):
                 return True
     return f.total_degree() == 2 and _rank_of_quadric(f, exponents, n) > 2

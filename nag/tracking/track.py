@@ -141,9 +141,7 @@ def ended(homotopy: Homotopy, points: np.ndarray, error: float) -> Paths | None:
         None unless each is proved to be near a finite regular zero, of its own.
     """
     P, points = len(points), homotopy.normalized(points)
-    raw = _Raw(
-        points, points, np.zeros(P), np.full(P, error), *(np.zeros(P, dtype=np.int64),) * 2
-    )
+    raw = _Raw(points, points, np.zeros(P), np.full(P, error), *(np.zeros(P, dtype=np.int64),) * 2)
     paths, _ = _judged(homotopy, raw)
     return paths if paths.simple.all() and not len(collisions(homotopy, paths)) else None
 

@@ -15,7 +15,7 @@ import numpy as np
 from nag.tracking.ends.inclusion import patches_through, system_at, values_at
 from nag.tracking.ends.terms import Terms, number
 
-BITS = 700
+BITS, ROUGHLY = 700, 280
 # Coordinates of size one that are zero; Newton's method has arrived where its step is as small.
 ZERO = 1e-150
 MOST_STEPS = 12
@@ -42,16 +42,20 @@ def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) ->
 def _vanishes(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) -> bool:
     """By Newton's method with the first point's Jacobian, as it is near enough for that."""
     patches = patches_through(flint, terms, x)
-    size = max(float(abs(z).mid()) for z in x)
+    size = max(abs(complex(z.mid())) for z in x)
     values, jacobian = system_at(flint, terms, patches, x)
     try:
+        # More digits than the point has would gain nothing.
+        flint.ctx.prec = ROUGHLY
         inverse = jacobian.mid().inv().mid()
     except ZeroDivisionError:
         return False
+    finally:
+        flint.ctx.prec = BITS
     for _ in range(MOST_STEPS):
-        step = inverse * values.mid()
-        x = [(z - step[j, 0]).mid() for j, z in enumerate(x)]
-        if max(float(abs(step[j, 0]).mid()) for j in range(len(x))) < ZERO * size:
-            return any(float(abs(x[j]).mid()) < ZERO * size for j in coordinates)
+        step = (inverse * values.mid()).mid().entries()
+        x = [(z - change).mid() for z, change in zip(x, step, strict=True)]
+        if max(abs(complex(change)) for change in step) < ZERO * size:
+            return any(abs(complex(x[j])) < ZERO * size for j in coordinates)
         values = values_at(flint, terms, patches, x)
     return False
