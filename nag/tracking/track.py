@@ -178,11 +178,22 @@ def _attempt(
         if known.most is not None and _all_are_found(homotopy, every, known.most):
             paths = _to_infinity(homotopy, paths, doubtful)
         else:
-            more = _followed(homotopy, raw, regular, doubtful, settings, threads)
-            if not endgame:
-                more = without(more, more.where(PathStatus.SINGULAR))
-            paths = merged(paths, more, doubtful)
+            infinite, ends = _infinite(homotopy, paths, doubtful[regular[doubtful]])
+            paths, doubtful = merged(paths, ends, infinite), np.setdiff1d(doubtful, infinite)
+            if len(doubtful):
+                more = _followed(homotopy, raw, regular, doubtful, settings, threads)
+                if not endgame:
+                    more = without(more, more.where(PathStatus.SINGULAR))
+                paths = merged(paths, more, doubtful)
     return paths if orbits is None else orbits.expanded(paths, homotopy.groups)
+
+
+def _infinite(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> tuple[np.ndarray, Paths]:
+    """Which of the paths ``chosen``, all to regular ends, lead to infinity, and these ends."""
+    from nag.tracking.ends.at_infinity import regular_paths
+
+    found, ends = regular_paths(homotopy, paths.points[chosen], paths.condition[chosen])
+    return chosen[found], ends
 
 
 def _followed(
