@@ -291,7 +291,8 @@ numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: REACHES;
 numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2; numerics.scaling: INERTIA,
 NEARLY_ORTHOGONAL; numerics.sharpening: ROUNDING, NEARLY; numerics.small_values: LEAST;
 tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
-ENDGAME; tracking.close_paths: STEEP; tracking.ends.branch: LONGEST; tracking.ends.corrector:
+ENDGAME; tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE;
+tracking.ends.branch: LONGEST; tracking.ends.corrector:
 DOUBLES; tracking.ends.end_run: RESIDUAL, SECOND; tracking.ends.inclusion: TINY;
 tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
@@ -308,6 +309,6 @@ witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, B
 witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE; witness.real_points:
 SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK;
 decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
-decomposition.hypersurface: NEARER; decomposition.singular_locus: ROUNDED; decomposition.excluded:
-ROUNDED; decomposition.superset: REGULAR.
+decomposition.hypersurface: NEARER, ROUGH; decomposition.singular_locus: ROUNDED;
+decomposition.excluded: ROUNDED; decomposition.superset: REGULAR.
 """

@@ -16,7 +16,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.track import track
+from nag.tracking.track import ended, track
 from nag.witness.close_points import with_roots
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, leading_power
@@ -36,6 +36,8 @@ from nag.witness.witness import PathCounts
 # Slices to which points may have to be moved to get to another flag.
 # Offsets of the flags tried later, as part of those of the first: slices nearer to the origin.
 NEARER = 0.3
+# Errors of roots of a polynomial in one variable, from where Newton's method finds them.
+ROUGH = 1e-8
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +83,10 @@ def intersect(
         return _intersect_close(fibre, f, flag, gamma, tracker)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     n, total = cut.n, cut.n + cut.aux
+    if not cut.polynomials and len(fibre) == 1:
+        found = _on_line(n, f, flag[: d - 1], fibre.points[0])
+        if found is not None:
+            return found
     f = f * (1 / leading_power(f))
     compiled = _with_power(cut, f)
     columns = total + 2
@@ -101,6 +107,25 @@ def intersect(
     homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
     paths = track(homotopy, points, settings=tracker.settings, threads=tracker.threads)
     return moved(paths, keep=total)
+
+
+def _on_line(n: int, f: Polynomial, rows: np.ndarray, point: np.ndarray) -> Moved | None:
+    """The zeros of f on the line of the slices ``rows`` through a point, without paths.
+
+    They are roots of a polynomial in one variable. None unless each is proved, and regular, and
+    they are as many as the degree of f.
+    """
+    degree, direction = f.degree, np.linalg.svd(rows[:, 1:])[2][-1].conj()
+    unity = np.exp(2j * np.pi * np.arange(degree + 1) / (degree + 1))
+    values = Evaluator.of([f], n).values(point + unity[:, None] * direction)[:, 0]
+    if not np.isfinite(values).all():
+        return None
+    roots = np.roots(np.fft.fft(values)[::-1])
+    if len(roots) < degree:
+        return None
+    homotopy = Homotopy(compile_rows([f], n=n), rows)
+    paths = ended(homotopy, homogeneous(point + roots[:, None] * direction), ROUGH)
+    return None if paths is None else replace(moved(paths), counts=PathCounts())
 
 
 def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -57,8 +57,7 @@ class FinePoint:
             return cls(tuple(point(end.digits)), WRITTEN)
 
 
-@dataclass(frozen=True, eq=False)
-class IsolatedZero:
+class IsolatedZero(NamedTuple):
     """An isolated solution in the scaled variables; ``fine``: more digits of it, if known."""
 
     point: np.ndarray

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from itertools import repeat
 
 import numpy as np
 
@@ -184,7 +185,6 @@ def _zeros(
 
 def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
     """Regular ends as zeros of the equations."""
-
     path = zeros.path[chosen]
     columns = (
         zeros.residual[chosen],
@@ -192,17 +192,12 @@ def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> li
         paths.condition[path],
         paths.precision[path],
     )
-    return [
-        IsolatedZero(
-            point,
-            1,
-            *numbers,
-            FinePoint.of_ball(begin, paths.balls[i]) if i in paths.balls else None,
-        )
-        for i, point, *numbers in zip(
-            path.tolist(), zeros.points[chosen], *(c.tolist() for c in columns), strict=True
-        )
-    ]
+    fine = repeat(None)
+    if paths.balls:
+        balls = [paths.balls.get(i) for i in path.tolist()]
+        fine = [None if ball is None else FinePoint.of_ball(begin, ball) for ball in balls]
+    points = zeros.points[chosen]
+    return list(map(IsolatedZero, points, repeat(1), *(c.tolist() for c in columns), fine))
 
 
 def _place(
@@ -274,7 +269,9 @@ def _solutions(
     problem: SquareProblem, isolated: Sequence[IsolatedZero]
 ) -> tuple[tuple[Solution, ...], tuple[Solution, ...], tuple[str, ...]]:
     """The solutions where nothing vanishes that must not, and those that were left out; notes."""
-    points = np.array([s.point for s in isolated], dtype=complex).reshape(-1, problem.system.n)
+    points = np.concatenate(
+        [np.zeros(0), *(s.point for s in isolated)], dtype=np.complex128
+    ).reshape(-1, problem.system.n)
     accuracy = np.array([s.accuracy for s in isolated])
     multiplicity = np.array([s.multiplicity for s in isolated], dtype=np.int64)
     real = which_are_real(isolated)

@@ -8,6 +8,8 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 
+COMPLEX = np.dtype(np.complex128)
+
 
 @dataclass(frozen=True, eq=False)
 class Solution:
@@ -33,6 +35,8 @@ class Solution:
     precision: int
 
     def __post_init__(self) -> None:
+        if getattr(self.point, "dtype", None) is COMPLEX and not self.point.flags.writeable:
+            return
         point = np.asarray(self.point, dtype=np.complex128)
         # What can be written to may be changed by others.
         if point.flags.writeable:

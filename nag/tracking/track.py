@@ -130,6 +130,22 @@ def track_regular(
     return RegularEnds(points[good], ended[good], sharp.error[good])
 
 
+def ended(homotopy: Homotopy, points: np.ndarray, error: float) -> Paths | None:
+    """Zeros at t = 0 as paths that ended there, from points near them.
+
+    Args:
+        points: shape ``(P, N)``.
+        error: about how far they are from the zeros, relative to them.
+
+    Returns:
+        None unless each is proved to be near a finite regular zero, of its own.
+    """
+    P, points = len(points), homotopy.normalized(points)
+    raw = _Raw(points, points, np.zeros(P), np.full(P, error), *(np.zeros(P, dtype=np.int64),) * 2)
+    paths, _ = _judged(homotopy, raw)
+    return paths if paths.simple.all() and not len(collisions(homotopy, paths)) else None
+
+
 @dataclass(frozen=True, eq=False)
 class StraightRun:
     """Where the paths are after a run in doubles: see `nag.tracking.straight_run.Batch`.
@@ -165,11 +181,22 @@ def _attempt(
         if known.most is not None and _all_are_found(homotopy, every, known.most):
             paths = _to_infinity(homotopy, paths, doubtful)
         else:
-            more = _followed(homotopy, raw, regular, doubtful, settings, threads)
-            if not endgame:
-                more = without(more, more.where(PathStatus.SINGULAR))
-            paths = merged(paths, more, doubtful)
+            infinite, ends = _infinite(homotopy, paths, doubtful[regular[doubtful]])
+            paths, doubtful = merged(paths, ends, infinite), np.setdiff1d(doubtful, infinite)
+            if len(doubtful):
+                more = _followed(homotopy, raw, regular, doubtful, settings, threads)
+                if not endgame:
+                    more = without(more, more.where(PathStatus.SINGULAR))
+                paths = merged(paths, more, doubtful)
     return paths if orbits is None else orbits.expanded(paths, homotopy.groups)
+
+
+def _infinite(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> tuple[np.ndarray, Paths]:
+    """Which of the paths ``chosen``, all to regular ends, lead to infinity, and these ends."""
+    from nag.tracking.ends.at_infinity import regular_paths
+
+    found, ends = regular_paths(homotopy, paths.points[chosen], paths.condition[chosen])
+    return chosen[found], ends
 
 
 def _followed(

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from nag.algebra.number import Number, decimal_digits
+from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.solving.start.centring import centres, shifted
@@ -37,6 +37,8 @@ class Target:
         scales, centres: the original variables are ``x_i = 2^scales[i] y_i + centres[i]``, with
             integers and rational numbers.
         digits: decimal digits of the coefficients of the polynomials that the rows come from.
+        given: these polynomials' terms in the variables ``y``, scaled, before rows of the same
+            monomials were combined.
     """
 
     n: int
@@ -44,6 +46,7 @@ class Target:
     scales: tuple[int, ...] = ()
     centres: tuple[Fraction, ...] = ()
     digits: int | None = None
+    given: tuple[Terms, ...] = ()
 
     def __post_init__(self) -> None:
         if len(self.rows) != self.n:
@@ -61,8 +64,9 @@ class Target:
         origins = centres(polynomials, n)
         polynomials = [shifted(f, origins) for f in polynomials]
         scales = variable_scales(polynomials, n)
-        rows = independent_rows([scaled_terms(f, scales) for f in polynomials])
-        return cls(n, rows, tuple(scales.tolist()), origins, digits)
+        given = tuple(scaled_terms(f, scales) for f in polynomials)
+        rows = independent_rows(given)
+        return cls(n, rows, tuple(scales.tolist()), origins, digits, given)
 
     def scaled(self, f: Polynomial) -> Polynomial:
         """``f``, a polynomial in the original variables, in the variables ``y``, scaled."""
@@ -174,7 +178,7 @@ class Start:
 
 def most_digits(polynomials: Iterable[Polynomial]) -> int:
     """The most decimal digits that a coefficient has."""
-    return max((decimal_digits(c) for f in polynomials for c in f.terms.values()), default=0)
+    return max((f.digits for f in polynomials), default=0)
 
 
 def homogenized(
