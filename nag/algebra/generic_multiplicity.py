@@ -107,7 +107,9 @@ def _modulo(linear: Sequence[Polynomial], others: Collection[Polynomial]) -> set
     return {f * (1 / f.terms[max(f.terms)]) for f in rest if f}
 
 
-def independent_gradients(polynomials: Sequence[Polynomial], x: np.ndarray, error: float) -> bool:
+def independent_gradients(
+    polynomials: Sequence[Polynomial], x: np.ndarray, error: float | np.ndarray
+) -> bool:
     """Whether the gradients of polynomials are certainly independent at a point.
 
     A derivative counts where it is no rounding error of its terms, nor one that an error of the
@@ -115,7 +117,7 @@ def independent_gradients(polynomials: Sequence[Polynomial], x: np.ndarray, erro
 
     Args:
         x: the point, shape ``(n,)``.
-        error: how far, at most, a coordinate may be from the exact one.
+        error: how far, at most, coordinates may be from the exact ones; one number, or for each.
     """
     n = len(x)
     derivatives = [f.derivative(i) for f in polynomials for i in range(n)]

@@ -97,12 +97,18 @@ class _Component:
     def _zeros(self) -> tuple[SingularEnd, ...]:
         """The exact zeros on the slice that the first point may stand for."""
         x, rows = self.witness.points[0], self.witness.slice.rows
-        accuracy = self.witness.accuracy
-        if self.witness.fibres or self.witness.multiplicity != 1:
+        accuracy: float | np.ndarray = self.witness.accuracy
+        isolated = not self.witness.fibres and not len(rows)
+        if isolated and np.ptp(self.witness.radii[0]) > 0:
+            accuracy = self.witness.radii[0]
+        elif self.witness.fibres or self.witness.multiplicity != 1:
             # Of what was sharpened by a deflation no more is known.
-            accuracy = max(accuracy, ACCURACY)
+            accuracy = max(self.witness.accuracy, ACCURACY)
         rng = np.random.default_rng(0)
         zeros = possible_zeros(self.system.polynomials, x, accuracy, rng, rows)
+        if isolated:
+            # Paths end at a zero as many times as its multiplicity says: no other is meant.
+            zeros = tuple(z for z in zeros if z.multiplicity == self.witness.multiplicity)
         return alike(zeros, x) if len(zeros) > 1 else zeros
 
 

@@ -149,17 +149,18 @@ def counted(answer: Decomposition, scheme: bool) -> Decomposition:
 
 
 def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSystem) -> WitnessSet:
-    n, corank = system.n, 0
+    n, corank, radii = system.n, 0, solution.radii
+    x = solution.point[None]
     if solution.multiplicity > 1:
         s = np.linalg.svd(evaluator.balanced_jacobian(solution.point), compute_uv=False)
         corank = max(numerical_corank(s, n, SINGULAR), 1)
     return WitnessSet(
         slice=Slice(np.zeros((0, n)), np.zeros(0)),
-        points=solution.point[None],
+        points=x,
         multiplicity=solution.multiplicity,
         status=Status.IRREDUCIBLE,
         residual=solution.residual,
-        radii=even_radii(solution.point[None], solution.accuracy),
+        radii=even_radii(x, solution.accuracy) if radii is None else radii[None],
         digits=[solution.precision],
         corank=corank,
         multidegree=np.array(1) if system.groups else None,

@@ -57,12 +57,14 @@ class _Found:
     Attributes:
         zero: the exact zero, where it is one of an algebraic branch.
         elimination: what led from the branch to the system that was tracked otherwise.
+        tracked: the solution of that system.
         branch: the branch's own equations.
     """
 
     solution: Solution
     zero: AlgebraicZero | None = None
     elimination: Elimination | None = None
+    tracked: Solution | None = None
     branch: tuple[Polynomial, ...] = ()
 
     @cached_property
@@ -87,11 +89,15 @@ class _Found:
 
     @cached_property
     def _zeros(self) -> tuple[SingularEnd, ...]:
-        """The exact zeros of the system that was tracked that this may be."""
+        """The exact zeros of the system that was tracked that this may be.
+
+        Paths end at a zero as many times as its multiplicity says: no other is meant.
+        """
         assert self.elimination is not None
-        reduced, x = self.elimination, self.solution.point
-        y, rng = reduced.project(x), np.random.default_rng(0)
-        zeros = possible_zeros(reduced.system.polynomials, y, self.solution.accuracy, rng)
+        assert self.tracked is not None
+        equations, (y, error) = self.elimination.system.polynomials, _known(self.tracked)
+        zeros = possible_zeros(equations, y, error, np.random.default_rng(0))
+        zeros = tuple(z for z in zeros if z.multiplicity == self.tracked.multiplicity)
         return alike(zeros, y) if len(zeros) > 1 else zeros
 
     @cached_property
@@ -107,6 +113,11 @@ class _Found:
         with flint.ctx.workdps(WORKING):
             y = point(self._zeros[0].digits)
             return [flint.acb(f(y, number)).mid() for f in self.elimination.images]
+
+
+def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
+    """The point, and its error: of each coordinate where these are known."""
+    return solution.point, solution.accuracy if solution.radii is None else solution.radii
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,11 +200,17 @@ def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
     result = tracked(reduced)
     equations = system.polynomials
     found = tuple(
-        _Found(replace(s, point=elimination.lift(s.point)), None, elimination, equations)
-        for s in result.solutions
+        _Found(_lifted(s, elimination), None, elimination, s, equations) for s in result.solutions
     )
     lifted = elimination.lift
     return _Part(system, found, result, lifted(result.on_components), lifted(result.undecided))
+
+
+def _lifted(solution: Solution, elimination: Elimination) -> Solution:
+    point, radii = solution.point, solution.radii
+    if radii is not None:
+        radii = elimination.lift_radii(point, radii)
+    return replace(solution, point=elimination.lift(point), radii=radii)
 
 
 def _joined(
@@ -348,10 +365,12 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
         if each.solution.precision >= DIGITS:
             # Each coordinate is known to rounding, however small it is beside the others.
             return independent_gradients(*scaled_at(polynomials, x), SLACK * accuracy)
+        if each.solution.radii is not None:
+            return independent_gradients(polynomials, x, SLACK * each.solution.radii)
         return independent_gradients(polynomials, x, widened(x, accuracy))
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
-        at, error = x, accuracy
+        at, error = _known(each.solution)
         if each.zero is not None:
             at, error = each.zero.known_to(BITS), 2.0**-BITS
         elif each.in_digits is not None:

@@ -288,7 +288,16 @@ def _solutions(
     original = np.array(problem.target.original(points), dtype=np.complex128)
     original.setflags(write=False)
     solutions = [
-        Solution(point, s.multiplicity, is_real, s.residual, s.accuracy, s.condition, s.precision)
+        Solution(
+            point,
+            s.multiplicity,
+            is_real,
+            s.residual,
+            s.accuracy,
+            s.condition,
+            s.precision,
+            problem.target.original_radii(point, s.radii),
+        )
         for point, s, is_real in zip(original, isolated, real.tolist(), strict=True)
     ]
     kept, left_out = (
