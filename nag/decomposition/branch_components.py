@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branches import branches
-from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import (
@@ -21,25 +20,21 @@ from nag.algebra.generic_multiplicity import (
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.vanishing import Vanishing, follows
+from nag.decomposition.branch_component import BranchComponent
 from nag.decomposition.symmetric_images import in_orbits
-from nag.numerics.singular_point import SingularEnd
 from nag.numerics.small_values import NONZERO, ON, SINGULAR, widened
 from nag.numerics.zero_values import (
     WRITTEN,
-    alike,
     multiplicity_of_all,
     possible_zeros,
-    vanishes_at_all,
 )
-from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, numerical_corank
 from nag.witness.error_radii import framed, sharpened
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, component_fibres, is_member
 from nag.witness.moving import witness_at
-from nag.witness.multiplicity import ACCURACY, multiplicity
+from nag.witness.multiplicity import multiplicity
 from nag.witness.slices import padded, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
@@ -47,77 +42,11 @@ Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
 
 
 @dataclass(frozen=True, eq=False)
-class _Component:
-    """A component of a branch.
-
-    Attributes:
-        system: the branch.
-        zero: the exact zero, where it is one of an algebraic branch.
-    """
-
-    witness: WitnessSet
-    system: PolynomialSystem
-    zero: AlgebraicZero | None = None
-
-    @cached_property
-    def vanishes(self) -> Vanishing:
-        """Whether a polynomial vanishes on the component."""
-        return Vanishing(self._vanishes)
-
-    def _vanishes(self, f: Polynomial) -> bool | None:
-        if self.zero is not None and f.exact:
-            return self.zero.vanishes(f)
-        if (Evaluator.of([f], f.n).residuals(self.witness.points) > NONZERO).any():
-            return False
-        image = f.compose(self._elimination.images)
-        if not self._elimination.system.polynomials and f.exact:
-            return not image
-        if follows(image, self._elimination):
-            return True
-        fibre = self._fibre
-        if fibre is None:
-            # Doubles do not see that the points are regular.
-            return vanishes_at_all(self._zeros, f)
-        answer = vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0]
-        return vanishes_at_all(self._zeros, f) if answer is None else answer
-
-    @cached_property
-    def _elimination(self) -> Elimination:
-        return eliminate_linear(self.system, graphs=False)
-
-    @cached_property
-    def _fibre(self) -> Fibre | None:
-        """The points with equations that cut them; None where these are not regular zeros."""
-        try:
-            return component_fibres(self.system, self.witness)[0]
-        except ValueError:
-            return None
-
-    @cached_property
-    def _zeros(self) -> tuple[SingularEnd, ...]:
-        """The exact zeros on the slice that the first point may stand for."""
-        x, rows = self.witness.points[0], self.witness.slice.rows
-        accuracy: float | np.ndarray = self.witness.accuracy
-        isolated = not self.witness.fibres and not len(rows)
-        if isolated and np.ptp(self.witness.radii[0]) > 0:
-            accuracy = self.witness.radii[0]
-        elif self.witness.fibres or self.witness.multiplicity != 1:
-            # Of what was sharpened by a deflation no more is known.
-            accuracy = max(self.witness.accuracy, ACCURACY)
-        rng = np.random.default_rng(0)
-        zeros = possible_zeros(self.system.polynomials, x, accuracy, rng, rows)
-        if isolated:
-            # Paths end at a zero as many times as its multiplicity says: no other is meant.
-            zeros = tuple(z for z in zeros if z.multiplicity == self.witness.multiplicity)
-        return alike(zeros, x) if len(zeros) > 1 else zeros
-
-
-@dataclass(frozen=True, eq=False)
 class _Part:
     """A branch and its components."""
 
     system: PolynomialSystem
-    components: tuple[_Component, ...]
+    components: tuple[BranchComponent, ...]
     answer: Decomposition | None
 
 
@@ -196,7 +125,7 @@ def _part(
     if not system.groups and all(f.exact and f.degree <= 1 for f in system.polynomials):
         return _linear(system, rng)
     answer = whole(system, symmetries)
-    return _Part(system, tuple(_Component(c, system) for c in answer.components), answer)
+    return _Part(system, tuple(BranchComponent(c, system) for c in answer.components), answer)
 
 
 def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Part:
@@ -218,7 +147,7 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
             corank=_corank(evaluator, x),
             multidegree=np.array(1) if system.groups else None,
         )
-        found.append(_Component(witness, system, zero))
+        found.append(BranchComponent(witness, system, zero))
     return _Part(system, tuple(found), None)
 
 
@@ -241,7 +170,7 @@ def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
         digits=sharp.digits,
         corank=d,
     )
-    return _Part(system, (_Component(witness, system),), None)
+    return _Part(system, (BranchComponent(witness, system),), None)
 
 
 def _vanishes_at(f: Polynomial, zero: AlgebraicZero) -> bool:
@@ -257,13 +186,13 @@ def _corank(evaluator: Evaluator, x: np.ndarray) -> int:
 
 def _joined(
     parts: Sequence[_Part], rng: np.random.Generator, tracker: Tracker
-) -> tuple[list[_Component], list[str], PathCounts]:
+) -> tuple[list[BranchComponent], list[str], PathCounts]:
     """The components of all branches that lie in no component of another branch.
 
     A component lies in the zero set of another branch when the equations vanish at one of its
     generic points. Then it is one of that branch's components or part of a larger one.
     """
-    kept: list[_Component] = []
+    kept: list[BranchComponent] = []
     notes: list[str] = []
     counts = PathCounts()
     systems = [part.system.polynomials for part in parts]
@@ -287,7 +216,11 @@ def _joined(
 
 
 def _covered(
-    component: _Component, other: _Part, earlier: bool, rng: np.random.Generator, tracker: Tracker
+    component: BranchComponent,
+    other: _Part,
+    earlier: bool,
+    rng: np.random.Generator,
+    tracker: Tracker,
 ) -> tuple[Membership, PathCounts]:
     """Whether a component is in one of another branch: in a larger one, or in an earlier branch."""
     counts = PathCounts()
@@ -317,7 +250,7 @@ def _covered(
     return result, counts
 
 
-def _in_scheme(system: PolynomialSystem, components: Sequence[_Component]) -> list[WitnessSet]:
+def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) -> list[WitnessSet]:
     """The components with what the original equations make of them."""
     equations = [factored(f) for f in system.polynomials if f]
     factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
@@ -347,7 +280,7 @@ def _in_scheme(system: PolynomialSystem, components: Sequence[_Component]) -> li
     return found
 
 
-def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
+def _multiplicity(equations: Sequence[Factors], component: BranchComponent) -> int:
     """The multiplicity of a component in the scheme of all equations; 0 if it was not found."""
     witness = component.witness
     n = witness.points.shape[1]
@@ -365,7 +298,7 @@ def _multiplicity(equations: Sequence[Factors], component: _Component) -> int:
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int:
         rows, rng = witness.slice.rows, np.random.default_rng(0)
-        zeros = () if component.zero is not None else component._zeros
+        zeros = () if component.zero is not None else component.zeros
         if len(zeros) != 1:
             return multiplicity(generators, rows, x, rng)
         # Zeros of other branches may be close to it.

@@ -87,15 +87,19 @@ def judged(
 
 
 def _units(x: np.ndarray, radii: np.ndarray) -> tuple[float, np.ndarray]:
-    """The units in which all coordinates have the same error, and this error.
+    """An error, and the units in which no coordinate has a larger one.
 
-    Coordinates are at most one in them, and those that are known best are of size one.
+    Coordinates are at most one in them, and those that are known best are of size one. Those that
+    may be zero are so beside the others, however well that is known.
     """
-    sizes = np.abs(x)
-    there = (sizes > 0) & (radii > 0)
-    error = max(float((radii[there] / sizes[there]).min(initial=1.0)), 10 ** (5.0 - DIGITS))
+    sizes, least = np.abs(x), 10 ** (5.0 - DIGITS)
+    there = radii < sizes
+    if not there.any():
+        return max(float(radii.max(initial=0.0)), least), np.ones(len(x))
+    error = max(float((radii[there] / sizes[there]).min()), least)
     units = np.maximum(sizes, radii / error)
-    return error, np.where(units > 0, units, 1.0)
+    units[~there] = np.maximum(units[~there], sizes.max())
+    return error, units
 
 
 def _judged(

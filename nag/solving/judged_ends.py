@@ -31,10 +31,10 @@ BLOCK = 2048
 class JudgedEnds:
     """The end points of all paths, sorted; coordinates are those of the original variables.
 
-    ``close``: the paths to those undecided. ``isolated``: the isolated zeros of all equations in
-    the scaled variables, those included that ``nonzero`` leaves out. ``unclear``: what notes say
-    of ends that are no such zeros, or may not be; ``notes``: all else. ``count``: how many zeros
-    there are, by exact algebra, where that was asked.
+    ``close``: the paths to ends that may be several zeros close together. ``isolated``: the
+    isolated zeros of all equations in the scaled variables, those included that ``nonzero`` leaves
+    out. ``unclear``: what notes say of ends that are no such zeros, or may not be; ``notes``: all
+    else. ``count``: how many zeros there are, by exact algebra, where that was asked.
     """
 
     solutions: tuple[Solution, ...]
@@ -122,6 +122,7 @@ def judged_ends(
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
         # Of a cluster with as many zeros as paths, each is the end of its own.
         met = found.place is Place.CLUSTER and whole and multiplicity == len(group)
+        several = found.close or (bool(multiplicity) and whole and multiplicity != len(group))
         if met or found.place is Place.ISOLATED:
             isolated.extend(found.isolated)
             if whole and multiplicity != len(group):
@@ -131,7 +132,7 @@ def judged_ends(
             place = Place.UNDECIDED if found.place is Place.CLUSTER else found.place
             # Where equations were added, an end stands for one point of a component.
             elsewhere[place].extend(zeros.points[[best] if problem.added else group])
-        if found.close:
+        if several:
             close.extend(zeros.path[group].tolist())
         if finite and found.place is Place.ON_COMPONENT:
             unclear.append("the solution set is not finite; the other ends were not looked at")
