@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from nag.algebra.elimination import solved, substituted
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.factoring import Factors
 from nag.algebra.local_ideal import local_ideal
@@ -71,40 +70,6 @@ def generic_multiplicity(
             return 0
         total += single * math.prod(k for _, k in factors)
     return total
-
-
-def is_own_ring(
-    equations: Sequence[Factors],
-    branch: Collection[Polynomial],
-    vanishes: Callable[[Polynomial], bool | None],
-) -> bool:
-    """Whether a branch has the same local ring as all equations at a generic point of a component.
-
-    So it is where one simple factor of each equation may vanish there, and these are the branch's,
-    perhaps when the linear ones have been used: the others are units.
-    """
-    there = [[(p, k) for p, k in factors if vanishes(p) is not False] for factors in equations]
-    if not all(len(own) == 1 and own[0][1] == 1 for own in there):
-        return False
-    given = {own[0][0] for own in there}
-    linear = {p for p in given if p.degree == 1}
-    if linear != {p for p in branch if p.degree == 1}:
-        return False
-    rules = sorted(linear, key=str)
-    return _modulo(rules, given - linear) == _modulo(rules, set(branch) - linear)
-
-
-def _modulo(linear: Sequence[Polynomial], others: Collection[Polynomial]) -> set[Polynomial]:
-    """Polynomials in which linear equations have been used, up to constants."""
-    rules, rest = list(linear), list(others)
-    while rules:
-        p = rules.pop()
-        if p.degree != 1:
-            continue
-        index = max(i for i in range(p.n) if i in p.support)
-        image = solved(p, index)
-        rules, rest = ([substituted(f, index, image) for f in fs] for fs in (rules, rest))
-    return {f * (1 / f.terms[max(f.terms)]) for f in rest if f}
 
 
 def independent_gradients(

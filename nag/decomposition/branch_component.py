@@ -8,11 +8,10 @@ from functools import cached_property
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero
-from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.system import PolynomialSystem
-from nag.algebra.vanishing import Vanishing, follows
+from nag.algebra.vanishing import Vanishing
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.small_values import NONZERO
 from nag.numerics.zero_values import alike, possible_zeros, vanishes_at_all
@@ -28,12 +27,11 @@ class BranchComponent:
     """A component of a branch.
 
     Attributes:
-        system: the branch.
         zero: the exact zero, where it is one of an algebraic branch.
     """
 
     witness: WitnessSet
-    system: PolynomialSystem
+    branch: BranchEquations
     zero: AlgebraicZero | None = None
 
     @cached_property
@@ -46,10 +44,10 @@ class BranchComponent:
             return self.zero.vanishes(f)
         if (Evaluator.of([f], f.n).residuals(self.witness.points) > NONZERO).any():
             return False
-        image = f.compose(self._elimination.images)
-        if not self._elimination.system.polynomials and f.exact:
+        image, zero = self.branch.image(f)
+        if not self.branch.elimination.system.polynomials and f.exact:
             return not image
-        if follows(image, self._elimination):
+        if zero:
             return True
         multiple = self._isolated and self.witness.multiplicity != 1
         fibre = None if multiple and self.zeros else self._fibre
@@ -65,14 +63,10 @@ class BranchComponent:
         return not self.witness.fibres and not self.witness.dimension
 
     @cached_property
-    def _elimination(self) -> Elimination:
-        return eliminate_linear(self.system, graphs=False)
-
-    @cached_property
     def _fibre(self) -> Fibre | None:
         """The points with equations that cut them; None where these are not regular zeros."""
         try:
-            return component_fibres(self.system, self.witness)[0]
+            return component_fibres(self.branch.system, self.witness)[0]
         except ValueError:
             return None
 
@@ -87,7 +81,7 @@ class BranchComponent:
             # Of what was sharpened by a deflation no more is known.
             accuracy = max(self.witness.accuracy, ACCURACY)
         rng = np.random.default_rng(0)
-        zeros = possible_zeros(self.system.polynomials, x, accuracy, rng, rows)
+        zeros = possible_zeros(self.branch.system.polynomials, x, accuracy, rng, rows)
         if self._isolated:
             # Paths end at a zero as many times as its multiplicity says: no other is meant.
             zeros = tuple(z for z in zeros if z.multiplicity == self.witness.multiplicity)

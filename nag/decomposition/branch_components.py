@@ -8,14 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.branches import branches
-from nag.algebra.elimination import eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import (
     generic_multiplicity,
     independent_gradients,
-    is_own_ring,
 )
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
@@ -125,12 +124,13 @@ def _part(
     if not system.groups and all(f.exact and f.degree <= 1 for f in system.polynomials):
         return _linear(system, rng)
     answer = whole(system, symmetries)
-    return _Part(system, tuple(BranchComponent(c, system) for c in answer.components), answer)
+    branch = BranchEquations(system, graphs=False)
+    return _Part(system, tuple(BranchComponent(c, branch) for c in answer.components), answer)
 
 
 def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Part:
     n = system.n
-    evaluator = Evaluator.of(system.polynomials, n)
+    evaluator, branch = Evaluator.of(system.polynomials, n), BranchEquations(system, graphs=False)
     found = []
     for zero in zeros:
         x = zero.point
@@ -147,13 +147,14 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
             corank=_corank(evaluator, x),
             multidegree=np.array(1) if system.groups else None,
         )
-        found.append(BranchComponent(witness, system, zero))
+        found.append(BranchComponent(witness, branch, zero))
     return _Part(system, tuple(found), None)
 
 
 def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
     """A linear space by a point of it."""
-    elimination = eliminate_linear(system, graphs=False)
+    branch = BranchEquations(system, graphs=False)
+    elimination = branch.elimination
     frame, d = Frame.of(elimination), elimination.system.n
     rows = random_rows(rng, d, d)
     point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
@@ -170,7 +171,7 @@ def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
         digits=sharp.digits,
         corank=d,
     )
-    return _Part(system, (BranchComponent(witness, system),), None)
+    return _Part(system, (BranchComponent(witness, branch),), None)
 
 
 def _vanishes_at(f: Polynomial, zero: AlgebraicZero) -> bool:
@@ -288,7 +289,7 @@ def _multiplicity(equations: Sequence[Factors], component: BranchComponent) -> i
 
     simple = component.zero is None and witness.multiplicity == 1
     regular = simple and witness.corank == witness.dimension
-    if regular and is_own_ring(equations, component.system.polynomials, component.vanishes):
+    if regular and component.branch.is_own_ring(equations, component.vanishes):
         return 1
 
     def independent(polynomials: Sequence[Polynomial]) -> bool:

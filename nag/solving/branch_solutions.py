@@ -15,18 +15,18 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.branches import branches
-from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.elimination import Elimination
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import (
     generic_multiplicity,
     independent_gradients,
-    is_own_ring,
 )
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.vanishing import Vanishing, follows
+from nag.algebra.vanishing import Vanishing
 from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.small_values import NONZERO, SLACK, widened
@@ -56,16 +56,14 @@ class _Found:
 
     Attributes:
         zero: the exact zero, where it is one of an algebraic branch.
-        elimination: what led from the branch to the system that was tracked otherwise.
+        branch: where it is one of a system that was tracked, what led there from the branch.
         tracked: the solution of that system.
-        branch: the branch's own equations.
     """
 
     solution: Solution
     zero: AlgebraicZero | None = None
-    elimination: Elimination | None = None
+    branch: BranchEquations | None = None
     tracked: Solution | None = None
-    branch: tuple[Polynomial, ...] = ()
 
     @cached_property
     def vanishes(self) -> Vanishing:
@@ -80,10 +78,9 @@ class _Found:
             return False
         if self.zero is not None:
             return None
-        assert self.elimination is not None
-        reduced = self.elimination
-        image = f.compose(reduced.images)
-        if follows(image, reduced):
+        assert self.branch is not None
+        image, zero = self.branch.image(f)
+        if zero:
             return True
         return vanishes_at_all(self._zeros, image)
 
@@ -93,9 +90,10 @@ class _Found:
 
         Paths end at a zero as many times as its multiplicity says: no other is meant.
         """
-        assert self.elimination is not None
+        assert self.branch is not None
         assert self.tracked is not None
-        equations, (y, error) = self.elimination.system.polynomials, _known(self.tracked)
+        equations = self.branch.elimination.system.polynomials
+        y, error = _known(self.tracked)
         zeros = possible_zeros(equations, y, error, np.random.default_rng(0))
         zeros = tuple(z for z in zeros if z.multiplicity == self.tracked.multiplicity)
         return alike(zeros, y) if len(zeros) > 1 else zeros
@@ -109,10 +107,10 @@ class _Found:
 
         from nag.numerics.digits import number, point
 
-        assert self.elimination is not None
+        assert self.branch is not None
         with flint.ctx.workdps(WORKING):
             y = point(self._zeros[0].digits)
-            return [flint.acb(f(y, number)).mid() for f in self.elimination.images]
+            return [flint.acb(f(y, number)).mid() for f in self.branch.elimination.images]
 
 
 def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
@@ -191,17 +189,15 @@ def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
     zeros = algebraic_zeros(system, two_variables=exactly)
     if zeros is not None:
         return _algebraic(system, zeros)
-    elimination = eliminate_linear(system)
+    branch = BranchEquations(system, graphs=True)
+    elimination = branch.elimination
     reduced = elimination.system
     if not reduced.polynomials:
         # A linear space, or a graph over one: every point of it will do.
         point = elimination.lift(np.ones((1, reduced.n), dtype=complex))
         return _Part(system, (), None, point, np.zeros((0, system.n), dtype=complex))
     result = tracked(reduced)
-    equations = system.polynomials
-    found = tuple(
-        _Found(_lifted(s, elimination), None, elimination, s, equations) for s in result.solutions
-    )
+    found = tuple(_Found(_lifted(s, elimination), None, branch, s) for s in result.solutions)
     lifted = elimination.lift
     return _Part(system, found, result, lifted(result.on_components), lifted(result.undecided))
 
@@ -356,7 +352,7 @@ def _near(each: _Found, others: Sequence[_Found]) -> bool:
 def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
     """The multiplicity of a solution in the scheme of all equations; 0 if it was not found."""
     x, accuracy = each.solution.point, each.solution.accuracy
-    if each.branch and is_own_ring(equations, each.branch, each.vanishes):
+    if each.branch is not None and each.branch.is_own_ring(equations, each.vanishes):
         return each.solution.multiplicity
 
     def independent(polynomials: Sequence[Polynomial]) -> bool:
