@@ -298,8 +298,7 @@ tracking.numbers.complex_numbers: HALVED; tracking.numbers.double_double: EPSILO
 tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
 tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
 solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING, WRITTEN;
-solving.missing_zeros:
-NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED; solving.start.choice:
+solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED; solving.start.choice:
 WORK; solving.start.family_monodromy: SHARP; solving.start.multihomogeneous: EXACT;
 solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR;
 witness.at_prompt: EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;

@@ -17,7 +17,6 @@ import numpy as np
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.branches import branches
-from nag.algebra.elimination import Elimination
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import (
@@ -37,6 +36,7 @@ from nag.numerics.zero_values import (
     possible_zeros,
     vanishes_at_all,
 )
+from nag.solving.lifted_solution import lifted_solution
 from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
@@ -197,16 +197,11 @@ def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
         point = elimination.lift(np.ones((1, reduced.n), dtype=complex))
         return _Part(system, (), None, point, np.zeros((0, system.n), dtype=complex))
     result = tracked(reduced)
-    found = tuple(_Found(_lifted(s, elimination), None, branch, s) for s in result.solutions)
+    found = tuple(
+        _Found(lifted_solution(s, elimination), None, branch, s) for s in result.solutions
+    )
     lifted = elimination.lift
     return _Part(system, found, result, lifted(result.on_components), lifted(result.undecided))
-
-
-def _lifted(solution: Solution, elimination: Elimination) -> Solution:
-    point, radii = solution.point, solution.radii
-    if radii is not None:
-        radii = elimination.lift_radii(point, radii)
-    return replace(solution, point=elimination.lift(point), radii=radii)
 
 
 def _joined(
