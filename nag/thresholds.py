@@ -298,13 +298,14 @@ tracking.numbers.complex_numbers: HALVED; tracking.numbers.double_double: EPSILO
 tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
 tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
 solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING, WRITTEN;
-solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED; solving.start.choice:
-WORK; solving.start.family_monodromy: SHARP; solving.start.multihomogeneous: EXACT;
-solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR;
-witness.at_prompt: EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;
-witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT;
-witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE; witness.real_points:
-SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK;
+solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP;
+solving.start.centring: FAR, CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy:
+SHARP; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.toric:
+LENGTH; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT, INEXACT;
+witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING; witness.error_radii: ENOUGH,
+ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT; witness.fibres: STEEPER;
+witness.frame: EPS; witness.gauss_newton: CLOSE; witness.real_points: SPREAD;
+decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK;
 decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
 decomposition.hypersurface: NEARER; decomposition.singular_locus: ROUNDED; decomposition.excluded:
 ROUNDED; decomposition.superset: REGULAR.

@@ -11,6 +11,7 @@ from systems import kinds, system
 from nag.decomposition import decompose
 from nag.solving.solve import solve
 
+VARIABLES = {3: "x y z", 4: "x y z w"}
 SIMPLE, TRIPLE_LINE = (0, 1, 1), (1, 1, 3)
 SYSTEMS = {
     # Two simple zeros 1e-15 from a multiple one, in the same branch.
@@ -31,13 +32,23 @@ SYSTEMS = {
         ),
         {SIMPLE: 28, TRIPLE_LINE: 1},
     ),
+    # Two simple zeros of one branch on the conic that another one has, and two beside it.
+    "on a conic and beside it": (
+        (
+            "1250*x^2 + 1000*y^2 + 1/50000*y*z + 4000",
+            "700000*x*y*w + 700000*y*z^2 - 40000/7*y*z*w + 3/20*y*z",
+            "500*x*z^2 - 3/50000*x*z + 1000*x*w + 7/100*z*w + 1/125*w^2",
+            "70*x^2*w^2 + 1/1000*x*y^2*z - 7/10*x*w^3 + 9/100*x^2*z + 930*x*y*z + 600*w^2",
+        ),
+        {SIMPLE: 38, (1, 2, 1): 1},
+    ),
 }
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_components_are_those_that_exact_algebra_counts(name: str) -> None:
     equations, truth = SYSTEMS[name]
-    answer = decompose(system("x y z", *equations))
+    answer = decompose(system(VARIABLES[len(equations)], *equations))
     assert kinds(answer) == truth
     assert answer.complete
 
@@ -45,7 +56,7 @@ def test_components_are_those_that_exact_algebra_counts(name: str) -> None:
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_isolated_zeros_are_as_many_as_exact_algebra_counts(name: str) -> None:
     equations, truth = SYSTEMS[name]
-    result = solve(system("x y z", *equations))
+    result = solve(system(VARIABLES[len(equations)], *equations))
     found = [s.multiplicity for s in result.solutions]
     assert sorted(found) == sorted(
         k for (d, _, k), count in truth.items() if not d for _ in range(count)

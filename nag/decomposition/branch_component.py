@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,9 +13,9 @@ from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.vanishing import Vanishing
-from nag.numerics.singular_point import SingularEnd
+from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.small_values import NONZERO
-from nag.numerics.zero_values import alike, possible_zeros, vanishes_at_all
+from nag.numerics.zero_values import WRITTEN, alike, possible_zeros, vanishes_at_all
 from nag.witness.confirm import vanishing
 from nag.witness.fibres import Fibre
 from nag.witness.membership import component_fibres
@@ -61,6 +62,13 @@ class BranchComponent:
     def _isolated(self) -> bool:
         """Whether it is a point that paths ended at."""
         return not self.witness.fibres and not self.witness.dimension
+
+    def place_among(self, equations: Sequence[Polynomial]) -> Place:
+        """Where it lies among zeros of others, if it is an isolated point and one of these."""
+        if self.witness.dimension or self.zero is not None or len(self.zeros) != 1:
+            return Place.UNDECIDED
+        rng = np.random.default_rng(0)
+        return analyse(equations, self.zeros[0].digits, WRITTEN, rng, place_only=True).place
 
     @cached_property
     def _fibre(self) -> Fibre | None:

@@ -21,6 +21,7 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetr
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_component import BranchComponent
 from nag.decomposition.symmetric_images import in_orbits
+from nag.numerics.singular_point import Place
 from nag.numerics.small_values import NONZERO, ON, SINGULAR, widened
 from nag.numerics.zero_values import (
     WRITTEN,
@@ -234,6 +235,10 @@ def _covered(
     larger = [c for c in other.components if c.witness.dimension > witness.dimension]
     if earlier or (larger and len(larger) == len(other.components)):
         return Membership.MEMBER, counts
+    place = component.place_among(other.system.polynomials) if larger else Place.ISOLATED
+    if place in (Place.ISOLATED, Place.ON_COMPONENT):
+        on = place is Place.ON_COMPONENT
+        return Membership.MEMBER if on else Membership.FOREIGN, counts
     result = Membership.FOREIGN
     for each in larger:
         try:
