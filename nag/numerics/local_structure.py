@@ -186,7 +186,11 @@ def _by_dual_space(
     spaces: list[DualSpace] = []
     for field in [PrimeField(p) for p in PRIMES] if exact is not None else [NUMBERS]:
         centre = found.point if exact is None else [modular(q, field.modulus) for q in exact]
-        spaces.append(_dual_space(system, field, centre, found, search.succeeds, patience))
+        try:
+            spaces.append(_dual_space(system, field, centre, found, search.succeeds, patience))
+        except _TooLarge:
+            if not search.last():
+                raise
         if search.dimension:
             reason = "a curve of zeros was followed to the point"
             return _end(system, found, Place.ON_COMPONENT, 0, reason, search.dimension)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,8 +49,12 @@ class FinePoint:
         return cls(tuple(values[i] for i in order), np.array([errors[i] for i in order]))
 
     @classmethod
-    def of_end(cls, end: SingularEnd) -> FinePoint | None:
-        """The coordinates that the judgement of an end gives; None if it gives none."""
+    def of_end(cls, end: SingularEnd, scales: Sequence[int] = ()) -> FinePoint | None:
+        """The coordinates that the judgement of an end gives; None if it gives none.
+
+        Args:
+            scales: powers of two over which the end's variables are these.
+        """
         if not end.digits:
             return None
         import flint
@@ -57,7 +62,11 @@ class FinePoint:
         from nag.numerics.digits import point
 
         with flint.ctx.workdps(DIGITS):
-            return cls(tuple(point(end.digits)), WRITTEN * (1 + np.abs(end.point)))
+            x, radii = point(end.digits), WRITTEN * (1 + np.abs(end.point))
+            if len(scales):
+                x = [c * flint.arb(2) ** int(k) for c, k in zip(x, scales, strict=True)]
+                radii = radii * np.exp2(scales)
+            return cls(tuple(x), radii)
 
     @property
     def error(self) -> float:
