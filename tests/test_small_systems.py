@@ -64,6 +64,19 @@ def test_isolated_zeros_are_as_many_as_exact_algebra_counts(name: str) -> None:
     assert result.complete
 
 
+def test_an_end_beside_one_that_is_proved_lies_on_the_curve_there() -> None:
+    equations = (
+        "-1/20*x*y - 100*y*w + 200000/3*z^2 + 490000*x + 6000*z",
+        "30*x^2*y + 7/1200*y*z^2 + 7*z*w^2 + 120*z*w - 100000*z",
+        "-3/2*x*y + 800000*y*z + 1/1250*z^2 - 53/10*z + 1/20000*w",
+        "-70/9*x*z - 8*y*w - 1/10000*z^2 - 55*w^2",
+    )
+    result = solve(system("x y z w", *equations))
+    assert [s.multiplicity for s in result.solutions] == [1] * 14
+    assert result.complete
+    assert result.positive_dimensional
+
+
 def test_paths_that_end_at_too_few_zeros_are_followed_further_and_no_others() -> None:
     """Five end where a triple zero seems to be; 28 others go to infinity with winding number 14."""
     result = solve(

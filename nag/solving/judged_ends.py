@@ -235,10 +235,15 @@ def _place(
     members = [end]
     if end.place is Place.CLUSTER:
         met = coincident(zeros.points[zeros.alone()], end.point, max(accuracy, end.accuracy))
+        if end.dimension and met.sum() == sum(z.multiplicity for z in end.nearby):
+            # All that is isolated there are ends of other paths.
+            return _Place(Place.ON_COMPONENT)
         members = [] if met.any() else list(end.nearby)
     isolated = tuple(
         IsolatedZero.of_end(z, residual, precision)
-        for z, residual in zip(members, _residuals(evaluator, _points(members)), strict=True)
+        for z, residual in zip(
+            members, _residuals(evaluator, _points(members, len(point))), strict=True
+        )
         if z.place is Place.ISOLATED
     )
     return _Place(end.place, isolated, end.place is Place.UNDECIDED)
@@ -270,9 +275,9 @@ def _together(
     return best, replace(found, isolated=tuple(isolated))
 
 
-def _points(ends: Sequence[SingularEnd]) -> np.ndarray:
+def _points(ends: Sequence[SingularEnd], n: int) -> np.ndarray:
     """The points of ends, shape ``(k, n)``."""
-    return np.array([end.point for end in ends]).reshape(len(ends), -1)
+    return np.array([end.point for end in ends]).reshape(len(ends), n)
 
 
 def _solutions(
