@@ -105,10 +105,10 @@ tracking.track.ROUGH                        1e-8    The same at zeros of generic
                                                     tracked in doubles alone.
 tracking.track.AT_INFINITY                  1e-10   Homogenising coordinates of finite zeros of such
                                                     systems.
-tracking.track.ALIKE                        1e-9    Leading coefficients of branches that are
+tracking.jumps.ALIKE                        1e-9    Leading coefficients of branches that are
                                                     compared once more, with shorter steps: a jump
                                                     does not survive those, two branches do.
-tracking.track.BENT                         1e-4    The same of the coefficients that follow, over
+tracking.jumps.BENT                         1e-4    The same of the coefficients that follow, over
                                                     their sizes together.
 tracking.track.NONZERO                      1e3     A coordinate over the error of a regular end
                                                     that is not zero, where the mixed volume says
@@ -299,16 +299,16 @@ tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
 tracking.numbers.complex_numbers: HALVED; tracking.numbers.double_double: EPSILON, SMALL;
 tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
 tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
-solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: WRITTEN; solving.missing_zeros:
-NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED; solving.start.choice:
-WORK; solving.start.family_monodromy: SHARP; solving.start.multihomogeneous: EXACT;
-solving.start.polyhedral: WIDTH; solving.start.target: HALF_UNIT; solving.start.toric: LENGTH;
-solving.tropical_zeros: ARRIVED, NEAR;
-witness.at_prompt: EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;
+solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING, WRITTEN;
+solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP;
+solving.start.centring: FAR, CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy:
+SHARP; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.target:
+HALF_UNIT; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt:
+EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;
 witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT;
-witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE; witness.real_points:
-SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK;
-decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
+witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE;
+witness.real_points: SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR,
+OUTSIDE, SHRINK; decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
 decomposition.hypersurface: NEARER, ROUGH; decomposition.singular_locus: ROUNDED;
 decomposition.excluded: ROUNDED; decomposition.superset: REGULAR.
 """

@@ -74,6 +74,10 @@ class Crossing:
         pieces = [ends for own in self.ends.values() for _, ends in own]
         return sum(int(np.sum(ends.finite & ~ends.regular)) for ends in pieces)
 
+    def failed_to(self, d: int) -> int:
+        """Number of paths to points of dimension ``d`` that failed."""
+        return sum(int(ends.failed.sum()) for _, ends in self.ends.get(d, ()))
+
 
 def intersect(
     fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker

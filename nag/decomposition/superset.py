@@ -34,13 +34,20 @@ IN_PASSING = 0.02
 class Superset:
     """Witness points of every dimension, on the leading rows of a flag of slices.
 
-    ``notes`` tell of singular ends that no cut was found for.
+    ``notes`` tell of singular ends that no cut was found for. ``about_points``: how many of these,
+    and of the failed paths, are about points of dimension 0.
     """
 
     fibres: dict[int, list[Fibre]]
     flag: np.ndarray
     counts: PathCounts
     notes: tuple[str, ...]
+    about_points: int = 0
+
+    @property
+    def only_points(self) -> bool:
+        """Whether nothing but isolated points may be missing."""
+        return self.counts.failed + len(self.notes) == self.about_points
 
 
 def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
@@ -300,8 +307,9 @@ class _Stage:
         flag = crossed.before.flag
         so_far = Equations((*self.before, f), self.n)
         kept = {d: list(fibres) for d, fibres in crossed.kept.items()}
-        counts, notes = PathCounts(), []
+        counts, notes, higher = PathCounts(), [], 0
         for d in sorted(crossed.ends, reverse=True):
+            higher = len(notes)
             candidates = _collect(crossed.ends[d], flag[:d], self.avoid)
             if candidates.unclear:
                 notes.append(f"{candidates.unclear} points may be such as are excluded")
@@ -319,7 +327,8 @@ class _Stage:
                     return None, counts
                 notes += doubts
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
-        return Superset(kept, flag, PathCounts(), tuple(notes)), counts
+        points = len(notes) - higher if 0 in crossed.ends else 0
+        return Superset(kept, flag, PathCounts(), tuple(notes), points), counts
 
 
 @dataclass(frozen=True, eq=False)
@@ -356,7 +365,7 @@ def witness_superset(
     each equation.
     """
     equations = list(equations)
-    counts, notes = PathCounts(), []
+    counts, notes, points = PathCounts(), [], 0
     found = Superset(dict(ambient.sections.fibres), ambient.sections.flag, counts, ())
     mixing = False
     for k, f in enumerate(equations):
@@ -367,6 +376,7 @@ def witness_superset(
         found = best.settled
         equations[k] = best.polynomial
         notes += found.notes
+        points += found.about_points + best.crossed.failed_to(0)
         failed, infinite = best.crossed.counts.failed, best.crossed.counts.at_infinity
         counts += PathCounts(spent.tracked, failed, infinite)
-    return Superset(found.fibres, found.flag, counts, tuple(notes))
+    return Superset(found.fibres, found.flag, counts, tuple(notes), points)

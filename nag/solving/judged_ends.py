@@ -31,10 +31,10 @@ BLOCK = 2048
 class JudgedEnds:
     """The end points of all paths, sorted; coordinates are those of the original variables.
 
-    ``close``: the paths to those undecided. ``isolated``: the isolated zeros of all equations in
-    the scaled variables, those included that ``nonzero`` leaves out. ``unclear``: what notes say
-    of ends that are no such zeros, or may not be; ``notes``: all else. ``count``: how many zeros
-    there are, by exact algebra, where that was asked.
+    ``close``: the paths to ends that may be several zeros close together. ``isolated``: the
+    isolated zeros of all equations in the scaled variables, those included that ``nonzero`` leaves
+    out. ``unclear``: what notes say of ends that are no such zeros, or may not be; ``notes``: all
+    else. ``count``: how many zeros there are, by exact algebra, where that was asked.
     """
 
     solutions: tuple[Solution, ...]
@@ -122,6 +122,7 @@ def judged_ends(
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
         # Of a cluster with as many zeros as paths, each is the end of its own.
         met = found.place is Place.CLUSTER and whole and multiplicity == len(group)
+        several = found.close or (bool(multiplicity) and whole and multiplicity != len(group))
         if met or found.place is Place.ISOLATED:
             isolated.extend(found.isolated)
             if whole and multiplicity != len(group):
@@ -131,7 +132,7 @@ def judged_ends(
             place = Place.UNDECIDED if found.place is Place.CLUSTER else found.place
             # Where equations were added, an end stands for one point of a component.
             elsewhere[place].extend(zeros.points[[best] if problem.added else group])
-        if found.close:
+        if several:
             close.extend(zeros.path[group].tolist())
         if finite and found.place is Place.ON_COMPONENT:
             unclear.append("the solution set is not finite; the other ends were not looked at")
@@ -221,14 +222,22 @@ def _place(
         if not solves:
             return _Place(None)
         return _Place(Place.ISOLATED, tuple(_simple(begin, zeros, np.array([i]), paths)))
-    end = analyse(problem.equations, point, accuracy, rng)
+    # The coordinates of a limit either vanish or are known each by itself.
+    limit = int(path) in paths.branches
+    errors = accuracy * np.abs(point) if limit else accuracy
+    end = analyse(problem.equations, point, errors, rng)
     members = [end]
     if end.place is Place.CLUSTER:
         met = coincident(zeros.points[zeros.alone()], end.point, max(accuracy, end.accuracy))
+        if end.dimension and met.sum() == sum(z.multiplicity for z in end.nearby):
+            # All that is isolated there are ends of other paths.
+            return _Place(Place.ON_COMPONENT)
         members = [] if met.any() else list(end.nearby)
     isolated = tuple(
         IsolatedZero.of_end(z, residual, precision)
-        for z, residual in zip(members, _residuals(evaluator, _points(members)), strict=True)
+        for z, residual in zip(
+            members, _residuals(evaluator, _points(members, len(point))), strict=True
+        )
         if z.place is Place.ISOLATED
     )
     return _Place(end.place, isolated, end.place is Place.UNDECIDED)
@@ -260,9 +269,9 @@ def _together(
     return best, replace(found, isolated=tuple(isolated))
 
 
-def _points(ends: Sequence[SingularEnd]) -> np.ndarray:
+def _points(ends: Sequence[SingularEnd], n: int) -> np.ndarray:
     """The points of ends, shape ``(k, n)``."""
-    return np.array([end.point for end in ends]).reshape(len(ends), -1)
+    return np.array([end.point for end in ends]).reshape(len(ends), n)
 
 
 def _solutions(
@@ -283,7 +292,16 @@ def _solutions(
     original.setflags(write=False)
     errors = (accuracy + problem.target.rounding(points)).tolist()
     solutions = [
-        Solution(point, s.multiplicity, is_real, s.residual, error, s.condition, s.precision)
+        Solution(
+            point,
+            s.multiplicity,
+            is_real,
+            s.residual,
+            error,
+            s.condition,
+            s.precision,
+            problem.target.original_radii(point, s.radii),
+        )
         for point, s, is_real, error in zip(original, isolated, real.tolist(), errors, strict=True)
     ]
     kept, left_out = (

@@ -24,6 +24,8 @@ class Solution:
         condition: condition number of the Jacobian that determines the point; of a multiple
             solution that of the deflated system.
         precision: decimal digits of the arithmetic that was needed.
+        radii: errors of the coordinates, absolute, shape ``(n,)``; None where only ``accuracy`` is
+            known.
     """
 
     point: np.ndarray
@@ -33,6 +35,7 @@ class Solution:
     accuracy: float
     condition: float
     precision: int
+    radii: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if getattr(self.point, "dtype", None) is COMPLEX and not self.point.flags.writeable:

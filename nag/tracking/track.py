@@ -9,18 +9,16 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
 
-from nag.numerics.coincidence import neighbours
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.jumps import alike, collisions
 from nag.tracking.known import NOTHING, Known
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
-from nag.tracking.projective import meeting
 from nag.tracking.settings import Settings, named, tighter
 
 # Newton's method may move the end of a path by so many of its errors, and by this much, or by this
@@ -35,10 +33,6 @@ PROOF = 1e5
 # Rounding errors of a homogenising coordinate that Newton's method found with residuals in
 # double-double, times the inverse of the smallest singular value.
 RESIDUAL = 1e-29
-# Leading coefficients of branches that differ by less are the same.
-ALIKE = 1e-9
-# Their next coefficients, over the sum of their sizes.
-BENT = 1e-4
 # A coordinate that exceeds the error of its point so many times does not vanish.
 NONZERO = 1e3
 # Below so many paths a second thread costs more than it brings.
@@ -130,22 +124,6 @@ def track_regular(
     return RegularEnds(points[good], ended[good], sharp.error[good])
 
 
-def ended(homotopy: Homotopy, points: np.ndarray, error: float) -> Paths | None:
-    """Zeros at t = 0 as paths that ended there, from points near them.
-
-    Args:
-        points: shape ``(P, N)``.
-        error: about how far they are from the zeros, relative to them.
-
-    Returns:
-        None unless each is proved to be near a finite regular zero, of its own.
-    """
-    P, points = len(points), homotopy.normalized(points)
-    raw = _Raw(points, points, np.zeros(P), np.full(P, error), *(np.zeros(P, dtype=np.int64),) * 2)
-    paths, _ = _judged(homotopy, raw)
-    return paths if paths.simple.all() and not len(collisions(homotopy, paths)) else None
-
-
 @dataclass(frozen=True, eq=False)
 class StraightRun:
     """Where the paths are after a run in doubles: see `nag.tracking.straight_run.Batch`.
@@ -159,6 +137,23 @@ class StraightRun:
     error: np.ndarray
     steps: np.ndarray
     reason: np.ndarray
+
+
+def ended(homotopy: Homotopy, points: np.ndarray, error: float) -> Paths | None:
+    """Zeros at t = 0 as paths that ended there, from points near them.
+
+    Args:
+        points: shape ``(P, N)``.
+        error: about how far they are from the zeros, relative to them.
+
+    Returns:
+        None unless each is proved to be near a finite regular zero, of its own.
+    """
+    P, points = len(points), homotopy.normalized(points)
+    none = np.zeros(P, dtype=np.int64)
+    raw = StraightRun(points, points, np.zeros(P), np.full(P, error), none, none)
+    paths, _ = _judged(homotopy, raw)
+    return paths if paths.simple.all() and not len(collisions(homotopy, paths)) else None
 
 
 def _attempt(
@@ -340,48 +335,6 @@ def without(paths: Paths, lost: np.ndarray) -> Paths:
     status[lost], reason[lost], winding[lost] = PathStatus.FAILED, Reason.ENDGAME, 0
     simple = paths.simple & (status != int(PathStatus.FAILED))
     return replace(paths, status=status, reason=reason, winding=winding, simple=simple)
-
-
-def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
-    """Indices of the paths with regular ends, finite or at infinity, that are another one's too.
-
-    Two ends coincide if they do in all digits that both are known to. A limit that is reached
-    without winding is compared with the regular ends as well.
-    """
-    # Paths that failed have no winding number.
-    chosen = np.flatnonzero((paths.simple | (paths.winding == 1)) & np.isfinite(paths.accuracy))
-    if len(chosen) < 2 or not paths.simple.any():
-        return chosen[:0]
-    found: set[int] = set()
-    for a, b in meeting(homotopy.groups, paths.points[chosen], paths.accuracy[chosen]).tolist():
-        i, j = chosen[[a, b]].tolist()
-        if (paths.simple[i] or paths.simple[j]) and paths.same(homotopy, i, j):
-            found |= {i, j}
-    return np.array(sorted(found), dtype=np.int64)
-
-
-def alike(paths: Paths) -> np.ndarray:
-    """Indices of the paths whose branches begin like another's, with the first two terms alike."""
-    kinds: dict[tuple[Fraction, ...], list[int]] = {}
-    for path, branch in paths.branches.items():
-        ratios = tuple(Fraction(k, branch.winding) for k in branch.orders)
-        kinds.setdefault(ratios, []).append(path)
-    found: set[int] = set()
-    for members in kinds.values():
-        if len(members) < 2:
-            continue
-        indices = np.array(members)
-        logs = np.array([paths.branches[path].logs for path in members])
-        bends = np.array([paths.branches[path].bends for path in members])
-        key = (logs.real + np.cos(logs.imag)) @ np.cos(np.arange(logs.shape[1]) ** 2)
-        for i, j in neighbours(key, np.full(len(key), 1e-6)):
-            difference = logs[i] - logs[j]
-            turns = np.abs(np.exp(1j * difference.imag) - 1)
-            same = np.maximum(np.abs(difference.real), turns).max(axis=1) < ALIKE
-            sizes = np.abs(bends[i]).max(axis=1) + np.abs(bends[j]).max(axis=1)
-            same &= np.abs(bends[i] - bends[j]).max(axis=1) <= BENT * sizes
-            found.update(indices[i[same]].tolist(), indices[j[same]].tolist())
-    return np.array(sorted(found), dtype=np.int64)
 
 
 def merged(old: Paths, new: Paths, indices: np.ndarray) -> Paths:

@@ -93,6 +93,14 @@ class Target:
         shift = float(np.linalg.norm([float(b) for b in self.centres]))
         return HALF_UNIT * (before + shift + after) / (1 + after)
 
+    def original_radii(self, point: np.ndarray, radii: np.ndarray | None) -> np.ndarray | None:
+        """Errors of a point's original coordinates, from those of ``y``, shape ``(n,)``."""
+        if radii is None or not self.scales:
+            return radii
+        moved = np.array([b != 0 for b in self.centres])
+        rounding = np.where(moved, np.finfo(float).eps * np.abs(point), 0.0)
+        return radii * np.exp2(self.scales) + rounding
+
     @cached_property
     def degrees(self) -> tuple[int, ...]:
         """Total degrees."""
