@@ -30,7 +30,7 @@ from nag.files.problem import system_of
 from nag.numerics import coincidence, small_values
 from nag.solving import judged_ends, reality
 from nag.solving import solve as solving
-from nag.tracking import projective
+from nag.tracking import jumps, projective
 from nag.tracking import track as tracking
 from nag.tracking.ends import follow, limits
 from nag.tracking.homotopy import norms
@@ -167,7 +167,7 @@ def watched(measured: Measured) -> ExitStack:
         (limits, "_denominator", denominator),
         (judged_ends, "_residuals", values),
         (judged_ends, "_solutions", real),
-        (tracking, "meeting", met),
+        (jumps, "meeting", met),
     ]:
         stack.enter_context(patch.object(owner, name, around(getattr(owner, name), note)))
     return stack

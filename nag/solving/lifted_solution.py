@@ -5,15 +5,12 @@ Terms of what gives the other variables may cancel: these are worked out in more
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from nag.algebra.elimination import Elimination
 from nag.algebra.high_precision import DIGITS
-from nag.numerics.digits import doubles
 from nag.numerics.zero_values import possible_zeros
 from nag.solving.isolated_zero import ROUNDING
 from nag.solving.solutions import Solution
@@ -37,22 +34,23 @@ def lifted_solution(solution: Solution, elimination: Elimination) -> Solution:
     if solution.multiplicity == 1 and (errors > ROUGH * np.abs(x))[others].any():
         fine = _in_digits(elimination, y, solution.accuracy if radii is None else radii)
         if fine is not None:
-            x = doubles(fine)
+            x = fine
             return replace(solution, point=x, radii=ROUNDING * np.abs(x))
     return replace(solution, point=x, radii=None if radii is None else errors)
 
 
 def _in_digits(
     elimination: Elimination, y: np.ndarray, error: float | np.ndarray
-) -> Sequence[Any] | None:
-    """The point above the regular zero near ``y``, in FLINT's ``acb``; None if there is none."""
+) -> np.ndarray | None:
+    """The point above the regular zero near ``y``, to rounding; None if there is none."""
     import flint
 
-    from nag.numerics.digits import number, point
+    from nag.numerics.digits import doubles, number, point
 
     zeros = possible_zeros(elimination.system.polynomials, y, error, np.random.default_rng(0))
     if len(zeros) != 1 or zeros[0].multiplicity != 1:
         return None
     with flint.ctx.workdps(DIGITS):
         zero = point(zeros[0].digits)
-        return [flint.acb(image(zero, number)).mid() for image in elimination.images]
+        x = [flint.acb(image(zero, number)).mid() for image in elimination.images]
+    return doubles(x)
