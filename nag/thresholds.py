@@ -105,10 +105,10 @@ tracking.track.ROUGH                        1e-8    The same at zeros of generic
                                                     tracked in doubles alone.
 tracking.track.AT_INFINITY                  1e-10   Homogenising coordinates of finite zeros of such
                                                     systems.
-tracking.track.ALIKE                        1e-9    Leading coefficients of branches that are
+tracking.jumps.ALIKE                        1e-9    Leading coefficients of branches that are
                                                     compared once more, with shorter steps: a jump
                                                     does not survive those, two branches do.
-tracking.track.BENT                         1e-4    The same of the coefficients that follow, over
+tracking.jumps.BENT                         1e-4    The same of the coefficients that follow, over
                                                     their sizes together.
 tracking.track.NONZERO                      1e3     A coordinate over the error of a regular end
                                                     that is not zero, where the mixed volume says
@@ -164,10 +164,11 @@ solving.isolated_zero.TWO                   1e-80   Distance, beside their size,
                                                     place stand for.
 solving.judged_ends.NEARLY                  1e-5    Values, beside their terms, of ends that are no
                                                     zeros, however badly they are known.
-solving.judged_ends.REAL *                  1e-10   Imaginary parts, beside a point's size, of real
-                                                    points, or the errors if they are larger; the
-                                                    conjugates of all others must be points as well.
-                                                    `nag certify` proves it.
+solving.reality.REAL *                      1e-10   Imaginary parts, beside a point's size, of zeros
+                                                    in doubles that are real unless another zero is
+                                                    their conjugate; beyond that, or their errors in
+                                                    more digits, they are not. `nag certify` proves
+                                                    it.
 solving.missing_zeros.SAFETY                1e3     Errors of a zero that was found in which no
                                                     other one is looked for.
 solving.missing_zeros.EXTREME               26      Binary logarithm of sizes from which zeros are
@@ -290,22 +291,24 @@ numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: REACHES;
 numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2; numerics.scaling: INERTIA,
 NEARLY_ORTHOGONAL; numerics.sharpening: ROUNDING, NEARLY; numerics.small_values: LEAST;
 tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
-ENDGAME; tracking.close_paths: STEEP; tracking.ends.branch: LONGEST; tracking.ends.corrector:
+ENDGAME; tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE;
+tracking.ends.branch: LONGEST; tracking.ends.corrector:
 DOUBLES; tracking.ends.end_run: RESIDUAL, SECOND; tracking.ends.inclusion: TINY;
 tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
 tracking.numbers.complex_numbers: HALVED; tracking.numbers.double_double: EPSILON, SMALL;
 tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
 tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
-solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: WRITTEN; solving.missing_zeros:
-NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED; solving.start.choice:
-WORK; solving.start.family_monodromy: SHARP; solving.start.multihomogeneous: EXACT;
-solving.start.polyhedral: WIDTH; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR;
-witness.at_prompt: EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;
+solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING, WRITTEN;
+solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP;
+solving.start.centring: FAR, CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy:
+SHARP; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.target:
+HALF_UNIT; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt:
+EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;
 witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT;
-witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE; witness.real_points:
-SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE, SHRINK;
-decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
-decomposition.hypersurface: NEARER; decomposition.singular_locus: ROUNDED; decomposition.excluded:
-ROUNDED; decomposition.superset: REGULAR.
+witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE;
+witness.real_points: SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR,
+OUTSIDE, SHRINK; decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
+decomposition.hypersurface: NEARER, ROUGH; decomposition.singular_locus: ROUNDED;
+decomposition.excluded: ROUNDED; decomposition.superset: REGULAR.
 """

@@ -9,6 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.factoring import ring
 from nag.algebra.polynomial import Polynomial
 
 ROOT2 = 2**0.5
@@ -43,10 +44,27 @@ class Zero:
         """The same zero in other coordinates, of combined equations; all of it exact."""
         n, m = len(self.point), len(self.polynomials)
         mix, combine = _regular(rng, n, 9), _regular(rng, m, 5)
-        images = [_combination(Polynomial.variables(n), row) / 4 for row in mix]
-        moved = [f.compose(images) for f in self.polynomials]
-        equations = [_combination(moved, row) for row in combine]
+        equations = _combined(self.polynomials, mix, combine)
         return Zero(equations, np.linalg.solve(mix / 4, self.point), self.multiplicity)
+
+
+def _combined(
+    polynomials: Sequence[Polynomial], mix: np.ndarray, combine: np.ndarray
+) -> list[Polynomial]:
+    """Combinations of polynomials with combinations of variables, over 4, put in."""
+    n = polynomials[0].n
+    if not all(isinstance(c, Fraction) for f in polynomials for c in f.terms.values()):
+        images = [_combination(Polynomial.variables(n), row) / 4 for row in mix]
+        moved = [f.compose(images) for f in polynomials]
+        return [_combination(moved, row) for row in combine]
+    there = ring(n)
+    x = there.context.gens()
+    forms = [sum(int(w) * v for w, v in zip(row, x, strict=True)) / 4 for row in mix]
+    composed = [there.of(f).compose(*forms, ctx=there.context) for f in polynomials]
+    return [
+        there.polynomial(sum(int(w) * f for w, f in zip(row, composed, strict=True)))
+        for row in combine
+    ]
 
 
 def _regular(rng: np.random.Generator, n: int, largest: int) -> np.ndarray:

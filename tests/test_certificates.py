@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from systems import system
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
@@ -28,6 +29,7 @@ from nag.numerics.certified_points import Proof, certify_points, zero_digits
 from nag.numerics.discs import DiscPolynomials, Discs, product
 from nag.numerics.krawczyk import boxes_in_doubles, boxes_of
 from nag.solving.certificate import certify_solutions
+from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.witness.certificate import certify_decomposition
 
@@ -321,3 +323,75 @@ def test_combinations_of_lower_degrees_bound_the_number_of_zeros() -> None:
     certificate = certify_solutions(solve(system))
     assert certificate.bound == 2
     assert certificate.complete
+
+
+@pytest.mark.parametrize("shift", range(12))
+def test_double_irrational_zeros_are_proved_whatever_the_random_conditions(shift: int) -> None:
+    result = solve(system("x y", f"(x^2 - 2)^2*(x - {7 + shift}) + y", "y"))
+    found = certify_solutions(result)
+    assert found.all_proved and found.points.proofs.count(Proof.DEFLATED) == 2
+
+
+def changed(result: SolveResult, i: int, **fields: object) -> SolveResult:
+    solutions = list(result.solutions)
+    solutions[i] = replace(solutions[i], **fields)
+    return replace(result, solutions=tuple(solutions))
+
+
+@pytest.mark.parametrize("multiplicity", [2, 3])
+@pytest.mark.parametrize(
+    "equations",
+    [
+        ["x^2 + y^2 - 5", "x*y - 2"],
+        ["x^3 - 2*y^2 + 1", "y^3 + x*y - 3"],
+        ["x^2 - 2", "y^2 - x - 5", "x*y^2 - 5*x - 2"],
+    ],
+)
+def test_a_simple_zero_that_is_said_to_be_multiple_is_never_proved_singular(
+    equations: list[str], multiplicity: int
+) -> None:
+    result = solve(system("x y", *equations))
+    for i in range(len(result.solutions)):
+        found = certify_solutions(changed(result, i, multiplicity=multiplicity))
+        assert not set(found.points.proofs) & {Proof.EXACT, Proof.DEFLATED}
+        assert found.points.proofs[i] in (Proof.SIMPLE, Proof.PART)
+        assert found.simple == certify_solutions(result).simple
+        assert not found.all_proved or Proof.PART in found.points.proofs
+
+
+@pytest.mark.parametrize("equation", ["(x - 1)^2*(x + 2)", "(x^2 - 2)^2*(x - 7)"])
+def test_a_multiple_zero_that_is_said_to_be_simple_is_refuted(equation: str) -> None:
+    result = solve(system("x y", equation + " + y", "y"))
+    i = next(i for i, s in enumerate(result.solutions) if s.multiplicity == 2)
+    assert certify_solutions(result).all_proved
+    found = certify_solutions(changed(result, i, multiplicity=1))
+    assert found.contradicted == {"simple": 1} and not found.all_proved
+    assert found.points.proofs[i] in (Proof.EXACT, Proof.DEFLATED)
+
+
+def test_what_is_said_of_reality_is_proved_or_refuted() -> None:
+    # Zeros x = 1 +- 1e-9 i, and y real or not.
+    result = solve(system("x y", "(x - 1)^2 + 1/10^18", "y^2 - x - 3"), start="total")
+    assert certify_solutions(result).all_proved
+    found = certify_solutions(changed(result, 0, real=True))
+    assert found.contradicted == {"real": 1} and not found.all_proved
+    result = solve(system("x y", "x^2 + y^2 - 5", "x*y - 2"))
+    assert certify_solutions(changed(result, 1, real=False)).contradicted == {"not real": 1}
+
+
+@pytest.mark.parametrize("digits", [6, 9, 11, 13, 20, 26])
+@pytest.mark.parametrize("start", ["auto", "total"])
+def test_zeros_next_to_the_real_ones_are_not_called_real(digits: int, start: str) -> None:
+    near = system("x y z", "x*y - 1 + z", f"(x - 1)^2 + 1/10^{digits}", "z^3 + y*x*z - 5*z")
+    result = solve(near, start=start)
+    assert len(result.solutions) == 6 and not any(s.real for s in result.solutions)
+    assert not certify_solutions(result).contradicted
+
+
+def test_zeros_nearer_than_evidence_reaches_are_not_proved_to_be_one() -> None:
+    # Simple zeros at a distance of 1e-35, and 1e-70.
+    for digits in (70, 140):
+        near = system("x y", f"(x^2 - 2)^2 - 1/10^{digits} + y", "y")
+        result = solve(system("x y", "(x^2 - 2)^2 + y", "y"))
+        found = certify_solutions(replace(result, system=near))
+        assert not set(found.points.proofs) & {Proof.EXACT, Proof.DEFLATED, Proof.SIMPLE}

@@ -23,6 +23,7 @@ from nag.numerics.singular_point import analyse
 from nag.solving.certificate import certify_solutions
 from nag.solving.shown import number_text
 from nag.solving.solve import solve
+from nag.solving.start.target import Target
 from nag.witness.certificate import certify_decomposition
 from nag.witness.sampling import sample
 
@@ -73,6 +74,25 @@ def test_solutions_are_as_accurate_as_they_say(name: str, value: int | None) -> 
     claimed = np.array([s.accuracy for s in result.solutions])
     assert (errors(reference, result.points) <= claimed).all()
     assert within(reference, certify_solutions(result).points)
+
+
+def test_what_a_shift_of_variables_cancels_counts_as_an_error() -> None:
+    rng = np.random.default_rng(0)
+    n = 3
+    rows = tuple({(0,) * n: Fraction(1)} for _ in range(n))
+    largest = 0.0
+    for _ in range(200):
+        centres = tuple(Fraction(int(k), 7) for k in rng.integers(-40, 40, n))
+        target = Target(n, rows, (2, 0, -3), centres)
+        # Zeros that are small beside the centres, or not.
+        x = [Fraction(int(k), 10 ** int(rng.integers(1, 4))) for k in rng.integers(-999, 999, n)]
+        y = [(c - b) / Fraction(2) ** k for c, b, k in zip(x, centres, (2, 0, -3), strict=True)]
+        points = np.array([[float(c) for c in y]], dtype=complex)
+        found = target.original(points)[0].real.tolist()
+        off = [float(Fraction(z) - c) for z, c in zip(found, x, strict=True)]
+        error = np.linalg.norm(off) / (1 + np.linalg.norm([float(c) for c in x]))
+        largest = max(largest, error / target.rounding(points)[0])
+    assert 0.1 < largest <= 1
 
 
 def last_place(text: str) -> float:

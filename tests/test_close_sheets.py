@@ -50,6 +50,11 @@ def test_conjugate_sheets_are_two_components(name: str, k: int) -> None:
         assert (component.digits >= 32).all()
 
 
+@pytest.mark.parametrize(("k", "seed"), [(12, 1), (12, 4), (12, 5), (15, 3), (15, 4)])
+def test_paths_keep_to_their_sheets_where_corrections_are_along_them(k: int, seed: int) -> None:
+    pair("curves in space", k, seed)
+
+
 def test_loops_do_not_jump_between_sheets() -> None:
     # Sixteen points: too many to look for linear traces among all subsets.
     texts = ["x^2 + y^2 + z^2 - 1", "(x^4 + y*z - 1/2)^2 - 2/10^16"]

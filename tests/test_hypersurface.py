@@ -63,16 +63,6 @@ def test_what_lies_on_the_hypersurface_stays_and_the_rest_is_cut() -> None:
     assert crossed.before.flag is flag and crossed.counts.tracked == 2
 
 
-def test_points_can_be_moved_to_another_flag_first() -> None:
-    rng = np.random.default_rng(9)
-    flag = random_rows(rng, 2, 2)
-    sections = Sections({1: [fibre(CIRCLE, flag[0])]}, flag)
-    crossed = crossing(sections, curve(LINE), rng, TRACKER, elsewhere=True)
-    assert crossed.before.flag is not flag and crossed.counts.tracked == 4
-    found = finite(crossed.ends[0][0][1])[:, :2]
-    assert np.abs(found[np.argsort(found[:, 0].real)] - [[-0.8, -0.6], [0.8, 0.6]]).max() < 1e-14
-
-
 def test_the_whole_plane_is_cut_to_the_hypersurface_itself() -> None:
     rng = np.random.default_rng(10)
     flag = random_rows(rng, 2, 2)

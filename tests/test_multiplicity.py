@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.factoring import factored
-from nag.algebra.generic_multiplicity import is_own_ring
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
 from nag.witness.multiplicity import multiplicity
 from nag.witness.slices import rows_through
 
@@ -41,7 +42,8 @@ def test_a_branch_by_a_linear_factor_has_the_local_ring_of_all_equations() -> No
 
     def own(first: Polynomial, branch: tuple[Polynomial, ...]) -> bool:
         equations = [factored(first), factored(circle)]
-        return is_own_ring(equations, branch, lambda p: p != other)
+        system = PolynomialSystem(("x", "y"), branch)
+        return BranchEquations(system, True).is_own_ring(equations, lambda p: p != other)
 
     assert own(line * other, (line, y * y - 3))
     assert own(line * other, (line, circle))

@@ -68,7 +68,7 @@ def test_samples_depend_on_the_seed_and_on_nothing_else() -> None:
 def test_paths_that_fail_end_the_sampling_with_what_was_found(monkeypatch) -> None:
     circle = system("x y", "x^2 + y^2 - 1")
     component = decompose(circle).components[0]
-    moves, true_move = [], moving.move
+    moves, true_move = [], moving.move_comparable
 
     def failing(*arguments: object) -> object:
         moves.append(arguments)
@@ -77,7 +77,7 @@ def test_paths_that_fail_end_the_sampling_with_what_was_found(monkeypatch) -> No
             ends.regular[:] = False
         return ends
 
-    monkeypatch.setattr(moving, "move", failing)
+    monkeypatch.setattr(moving, "move_comparable", failing)
     with pytest.raises(SamplingError, match="point 3 of 5: the path to it failed") as error:
         sample(circle, component, 5)
     assert error.value.found.points.shape == (2, 2)

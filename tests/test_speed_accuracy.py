@@ -5,16 +5,20 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import flint
 import numpy as np
 import pytest
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench import peer_points
-from nag.bench.reference import Reference, ReferenceError, compared
+from nag.bench.reference import Reference, ReferenceError, compared, compared_in_balls
 from nag.bench.sharpening import sharpening
 from nag.bench.speed_accuracy import Subject, chart_of, document, ratios, read_charts
+from nag.bench.whole_paths import WholePaths, tracked_in
 from nag.cli import main
+from nag.files.cases import read_case
+from nag.solving.solve import solve
 
 x, y = Polynomial.variables(2)
 SYSTEM = PolynomialSystem(("x", "y"), (x**2 - 2, y**2 - x - 5))
@@ -54,6 +58,44 @@ def test_balls_reach_their_digits_and_doubles_theirs() -> None:
     assert curves["quad-double"][-1].largest < 1e-61
     assert curves["balls of 50 digits"][-1].largest < 1e-48
     assert curves["balls of 100 digits"][-1].largest < 1e-98
+
+
+@pytest.mark.parametrize(
+    ("arithmetic", "most"),
+    [
+        ("double", 1e-11),
+        ("double, residuals in double-double", 1e-15),
+        ("double-double", 1e-29),
+        ("quad-double", 1e-60),
+        ("balls of 50 digits", 1e-48),
+        ("balls of 100 digits", 1e-98),
+    ],
+)
+@pytest.mark.parametrize("name", ["katsura-6", "chemequ"])
+def test_paths_in_an_arithmetic_end_as_near_to_the_zeros_as_it_can(
+    name: str, arithmetic: str, most: float
+) -> None:
+    folder = "benchmarks" if name == "katsura-6" else "hard"
+    system = read_case(Path("cases") / folder / f"{name}.toml").system
+    found = solve(system)
+    reference = Reference.of(system, found.points, np.zeros((0, 1 + system.n), complex))
+    paths = WholePaths.of(system, 0)
+    seconds, evaluations, ends = tracked_in(paths, reference, arithmetic, 1e-3)
+    assert (ends.share, ends.false) == (1.0, 0)
+    # Coordinates of chemequ are of sizes 1e-5 to 1e2, and its zeros badly conditioned.
+    assert ends.median <= ends.largest < (most if name == "katsura-6" else 1e3 * most)
+    assert seconds > 0 and evaluations > 0
+
+
+def test_errors_in_balls_are_those_in_doubles_and_go_on_beyond_them() -> None:
+    reference = Reference.of(SYSTEM, ROOTS, NONE)
+    for off in (1e-9, 1e-40):
+        with flint.ctx.workdps(120):
+            points = [[z + off for z in box.centre] for box in reference.boxes]
+        found = compared_in_balls(reference, [*points, points[0], [flint.acb(7)] * 2])
+        assert (found.share, found.false) == (1.0, 2)
+        size = np.abs(ROOTS).max(axis=1).min()
+        assert found.largest == pytest.approx(off / size, rel=1e-5)
 
 
 def test_a_chart_reads_back_and_is_compared() -> None:

@@ -11,12 +11,13 @@ from oracle import track_one
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
+from nag.tracking.jumps import collisions
 from nag.tracking.known import Known
 from nag.tracking.newton import refine
 from nag.tracking.paths import PathStatus, Reason
 from nag.tracking.projective import aligned_difference
 from nag.tracking.settings import Settings
-from nag.tracking.track import collisions, track
+from nag.tracking.track import track
 
 
 def total_degree(polynomials, seed):

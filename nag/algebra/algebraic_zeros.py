@@ -25,6 +25,8 @@ MOST_TERMS = 5000
 # Bits in which coordinates are computed, doubled until they are known to those of a double.
 LEAST_BITS, MOST_BITS = 64, 1 << 14
 DOUBLE_BITS = 54
+# Those in which gradients are looked at before exact algebra is.
+BALL_BITS = 256
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +39,8 @@ class AlgebraicZero:
         coordinates: one for each variable, ``fmpq_poly`` of lower degree than ``minimal``.
         multiplicity: dimension of the local ring of the system there.
         isolated: balls of all roots by the bits they were computed with, shared by conjugates.
+        known: values of polynomials, and which gradients are independent, in exact algebra; they
+            are the same for all conjugates and shared by them.
     """
 
     minimal: Any
@@ -44,6 +48,7 @@ class AlgebraicZero:
     coordinates: tuple[Any, ...]
     multiplicity: int
     isolated: dict[int, list[Any]] = field(default_factory=dict)
+    known: dict[Any, Any] = field(default_factory=dict)
 
     @cached_property
     def point(self) -> np.ndarray:
@@ -91,7 +96,9 @@ class AlgebraicZero:
 
     def value(self, f: Polynomial) -> Any:
         """An exact polynomial at the zero, as a polynomial in the algebraic number."""
-        return _composed(ring(f.n).of(f), self.coordinates, self.minimal)
+        if f not in self.known:
+            self.known[f] = _composed(ring(f.n).of(f), self.coordinates, self.minimal)
+        return self.known[f]
 
     def vanishes(self, f: Polynomial) -> bool:
         """Whether an exact polynomial vanishes at the zero, decided exactly."""
@@ -99,6 +106,25 @@ class AlgebraicZero:
 
     def independent(self, polynomials: Sequence[Polynomial]) -> bool:
         """Whether the gradients of exact polynomials are independent there, decided exactly."""
+        key = tuple(polynomials)
+        if key not in self.known:
+            self.known[key] = self._seen_independent(key) or self._independent(key)
+        return self.known[key]
+
+    def _seen_independent(self, polynomials: Sequence[Polynomial]) -> bool:
+        """Whether balls prove it: Gram's determinant of the gradients is not zero."""
+        import flint
+
+        with flint.ctx.workprec(BALL_BITS):
+            x = self.balls(BALL_BITS)
+            rows = [[_at(f.derivative(i), x) for i in range(f.n)] for f in polynomials]
+            if len(rows) > len(x) or not rows:
+                return not rows
+            slopes = flint.acb_mat(rows)
+            conjugate = flint.acb_mat([[c.conjugate() for c in row] for row in rows])
+            return not (slopes * conjugate.transpose()).det().contains(0)
+
+    def _independent(self, polynomials: Sequence[Polynomial]) -> bool:
         rows = [[self.value(f.derivative(i)) for i in range(f.n)] for f in polynomials]
         while rows:
             row = rows.pop()
@@ -224,6 +250,20 @@ def _composed(f: Any, at: Sequence[Any], p: Any) -> Any:
     return total
 
 
+def _at(f: Polynomial, x: Sequence[Any]) -> Any:
+    """An exact polynomial at a point in balls."""
+    import flint
+
+    total = flint.acb(0)
+    for exponents, c in f.terms.items():
+        term = flint.acb(flint.fmpq(c.numerator, c.denominator))
+        for z, k in zip(x, exponents, strict=True):
+            if k:
+                term = term * z**k
+        total = total + term
+    return total
+
+
 def _pivot(equations: list[Any], left: set[int]) -> tuple[int, int] | None:
     """An equation and a variable that it is linear in: lowest degree, fewest terms."""
     best: tuple[Any, tuple[int, int]] | None = None
@@ -265,4 +305,5 @@ def _conjugates(p: Any, coordinates: tuple[Any, ...], multiplicity: int) -> list
         else:
             roots = [root for root, _ in p.complex_roots()]
     isolated: dict[int, list[Any]] = {}
-    return [AlgebraicZero(p, root, coordinates, multiplicity, isolated) for root in roots]
+    known: dict[Any, Any] = {}
+    return [AlgebraicZero(p, root, coordinates, multiplicity, isolated, known) for root in roots]

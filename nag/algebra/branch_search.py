@@ -68,13 +68,15 @@ class Search:
         text = str(f)
         if text not in self.known:
             found = self.ring.factors(f) if self.split else [(f, 1)]
-            self.known[text] = tuple(self._irreducible(p) for p, _ in found)
+            self.known[text] = tuple(
+                self._irreducible(p, text if p is f else str(p)) for p, _ in found
+            )
             self.changed |= len(found) != 1 or found[0][1] != 1
         return self.known[text]
 
-    def _irreducible(self, p: Any) -> Irreducible:
-        support = frozenset(i for i, k in enumerate(p.degrees()) if k)
-        return Irreducible(str(p), p, support, int(p.total_degree()))
+    def _irreducible(self, p: Any, text: str) -> Irreducible:
+        support = frozenset([i for i, k in enumerate(p.degrees()) if k])
+        return Irreducible(text, p, support, int(p.total_degree()))
 
     def start(self, equations: Sequence[Polynomial], nonzero: Sequence[Polynomial]) -> State | None:
         found = []
@@ -283,7 +285,8 @@ class Search:
                 changed = self.changed
                 excluded.extend(self.factors(value))
                 self.changed = changed
-        solved = [(i, self._irreducible(put(q))) for i, q in state.solved]
+        put_in = [(i, put(q)) for i, q in state.solved]
+        solved = [(i, self._irreducible(value, str(value))) for i, value in put_in]
         return State(tuple(equations), (*solved, (index, p)), tuple(excluded))
 
     def _image(self, p: Irreducible, index: int) -> Any:

@@ -56,6 +56,24 @@ class Elimination:
             lifted[..., i] = image(columns)
         return lifted
 
+    def lift_radii(self, point: Any, radii: Any) -> Any:
+        """Errors of the coordinates above ``point``, of those of ``point``; arrays."""
+        import numpy as np
+
+        sizes = np.abs(point)
+        terms = [{e: abs(float(c)) for e, c in f.terms.items()} for f in self.images]
+
+        def largest(within: Any) -> Any:
+            values = [sum(c * np.prod(within**e) for e, c in each.items()) for each in terms]
+            return np.array(values, dtype=float)
+
+        operations = np.array(
+            [len(f.terms) * (1 + f.degree) if f.degree else 0 for f in self.images]
+        )
+        operations[list(self.kept)] = 1
+        there = largest(sizes)
+        return largest(sizes + radii) - there + operations * np.finfo(float).eps * there
+
     def project(self, point: Sequence[Any]) -> Any:
         """The coordinates of a point of the original space that the reduced system keeps."""
         if hasattr(point, "dtype"):

@@ -12,6 +12,8 @@ from nag.algebra.polynomial import Polynomial
 
 # Coordinates whose powers may leave the range of doubles.
 HUGE = 1e30
+# Larger Jacobians are summed up term by term.
+MOST_ENTRIES = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,10 +35,10 @@ class Evaluator:
         index = {e: i for i, e in enumerate(monomials)}
         coefficients = np.zeros((len(polynomials), len(monomials)))
         for row, f in enumerate(polynomials):
-            values = {e: float(c) for e, c in f.terms.items()}
-            scale = max(map(abs, values.values()), default=1.0)
-            for e, c in values.items():
-                coefficients[row, index[e]] = c / scale
+            values = f.doubles
+            scale = max(map(abs, values), default=1.0)
+            places = [index[e] for e in f.terms]
+            coefficients[row, places] = [c / scale for c in values]
         exponents = np.array(monomials, dtype=np.int64).reshape(len(monomials), n)
         return cls(n, exponents, coefficients)
 
@@ -90,25 +92,46 @@ class Evaluator:
         """The derivatives' monomials; place, monomial and factor of their terms."""
         lowered: dict[tuple[int, ...], int] = {}
         places, monomials, factors = [], [], []
-        for row, m in zip(*np.nonzero(self.coefficients), strict=True):
-            exponents = tuple(self.exponents[m].tolist())
-            for i in np.flatnonzero(self.exponents[m]):
-                less = (*exponents[:i], exponents[i] - 1, *exponents[i + 1 :])
-                places.append(row * self.n + i)
-                monomials.append(lowered.setdefault(less, len(lowered)))
-                factors.append(exponents[i] * self.coefficients[row, m])
+        exponents = self.exponents.tolist()
+        for row, coefficients in enumerate(self.coefficients.tolist()):
+            for e, c in zip(exponents, coefficients, strict=True):
+                if not c:
+                    continue
+                for i, k in enumerate(e):
+                    if k:
+                        less = (*e[:i], k - 1, *e[i + 1 :])
+                        places.append(row * self.n + i)
+                        monomials.append(lowered.setdefault(less, len(lowered)))
+                        factors.append(k * c)
         table = np.array(list(lowered), dtype=np.int64).reshape(len(lowered), self.n)
         return (
             _Monomials.of(table),
             np.array(places, dtype=np.int64),
             np.array(monomials, dtype=np.int64),
-            np.array(factors, dtype=float),
+            np.array(factors, dtype=self.coefficients.dtype),
         )
+
+    @cached_property
+    def _slopes(self) -> np.ndarray | None:
+        """The Jacobian's entries as combinations of the derivatives' monomials, if these are few.
+
+        Shape ``(monomials, rows * n)``.
+        """
+        powers, places, monomials, factors = self._derivatives
+        shape = powers.factors.shape[1], len(self.coefficients) * self.n
+        if shape[0] * shape[1] > MOST_ENTRIES:
+            return None
+        matrix = np.zeros(shape, dtype=complex)
+        # No monomial occurs twice in an entry.
+        matrix[monomials, places] = factors
+        return matrix
 
     def jacobian(self, point: np.ndarray) -> np.ndarray:
         """Jacobian matrix, shape ``(rows, n)``, at one point."""
         powers, places, monomials, factors = self._derivatives
         values = powers(np.asarray(point, dtype=complex)[None])[0]
+        if self._slopes is not None:
+            return (values @ self._slopes).reshape(len(self.coefficients), self.n)
         terms = factors * values[monomials]
         size = len(self.coefficients) * self.n
         result = np.bincount(places, terms.real, size) + 1j * np.bincount(places, terms.imag, size)

@@ -8,12 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from math import gcd, lcm
 from typing import Any
 
 from nag.algebra.polynomial import Polynomial
 
 # Integer coefficients of more bits are divided by a power of two, so that they fit into doubles.
 MOST_BITS = 200
+# Ranks are computed modulo this prime.
+PRIME = (1 << 61) - 1
 
 
 class Ring:
@@ -45,6 +48,8 @@ class Ring:
         """
         if f.is_constant():
             return []
+        if is_surely_irreducible(f, self.n):
+            return [(_primitive(f), 1)]
         return [(p, int(k)) for p, k in f.factor()[1]]
 
     def factor_polynomial(self, f: Any) -> Polynomial:
@@ -58,6 +63,58 @@ class Ring:
 def ring(n: int) -> Ring:
     """The ring in ``n`` variables; the same object each time."""
     return Ring(n)
+
+
+def is_surely_irreducible(f: Any, n: int) -> bool:
+    """Whether a polynomial of FLINT's, no constant, is seen to have one factor and no other.
+
+    Where a variable occurs linearly, factors without it are common to what it is multiplied by and
+    to the rest: monomials, if one of both is a single term. A quadric of rank three and more is
+    irreducible. To see either takes a fraction of the time of looking for factors.
+    """
+    if f.total_degree() < 2:
+        return True
+    exponents = f.monoms()
+    for i, degree in enumerate(f.degrees()):
+        if degree == 1:
+            beside = [e for e in exponents if e[i]]
+            rest = [e for e in exponents if not e[i]]
+            few, many = (beside, rest) if len(beside) == 1 else (rest, beside)
+            if len(few) == 1 and not any(
+                k and j != i and all(e[j] for e in many) for j, k in enumerate(few[0])
+            ):
+                return True
+    return f.total_degree() == 2 and _rank_of_quadric(f, exponents, n) > 2
+
+
+def _rank_of_quadric(f: Any, exponents: Sequence[Sequence[int]], n: int) -> int:
+    """The rank of a quadric's matrix modulo a prime, which is no more than its own."""
+    import flint
+
+    whole = _whole_coefficients(f)[0]
+    entries = [0] * (n + 1) ** 2
+    for e, c in zip(exponents, whole, strict=True):
+        first, second = [n, n, *(j for j, k in enumerate(e) for _ in range(k))][-2:]
+        entries[(n + 1) * first + second] += c
+        entries[(n + 1) * second + first] += c
+    return flint.nmod_mat(n + 1, n + 1, [c % PRIME for c in entries], PRIME).rank()
+
+
+def _whole_coefficients(f: Any) -> tuple[list[int], int, int]:
+    """A polynomial's coefficients over ``b / a``, and ``a, b``: coprime integers."""
+    parts = [(int(c.p), int(c.q)) for c in f.coeffs()]
+    a = lcm(*(q for _, q in parts))
+    whole = [p * (a // q) for p, q in parts]
+    b = gcd(*whole)
+    return [c // b for c in whole], a, b
+
+
+def _primitive(f: Any) -> Any:
+    """The multiple that has coprime integer coefficients, the leading one positive."""
+    whole, a, b = _whole_coefficients(f)
+    if whole[0] < 0:
+        b = -b
+    return f if a == b == 1 else f * a / b
 
 
 # Distinct irreducible polynomials with their exponents.

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from nag.algebra.elimination import solved, substituted
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.factoring import Factors
 from nag.algebra.local_ideal import local_ideal
@@ -74,40 +73,6 @@ def generic_multiplicity(
     return total
 
 
-def is_own_ring(
-    equations: Sequence[Factors],
-    branch: Collection[Polynomial],
-    vanishes: Callable[[Polynomial], bool | None],
-) -> bool:
-    """Whether a branch has the same local ring as all equations at a generic point of a component.
-
-    So it is where one simple factor of each equation may vanish there, and these are the branch's,
-    perhaps when the linear ones have been used: the others are units.
-    """
-    there = [[(p, k) for p, k in factors if vanishes(p) is not False] for factors in equations]
-    if not all(len(own) == 1 and own[0][1] == 1 for own in there):
-        return False
-    given = {own[0][0] for own in there}
-    linear = {p for p in given if p.degree == 1}
-    if linear != {p for p in branch if p.degree == 1}:
-        return False
-    rules = sorted(linear, key=str)
-    return _modulo(rules, given - linear) == _modulo(rules, set(branch) - linear)
-
-
-def _modulo(linear: Sequence[Polynomial], others: Collection[Polynomial]) -> set[Polynomial]:
-    """Polynomials in which linear equations have been used, up to constants."""
-    rules, rest = list(linear), list(others)
-    while rules:
-        p = rules.pop()
-        if p.degree != 1:
-            continue
-        index = max(i for i in range(p.n) if i in p.support)
-        image = solved(p, index)
-        rules, rest = ([substituted(f, index, image) for f in fs] for fs in (rules, rest))
-    return {f * (1 / f.terms[max(f.terms)]) for f in rest if f}
-
-
 @dataclass(frozen=True, eq=False)
 class Gradients:
     """The derivatives of polynomials, to be evaluated at points.
@@ -128,7 +93,7 @@ class Gradients:
         scales = [max((abs(float(c)) for c in f.terms.values()), default=1.0) for f in derivatives]
         return cls(len(polynomials), Evaluator.of(derivatives, n), np.array(scales))
 
-    def rank(self, x: np.ndarray, error: float) -> int:
+    def rank(self, x: np.ndarray, error: float | np.ndarray) -> int:
         """How many gradients are certainly independent at a point.
 
         A derivative counts where it is no rounding error of its terms, nor one that an error of
@@ -136,7 +101,7 @@ class Gradients:
 
         Args:
             x: the point, shape ``(n,)``.
-            error: how far, at most, a coordinate may be from the exact one.
+            error: how far, at most, coordinates may be from the exact ones; a number or one each.
         """
         point = np.asarray(x, dtype=complex)[None]
         values = self.derivatives.values(point)[0]
@@ -150,7 +115,9 @@ class Gradients:
         return int(np.sum(np.linalg.svd(gradients, compute_uv=False) > INDEPENDENT))
 
 
-def independent_gradients(polynomials: Sequence[Polynomial], x: np.ndarray, error: float) -> bool:
+def independent_gradients(
+    polynomials: Sequence[Polynomial], x: np.ndarray, error: float | np.ndarray
+) -> bool:
     """Whether the gradients of polynomials are certainly independent at a point.
 
     See `Gradients.rank`.

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
-from nag.algebra.number import Irrational, Number, decimal_digits, is_zero, number_text
+from nag.algebra.number import Irrational, Number, is_zero, number_text
 
 Exponents = tuple[int, ...]
 
@@ -26,10 +25,15 @@ class Polynomial:
     terms: Mapping[Exponents, Number]
 
     def __post_init__(self) -> None:
-        kept = {}
+        kept, n = {}, self.n
         for exponents, coefficient in self.terms.items():
-            if len(exponents) != self.n:
-                raise ValueError(f"exponents {exponents} do not belong to {self.n} variables")
+            if len(exponents) != n:
+                raise ValueError(f"exponents {exponents} do not belong to {n} variables")
+            if type(coefficient) is Fraction:
+                # To compare fractions takes five times as long.
+                if coefficient.numerator:
+                    kept[exponents] = coefficient
+                continue
             if isinstance(coefficient, int):
                 coefficient = Fraction(coefficient)
             if not is_zero(coefficient):
@@ -82,6 +86,8 @@ class Polynomial:
         return (-self) + other
 
     def __mul__(self, other: Polynomial | Number | int) -> Polynomial:
+        if isinstance(other, int | Fraction):
+            return Polynomial(self.n, {e: c * other for e, c in self.terms.items()})
         other = self._coerce(other)
         if other is None:
             return NotImplemented
@@ -147,10 +153,20 @@ class Polynomial:
         """Whether every coefficient is rational."""
         return all(isinstance(c, Fraction) for c in self.terms.values())
 
-    @cached_property
+    @property
+    def doubles(self) -> list[float]:
+        """The coefficients, rounded, in the order of the terms."""
+        # A fraction's own way to a float takes three times as long.
+        return [
+            c.numerator / c.denominator if type(c) is Fraction else float(c)
+            for c in self.terms.values()
+        ]
+
+    @property
     def digits(self) -> int:
         """Most decimal digits of a rational coefficient's numerator or denominator."""
-        return max(map(decimal_digits, self.terms.values()), default=0)
+        parts = [c.as_integer_ratio() for c in self.terms.values() if isinstance(c, Fraction)]
+        return len(str(max(max(abs(p), q) for p, q in parts))) if parts else 0
 
     def derivative(self, index: int) -> Polynomial:
         terms = {}
@@ -202,6 +218,9 @@ class Polynomial:
 
         Variables that become the same one are identified.
         """
+        if positions == range(self.n):
+            more = (0,) * (n - self.n)
+            return Polynomial(n, {e + more: c for e, c in self.terms.items()})
         terms: dict[Exponents, Number] = {}
         for e, c in self.terms.items():
             key = [0] * n

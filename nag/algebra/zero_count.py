@@ -181,7 +181,9 @@ class _Quotient:
 
     def _divide_out(self, rows: np.ndarray) -> None:
         """Combinations of the standard monomials lie in the ideal as well."""
-        rows = np.unique(rows[rows.any(axis=1)], axis=0)
+        distinct = {row.tobytes(): i for i, row in enumerate(rows)}
+        rows = rows[sorted(distinct.values())]
+        rows = rows[rows.any(axis=1)]
         if not len(rows):
             return
         import flint
@@ -189,16 +191,12 @@ class _Quotient:
         columns = len(self.standard)
         entries = rows[:, ::-1].astype(np.int64).ravel().tolist()
         echelon, rank = flint.nmod_mat(len(rows), columns, entries, self.prime).rref()
-        pivots, k = [], 0
-        for j in range(columns):
-            if k < rank and echelon[k, j] != 0:
-                pivots.append(j)
-                k += 1
-        others = [j for j in range(columns) if j not in set(pivots)]
-        tails = np.array([[-int(echelon[k, j]) % self.prime for j in others] for k in range(rank)])
-        tails = tails.reshape(rank, len(others))[:, ::-1].astype(float)
-        kept = columns - 1 - np.array(others[::-1], dtype=np.int64)
-        gone = columns - 1 - np.array(pivots, dtype=np.int64)
+        reduced = np.array(list(map(int, echelon.entries()[: rank * columns])), dtype=np.int64)
+        reduced = reduced.reshape(rank, columns)
+        pivots = (reduced != 0).argmax(axis=1)
+        others = np.delete(np.arange(columns), pivots)[::-1]
+        tails = (-reduced[:, others] % self.prime).astype(float)
+        kept, gone = columns - 1 - others, columns - 1 - pivots
         self.forms = np.mod(self.forms[:, kept] + self.forms[:, gone] @ tails, self.prime)
         self.standard = self.standard[kept]
 

@@ -33,14 +33,21 @@ class PeerPoints:
     remark: str = ""
 
 
+# M2 with its solutions sharpened: by itself it stops at errors of 1e-12 or so.
+REFINED = "M2, refined"
+
+
 def programs() -> list[str]:
-    """The programs that are there: M2, phc, and bertini2, a Python package."""
-    return [*installed(), *(["bertini2"] if importlib.util.find_spec("bertini") else [])]
+    """The programs that are there: M2, also refined, phc, and bertini2, a Python package."""
+    found = installed()
+    refined = [REFINED] if "M2" in found else []
+    return [*found, *refined, *(["bertini2"] if importlib.util.find_spec("bertini") else [])]
 
 
 def peer_points(program: str, system: PolynomialSystem, limit: float) -> PeerPoints:
     """Solve ``system`` with a program, for at most ``limit`` seconds."""
-    run = {"M2": _macaulay2, "phc": _phcpack, "bertini2": _bertini}[program]
+    runs = {"M2": _macaulay2, REFINED: _refined, "phc": _phcpack, "bertini2": _bertini}
+    run = runs[program]
     with tempfile.TemporaryDirectory() as folder:
         before = _children()
         output = run(system, Path(folder), limit)
@@ -70,14 +77,18 @@ def _said(output: str) -> float | None:
     return float(found[1]) if found else None
 
 
-def _macaulay2(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
+def _refined(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
+    return _macaulay2(system, folder, limit, "S = refine(F, S, ErrorTolerance => 1e-14);\n")
+
+
+def _macaulay2(system: PolynomialSystem, folder: Path, limit: float, further: str = "") -> Answer:
     names, texts = plain_texts(system)
     script = (
         'needsPackage "NumericalAlgebraicGeometry";\n'
         f"R = CC_53[{', '.join(names)}];\n"
         f"F = {{{', '.join(texts)}}};\n"
         "t = cpuTime();\n"
-        "S = solveSystem F;\n"
+        f"S = solveSystem F;\n{further}"
         'print("seconds " | toString(cpuTime() - t));\n'
         "full = x -> toExternalString(1.0 * x);\n"
         'for s in S do for z in coordinates s do print("value " | full realPart z | " " '

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import flint
@@ -79,6 +79,14 @@ class Reference:
         sizes = np.maximum(1.0, np.abs(self.high[places]).max(axis=1, initial=0.0))
         return np.abs(off).max(axis=1, initial=0.0) / sizes
 
+    def fine_error(self, point: Sequence[flint.acb], place: int) -> float:
+        """The same of one point in balls, to as many digits as it has."""
+        centre = self.boxes[place].centre
+        with flint.ctx.workprec(BITS[-1]):
+            off = max(float(abs(a - b).mid()) for a, b in zip(point, centre, strict=True))
+            size = max(float(abs(b).mid()) for b in centre)
+        return off / max(1.0, size)
+
 
 @dataclass(frozen=True)
 class Found:
@@ -97,13 +105,28 @@ class Found:
 
 def compared(reference: Reference, points: np.ndarray) -> Found:
     """Points beside the reference."""
+    return _compared(
+        reference, points, lambda k, place: reference.errors(points[[k]], np.array([place]))[0]
+    )
+
+
+def compared_in_balls(reference: Reference, points: Sequence[Sequence[flint.acb]]) -> Found:
+    """The same of points of more digits than doubles have."""
+    rounded = np.array([[complex(z.mid()) for z in x] for x in points], dtype=complex)
+    rounded = rounded.reshape(len(points), reference.high.shape[1])
+    return _compared(reference, rounded, lambda k, place: reference.fine_error(points[k], place))
+
+
+def _compared(
+    reference: Reference, points: np.ndarray, error_of: Callable[[int, int], float]
+) -> Found:
     k = len(reference.high)
     best = np.full(k, np.inf)
     false = 0
-    for x in points:
+    for i, x in enumerate(points):
         distance = np.abs(reference.high - x).max(axis=1, initial=0.0)
         place = int(distance.argmin()) if k else 0
-        error = reference.errors(x[None], np.array([place]))[0] if k else np.inf
+        error = error_of(i, place) if k else np.inf
         if not error < NEAR or np.isfinite(best[place]):
             false += 1
             continue

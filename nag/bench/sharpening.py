@@ -14,7 +14,6 @@ from nag.algebra.system import PolynomialSystem
 from nag.bench.reference import Reference
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import middle
-from nag.numerics.krawczyk import FineBox
 from nag.tracking.compiled import compile_rows
 from nag.tracking.ends.newton_steps import newton_steps
 from nag.tracking.homotopy import Homotopy
@@ -136,7 +135,7 @@ def _word_curve(
             begin = time.process_time()
             points = newton_steps(homotopy, start, words, steps)
             best = min(best, time.process_time() - begin)
-        errors = [_error(_affine(p), box) for p, box in zip(points, reference.boxes, strict=True)]
+        errors = [reference.fine_error(_affine(p), i) for i, p in enumerate(points)]
         found.append(Sharpened(steps, best / len(rough), max(errors), float(np.median(errors))))
     return found
 
@@ -164,15 +163,8 @@ def _ball_curve(
                 points[i] = [middle(a - b) for a, b in zip(x, moves, strict=True)]
             seconds += time.process_time() - begin
             steps += 1
-            errors = [_error(x, box) for x, box in zip(points, reference.boxes, strict=False)]
+            errors = [reference.fine_error(x, i) for i, x in enumerate(points)]
             found.append(
                 Sharpened(steps, seconds / len(points), max(errors), float(np.median(errors)))
             )
     return found
-
-
-def _error(x: list[flint.acb], box: FineBox) -> float:
-    with flint.ctx.workdps(200):
-        off = max(float(abs(a - b).mid()) for a, b in zip(x, box.centre, strict=True))
-        size = max(float(abs(b).mid()) for b in box.centre)
-    return off / max(1.0, size)

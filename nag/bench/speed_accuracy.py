@@ -13,6 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.bench.peer_points import peer_points, programs
 from nag.bench.reference import Found, Reference, ReferenceError, compared, joined
 from nag.bench.sharpening import Sharpened, sharpening
+from nag.bench.whole_paths import ARITHMETICS, WHOLE_TOLERANCES, WholePaths, tracked_in
 from nag.decomposition import decompose
 from nag.solving.solve import solve
 from nag.tracking.ends import end_run
@@ -69,7 +70,8 @@ class Curve:
     """Points that belong together.
 
     Attributes:
-        kind: ``"settings"``, ``"order"``, ``"digits"`` or ``"peer"``.
+        kind: ``"settings"``, ``"order"``, ``"digits"``, ``"arithmetic"`` (see
+            `nag.bench.whole_paths`) or ``"peer"``.
     """
 
     kind: str
@@ -167,6 +169,7 @@ def _solutions(subject: Subject, seeds: int, progress: Callable[[str], None] | N
         return seconds, spent.number, compared(reference, found.points)
 
     curves = _curves(measured, seeds, progress)
+    curves += _in_arithmetics(system, reference, seeds, progress)
     found = solve(system)
     seconds, certificate = min(
         (_timed(lambda: certify_solutions(found)) for _ in range(3)), key=lambda pair: pair[0]
@@ -261,15 +264,43 @@ def _curves(
     for kind, label, several in settings_of_curves():
         if progress is not None:
             progress(label)
-        points = []
-        for name, settings in several:
-            runs = [measured(seed, settings) for seed in range(seeds)]
-            seconds = float(np.median([r[0] for r in runs]))
-            evaluations = int(np.median([r[1] for r in runs]))
-            found = joined([r[2] for r in runs])
-            points.append(Point(name, seconds, evaluations, **asdict(found)))
+        points = [
+            _over_seeds(name, lambda seed, s=settings: measured(seed, s), seeds)
+            for name, settings in several
+        ]
         curves.append(Curve(kind, label, tuple(points)))
     return curves
+
+
+def _in_arithmetics(
+    system: PolynomialSystem,
+    reference: Reference,
+    seeds: int,
+    progress: Callable[[str], None] | None,
+) -> Iterator[Curve]:
+    """Paths tracked wholly in each arithmetic, at several tolerances."""
+    each = [WholePaths.of(system, seed) for seed in range(seeds)]
+    for arithmetic in ARITHMETICS:
+        if progress is not None:
+            progress(arithmetic)
+        points = [
+            _over_seeds(
+                f"{tolerance:.0e}",
+                lambda seed, a=arithmetic, t=tolerance: tracked_in(each[seed], reference, a, t),
+                seeds,
+            )
+            for tolerance in WHOLE_TOLERANCES
+        ]
+        yield Curve("arithmetic", arithmetic, tuple(points))
+
+
+def _over_seeds(
+    name: str, measured: Callable[[int], tuple[float, int, Found]], seeds: int
+) -> Point:
+    runs = [measured(seed) for seed in range(seeds)]
+    seconds = float(np.median([r[0] for r in runs]))
+    evaluations = int(np.median([r[1] for r in runs]))
+    return Point(name, seconds, evaluations, **asdict(joined([r[2] for r in runs])))
 
 
 def _peer(program: str, system: PolynomialSystem, reference: Reference) -> Curve:

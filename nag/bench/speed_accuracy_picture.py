@@ -9,18 +9,29 @@ import numpy as np
 
 from nag.bench.picture_file import STYLE, save
 from nag.bench.speed_accuracy import Chart, Curve, Point
+from nag.bench.whole_paths import ARITHMETICS, DIGITS
 
 # Colours of different lightness, and marks, so that greyscale will do.
 COLOURS = ("#1b1b4b", "#b2182b", "#1f78b4", "#e08214", "#35978f", "#7b9e2f", "#c994c7", "#8c6d31")
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
-PEERS = {"M2": ("#555555", "<"), "phc": ("#999999", ">"), "bertini2": ("#222222", "d")}
-# Errors below this are drawn there: points are doubles.
-FLOOR = 1e-17
+PEERS = {
+    "M2": ("#555555", "<"),
+    "M2, refined": ("#555555", "4"),
+    "phc": ("#999999", ">"),
+    "bertini2": ("#222222", "d"),
+}
+# Errors below these are drawn there: of points that are doubles, and in more digits.
+FLOOR, DEEPEST = 1e-17, 1e-110
 ACCURATE = 1e-12
+# Where legends begin, below the axes.
+LEGENDS = 0.175
+WORK = "evaluations of the system"
+# Names of arithmetics, where what is drawn needs to be said of them.
+ENDS_ONLY = "{} (paths: ends only)"
 
 
 def draw_case(chart: Chart, path: str) -> None:
-    """Error and share against time, error against steps, and arithmetics, of one case.
+    """Error and share against time and against work, and arithmetics, of one case.
 
     Raises:
         OSError: if the file cannot be written.
@@ -28,43 +39,49 @@ def draw_case(chart: Chart, path: str) -> None:
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
+    ours = [c for c in chart.curves if c.kind != "arithmetic" and c.points]
+    whole = [c for c in chart.curves if c.kind == "arithmetic"]
+    columns = 3 if whole or chart.sharpened else 2
     with rc_context(STYLE | {"font.size": 8}):
-        figure = Figure(figsize=(8.4, 6.6))
-        top, bottom = figure.subplots(2, 2)
-        figure.subplots_adjust(0.085, 0.255, 0.985, 0.92, 0.24, 0.4)
+        figure = Figure(figsize=(4.2 * columns, 6.6))
+        grid = figure.subplots(2, columns)
+        left = 0.17 / columns
+        figure.subplots_adjust(left, 0.26, 0.985, 0.92, 0.26, 0.4)
         noun = f"{chart.expected} {chart.what}"
         title = f"{chart.case}: {noun}, {chart.seeds} seeds, one thread"
         figure.suptitle(title, fontsize=10, weight="bold", y=0.975)
         handles: dict[str, Any] = {}
-        for k, curve in enumerate(chart.curves):
+        for k, curve in enumerate(ours):
             style = _style(curve, k)
-            if curve.points:
-                handles[_label(curve)] = _error(top[0], curve, style, "seconds")
-                _share(top[1], curve, style)
-                if curve.kind != "peer" and curve.points[0].evaluations:
-                    _error(bottom[0], curve, style, "evaluations")
-        _certification(top[0], chart)
-        _axes(top[0], "processor time [s]", "relative error", "error: largest (filled), median")
-        _axes(top[1], "processor time [s]", f"share of {chart.what} [%]", "found right")
-        top[1].set_yscale("linear")
-        top[1].set_ylim(-4, 106)
-        if bottom[0].lines:
-            _axes(bottom[0], "evaluations of the system", "relative error", "error against work")
-        else:
-            bottom[0].axis("off")
-        for axes in (top[0], bottom[0]):
+            handles[_label(curve)] = _error(grid[0, 0], curve, style, "seconds")
+            _share(grid[0, 1], curve, style, "seconds")
+            if curve.kind != "peer" and curve.points[0].evaluations:
+                _error(grid[1, 0], curve, style, "evaluations")
+                _share(grid[1, 1], curve, style, "evaluations")
+        _certification(grid[0, 0], chart)
+        for row, across, of in ((0, "processor time [s]", "time"), (1, WORK, "work")):
+            error, share = grid[row, :2]
+            if not error.lines:
+                error.axis("off")
+                share.axis("off")
+                continue
+            _axes(error, across, "relative error", f"error against {of}: largest (filled), median")
+            _axes(share, across, f"share of {chart.what} [%]", f"found right, against {of}")
+            share.set_yscale("linear")
+            share.set_ylim(-4, 106)
             # At least so many decades, so that rounding does not look like much.
-            low, high = axes.get_ylim()
-            axes.set_ylim(min(low, FLOOR), max(high, 1e-11))
-        arithmetic = _sharpening(bottom[1], chart)
+            low, high = error.get_ylim()
+            error.set_ylim(min(low, FLOOR), max(high, 1e-11))
+        place = {"frameon": False, "fontsize": 7}
         figure.legend(
-            handles.values(), handles.keys(), loc="lower left", bbox_to_anchor=(0.06, 0.005),
-            ncols=2, fontsize=7, frameon=False,
+            handles.values(), handles.keys(), loc="upper left",
+            bbox_to_anchor=(left - 0.01, LEGENDS), ncols=2, **place,
         )  # fmt: skip
-        if arithmetic:
+        if columns == 3:
+            arithmetic = _arithmetics(grid[0, 2], whole) | _sharpening(grid[1, 2], chart)
             figure.legend(
-                arithmetic.values(), arithmetic.keys(), loc="lower right",
-                bbox_to_anchor=(0.99, 0.005), fontsize=7, frameon=False,
+                arithmetic.values(), arithmetic.keys(), loc="upper left",
+                bbox_to_anchor=(0.71, LEGENDS), **place,
             )  # fmt: skip
         save(figure, path)
 
@@ -83,19 +100,21 @@ def _style(curve: Curve, k: int) -> dict[str, Any]:
     return {"color": COLOURS[k], "marker": MARKS[k], "markersize": 4.5, "linestyle": dashes}
 
 
-def _error(axes: Any, curve: Curve, style: dict[str, Any], across: str) -> Any:
+def _error(
+    axes: Any, curve: Curve, style: dict[str, Any], across: str, floor: float = FLOOR
+) -> Any:
     points = [p for p in curve.points if p.share > 0]
     x = [getattr(p, across) for p in points]
-    largest = np.maximum([p.largest for p in points], FLOOR)
-    median = np.maximum([p.median for p in points], FLOOR)
+    largest = np.maximum([p.largest for p in points], floor)
+    median = np.maximum([p.median for p in points], floor)
     (line,) = axes.plot(x, largest, linewidth=0.9, **style)
     hollow = style | {"markerfacecolor": "none", "linestyle": ""}
     axes.plot(x, median, linewidth=0.9, **hollow)
     return line
 
 
-def _share(axes: Any, curve: Curve, style: dict[str, Any]) -> None:
-    x = [p.seconds for p in curve.points]
+def _share(axes: Any, curve: Curve, style: dict[str, Any], across: str) -> None:
+    x = [getattr(p, across) for p in curve.points]
     axes.plot(x, [100 * p.share for p in curve.points], linewidth=0.9, **style)
 
 
@@ -135,16 +154,38 @@ def _certification(axes: Any, chart: Chart) -> None:
             )  # fmt: skip
 
 
+def _named(arithmetic: str) -> str:
+    return ENDS_ONLY.format(arithmetic) if arithmetic in DIGITS else arithmetic
+
+
+def _of_arithmetic(name: str) -> dict[str, Any]:
+    k = ARITHMETICS.index(name)
+    return {"color": COLOURS[k], "marker": MARKS[k], "markersize": 4}
+
+
+def _arithmetics(axes: Any, curves: Sequence[Curve]) -> dict[str, Any]:
+    """Errors of paths that were tracked wholly in one arithmetic, at several tolerances."""
+    if not curves:
+        axes.axis("off")
+        return {}
+    handles = {
+        _named(curve.label): _error(axes, curve, _of_arithmetic(curve.label), "seconds", DEEPEST)
+        for curve in curves
+    }
+    _axes(axes, "processor time of tracking [s]", "relative error",
+          "whole paths in one arithmetic, tolerances 1e-1 to 1e-5")  # fmt: skip
+    return handles
+
+
 def _sharpening(axes: Any, chart: Chart) -> dict[str, Any]:
     if not chart.sharpened:
         axes.axis("off")
         return {}
     handles = {}
-    for k, (name, points) in enumerate(chart.sharpened.items()):
+    for name, points in chart.sharpened.items():
         x = [1e6 * p.seconds for p in points]
-        y = [max(p.largest, 1e-110) for p in points]
-        style = {"color": COLOURS[k], "marker": MARKS[k], "markersize": 4, "linewidth": 0.9}
-        (handles[name],) = axes.plot(x, y, **style)
+        y = [max(p.largest, DEEPEST) for p in points]
+        (handles[_named(name)],) = axes.plot(x, y, linewidth=0.9, **_of_arithmetic(name))
     _axes(axes, "processor time for one solution [µs]", "largest relative error",
           "Newton's method step by step, from errors of 1e-4")  # fmt: skip
     return handles

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
@@ -15,13 +16,13 @@ from nag.algebra.generic_multiplicity import (
     Gradients,
     generic_multiplicity,
     independent_gradients,
-    is_own_ring,
 )
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.branch_parts import Component, Equations, Part
+from nag.decomposition.branch_component import BranchComponent
 from nag.decomposition.symmetric_images import in_orbits
+from nag.numerics.singular_point import Place
 from nag.numerics.small_values import NONZERO, ON, SINGULAR, widened
 from nag.numerics.zero_values import (
     WRITTEN,
@@ -39,6 +40,15 @@ from nag.witness.slices import padded, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """A branch and its components."""
+
+    system: PolynomialSystem
+    components: tuple[BranchComponent, ...]
+    answer: Decomposition | None
 
 
 def decompose_apart(
@@ -109,20 +119,21 @@ def _part(
     whole: Whole,
     symmetries: Sequence[SignedPermutation],
     rng: np.random.Generator,
-) -> Part:
+) -> _Part:
     zeros = None if symmetries else algebraic_zeros(system)
     if zeros is not None:
         return _algebraic(system, zeros)
     if not system.groups and all(f.exact and f.degree <= 1 for f in system.polynomials):
         return _linear(system, rng)
-    answer, branch = whole(system, symmetries), Equations(system)
-    return Part(system, tuple(Component(c, branch) for c in answer.components), answer)
+    answer = whole(system, symmetries)
+    branch = BranchEquations(system, graphs=False)
+    return _Part(system, tuple(BranchComponent(c, branch) for c in answer.components), answer)
 
 
-def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> Part:
+def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Part:
     n = system.n
-    evaluator = Evaluator.of(system.polynomials, n)
-    found, branch = [], Equations(system)
+    evaluator, branch = Evaluator.of(system.polynomials, n), BranchEquations(system, graphs=False)
+    found = []
     for zero in zeros:
         x = zero.point
         if any(_vanishes_at(f, zero) for f in system.nonzero):
@@ -138,14 +149,15 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> Part
             corank=_corank(evaluator, x),
             multidegree=np.array(1) if system.groups else None,
         )
-        found.append(Component(witness, branch, zero))
-    return Part(system, tuple(found), None)
+        found.append(BranchComponent(witness, branch, zero))
+    return _Part(system, tuple(found), None)
 
 
-def _linear(system: PolynomialSystem, rng: np.random.Generator) -> Part:
+def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
     """A linear space by a point of it."""
-    branch = Equations(system)
-    frame, d = Frame.of(branch.elimination), branch.elimination.system.n
+    branch = BranchEquations(system, graphs=False)
+    elimination = branch.elimination
+    frame, d = Frame.of(elimination), elimination.system.n
     rows = random_rows(rng, d, d)
     point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
     sharp = sharpened(Fibre(Cut(d, 0, ()), d, point), rows)
@@ -161,7 +173,7 @@ def _linear(system: PolynomialSystem, rng: np.random.Generator) -> Part:
         digits=sharp.digits,
         corank=d,
     )
-    return Part(system, (Component(witness, branch),), None)
+    return _Part(system, (BranchComponent(witness, branch),), None)
 
 
 def _vanishes_at(f: Polynomial, zero: AlgebraicZero) -> bool:
@@ -176,14 +188,14 @@ def _corank(evaluator: Evaluator, x: np.ndarray) -> int:
 
 
 def _joined(
-    parts: Sequence[Part], rng: np.random.Generator, tracker: Tracker
-) -> tuple[list[Component], list[str], PathCounts]:
+    parts: Sequence[_Part], rng: np.random.Generator, tracker: Tracker
+) -> tuple[list[BranchComponent], list[str], PathCounts]:
     """The components of all branches that lie in no component of another branch.
 
     A component lies in the zero set of another branch when the equations vanish at one of its
     generic points. Then it is one of that branch's components or part of a larger one.
     """
-    kept: list[Component] = []
+    kept: list[BranchComponent] = []
     notes: list[str] = []
     counts = PathCounts()
     systems = [part.system.polynomials for part in parts]
@@ -207,7 +219,11 @@ def _joined(
 
 
 def _covered(
-    component: Component, other: Part, earlier: bool, rng: np.random.Generator, tracker: Tracker
+    component: BranchComponent,
+    other: _Part,
+    earlier: bool,
+    rng: np.random.Generator,
+    tracker: Tracker,
 ) -> tuple[Membership, PathCounts]:
     """Whether a component is in one of another branch: in a larger one, or in an earlier branch."""
     counts = PathCounts()
@@ -223,6 +239,10 @@ def _covered(
     larger = [c for c in other.components if c.witness.dimension > witness.dimension]
     if earlier or (larger and len(larger) == len(other.components)):
         return Membership.MEMBER, counts
+    place = component.place_among(other.system.polynomials) if larger else Place.ISOLATED
+    if place in (Place.ISOLATED, Place.ON_COMPONENT):
+        on = place is Place.ON_COMPONENT
+        return Membership.MEMBER if on else Membership.FOREIGN, counts
     result = Membership.FOREIGN
     for each in larger:
         try:
@@ -240,7 +260,7 @@ def _covered(
     return result, counts
 
 
-def _in_scheme(system: PolynomialSystem, components: Sequence[Component]) -> list[WitnessSet]:
+def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) -> list[WitnessSet]:
     """The components with what the original equations make of them."""
     equations = [factored(f) for f in system.polynomials if f]
     factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
@@ -271,11 +291,14 @@ def _in_scheme(system: PolynomialSystem, components: Sequence[Component]) -> lis
     return found
 
 
-def _multiplicity(equations: Sequence[Factors], gradients: Gradients, component: Component) -> int:
+def _multiplicity(
+    equations: Sequence[Factors], gradients: Gradients, component: BranchComponent
+) -> int:
     """The multiplicity of a component in the scheme of all equations; 0 if it was not found."""
     witness = component.witness
     n = witness.points.shape[1]
     x = witness.points[np.linalg.norm(witness.points, axis=1).argmin()]
+
     codimension = n - witness.dimension
 
     simple = component.zero is None and witness.multiplicity == 1
@@ -283,7 +306,7 @@ def _multiplicity(equations: Sequence[Factors], gradients: Gradients, component:
     if simple and gradients.rank(x, widened(x, witness.accuracy)) >= codimension:
         return 1
     regular = simple and witness.corank == witness.dimension
-    if regular and is_own_ring(equations, component.system.polynomials, component.vanishes):
+    if regular and component.branch.is_own_ring(equations, component.vanishes):
         return 1
 
     def independent(polynomials: Sequence[Polynomial]) -> bool:

@@ -16,7 +16,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.track import track
+from nag.tracking.track import ended, track
 from nag.witness.close_points import with_roots
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, leading_power
@@ -24,19 +24,20 @@ from nag.witness.fibres import (
     Fibre,
     Moved,
     Tracker,
-    carried,
     homogeneous,
     joined,
     moved,
     moved_close,
 )
 from nag.witness.points import with_fine
-from nag.witness.slices import padded, random_rows, unit_complex
+from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import PathCounts
 
 # Slices to which points may have to be moved to get to another flag.
 # Offsets of the flags tried later, as part of those of the first: slices nearer to the origin.
 NEARER = 0.3
+# Errors of roots of a polynomial in one variable, from where Newton's method finds them.
+ROUGH = 1e-8
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +74,10 @@ class Crossing:
         pieces = [ends for own in self.ends.values() for _, ends in own]
         return sum(int(np.sum(ends.finite & ~ends.regular)) for ends in pieces)
 
+    def failed_to(self, d: int) -> int:
+        """Number of paths to points of dimension ``d`` that failed."""
+        return sum(int(ends.failed.sum()) for _, ends in self.ends.get(d, ()))
+
 
 def intersect(
     fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker
@@ -82,6 +87,10 @@ def intersect(
         return _intersect_close(fibre, f, flag, gamma, tracker)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     n, total = cut.n, cut.n + cut.aux
+    if not cut.polynomials and len(fibre) == 1:
+        found = _on_line(n, f, flag[: d - 1], fibre.points[0])
+        if found is not None:
+            return found
     f = f * (1 / leading_power(f))
     compiled = _with_power(cut, f)
     columns = total + 2
@@ -102,6 +111,25 @@ def intersect(
     homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
     paths = track(homotopy, points, settings=tracker.settings, threads=tracker.threads)
     return moved(paths, keep=total)
+
+
+def _on_line(n: int, f: Polynomial, rows: np.ndarray, point: np.ndarray) -> Moved | None:
+    """The zeros of f on the line of the slices ``rows`` through a point, without paths.
+
+    They are roots of a polynomial in one variable. None unless each is proved, and regular, and
+    they are as many as the degree of f.
+    """
+    degree, direction = f.degree, np.linalg.svd(rows[:, 1:])[2][-1].conj()
+    unity = np.exp(2j * np.pi * np.arange(degree + 1) / (degree + 1))
+    values = Evaluator.of([f], n).values(point + unity[:, None] * direction)[:, 0]
+    if not np.isfinite(values).all():
+        return None
+    roots = np.roots(np.fft.fft(values)[::-1])
+    if len(roots) < degree:
+        return None
+    homotopy = Homotopy(compile_rows([f], n=n), rows)
+    paths = ended(homotopy, homogeneous(point + roots[:, None] * direction), ROUGH)
+    return None if paths is None else replace(moved(paths), counts=PathCounts())
 
 
 def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:
@@ -142,8 +170,11 @@ def _intersect_close(
     return joined(places, (intersect(rest, f, flag, gamma, tracker), close))
 
 
-def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracker) -> Crossing:
-    counts = PathCounts()
+def crossing(
+    sections: Sections, f: Polynomial, rng: np.random.Generator, tracker: Tracker
+) -> Crossing:
+    """All points of the sets where ``f`` vanishes, and how many paths led there."""
+    gamma, counts = complex(unit_complex(rng)), PathCounts()
     kept: dict[int, list[Fibre]] = {}
     ends: dict[int, list[tuple[Cut, Moved]]] = {}
     for d in sorted(sections.fibres, reverse=True):
@@ -159,43 +190,3 @@ def _crossing(sections: Sections, f: Polynomial, gamma: complex, tracker: Tracke
                 counts += new.counts
                 ends.setdefault(d - 1, []).append((fibre.cut.extended(f), new))
     return Crossing(sections, kept, ends, counts)
-
-
-def _elsewhere(
-    sections: Sections, rng: np.random.Generator, tracker: Tracker
-) -> tuple[Sections | None, PathCounts]:
-    """The same sets on another flag; None if points could not be moved."""
-    counts = PathCounts()
-    n = sections.flag.shape[1] - 1
-    flag = random_rows(rng, n, n, NEARER)
-    gamma = complex(unit_complex(rng))
-    fibres: dict[int, list[Fibre]] = {}
-    for d in sorted(sections.fibres, reverse=True):
-        there, spent = carried(sections.fibres[d], sections.flag[:d], flag[:d], gamma, tracker)
-        counts += spent
-        if there is None:
-            return None, counts
-        fibres[d] = there
-    return Sections(fibres, flag), counts
-
-
-def crossing(
-    sections: Sections,
-    f: Polynomial,
-    rng: np.random.Generator,
-    tracker: Tracker,
-    elsewhere: bool = False,
-) -> Crossing:
-    """All points of the sets where ``f`` vanishes, and how many paths led there.
-
-    Args:
-        elsewhere: whether the sets are moved to another flag first.
-    """
-    tracked = 0
-    if elsewhere:
-        there, spent = _elsewhere(sections, rng, tracker)
-        tracked += spent.tracked
-        sections = sections if there is None else there
-    crossed = _crossing(sections, f, complex(unit_complex(rng)), tracker)
-    tracked += crossed.counts.tracked
-    return replace(crossed, counts=replace(crossed.counts, tracked=tracked))

@@ -122,6 +122,44 @@ def solved_at_once(
     )
 
 
+def with_points(
+    answer: Decomposition,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    symmetries: Sequence[SignedPermutation],
+) -> Decomposition | None:
+    """The answer with all isolated points of its system, if the solver has no doubts of these.
+
+    A start system has a path for each, whatever else there is. Intersecting with one equation after
+    the other has one too, but it may begin where a curve is badly conditioned.
+    """
+    system = answer.system
+    larger = [c for c in answer.components if c.dimension > 0]
+    if len(system.polynomials) < system.n or any(c.status is Status.UNDECIDED for c in larger):
+        return None
+    found = _solved(system, rng, tracker, False)
+    if found is None or not found.complete:
+        return None
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    points = [_component(s, evaluator, system) for s in found.solutions]
+    if symmetries:
+        points = in_orbits(system, points, symmetries)
+    tracked = answer.paths.tracked + found.paths.tracked
+    whole = replace(
+        answer,
+        components=(*larger, *points),
+        paths=PathCounts(tracked, 0, answer.paths.at_infinity),
+        complete=True,
+        notes=(),
+    )
+    return whole if contains(whole, _only_points(answer)) else None
+
+
+def _only_points(answer: Decomposition) -> Decomposition:
+    points = tuple(c for c in answer.components if c.dimension == 0)
+    return replace(answer, components=points)
+
+
 def _all_excluded(system: PolynomialSystem, points: np.ndarray) -> bool:
     """Whether a polynomial that must not vanish seems to do so at each point."""
     residuals = Evaluator.of(system.nonzero, system.n).residuals(points)
@@ -149,17 +187,18 @@ def counted(answer: Decomposition, scheme: bool) -> Decomposition:
 
 
 def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSystem) -> WitnessSet:
-    n, corank = system.n, 0
+    n, corank, radii = system.n, 0, solution.radii
+    x = solution.point[None]
     if solution.multiplicity > 1:
         s = np.linalg.svd(evaluator.balanced_jacobian(solution.point), compute_uv=False)
         corank = max(numerical_corank(s, n, SINGULAR), 1)
     return WitnessSet(
         slice=Slice(np.zeros((0, n)), np.zeros(0)),
-        points=solution.point[None],
+        points=x,
         multiplicity=solution.multiplicity,
         status=Status.IRREDUCIBLE,
         residual=solution.residual,
-        radii=even_radii(solution.point[None], solution.accuracy),
+        radii=even_radii(x, solution.accuracy) if radii is None else radii[None],
         digits=[solution.precision],
         corank=corank,
         multidegree=np.array(1) if system.groups else None,

@@ -10,7 +10,7 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.hypersurface import NEARER
-from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once
+from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once, with_points
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
@@ -40,7 +40,11 @@ def decompose_several(
         if points is not None:
             return replace(points, seed=seed, settings=tracker.settings)
 
-    answer = _one_by_one(reduction, np.random.default_rng(seed), tracker, symmetries, scheme)
+    answer, only_points = _one_by_one(
+        reduction, np.random.default_rng(seed), tracker, symmetries, scheme
+    )
+    if not answer.complete and answer.dimension > 0 and only_points:
+        answer = with_points(answer, rng, tracker, symmetries) or answer
     if not answer.complete and answer.dimension <= 0:
         points = solved_at_once(system, rng, tracker, symmetries)
         if points is not None and contains(points, answer):
@@ -55,8 +59,11 @@ def _one_by_one(
     tracker: Tracker,
     symmetries: Sequence[SignedPermutation],
     scheme: bool,
-) -> Decomposition:
-    """The components by intersecting with one equation after the other."""
+) -> tuple[Decomposition, bool]:
+    """The components by intersecting with one equation after the other.
+
+    Also whether all doubts of that are about isolated points.
+    """
     reduced = reduction.reduced
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
@@ -71,7 +78,7 @@ def _one_by_one(
     )
     points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
     found = assembled(points, reduction, rng, tracker, known)
-    return Decomposition(
+    answer = Decomposition(
         system=reduction.system,
         components=found.components,
         paths=superset.counts + found.counts,
@@ -81,3 +88,4 @@ def _one_by_one(
         complete=found.complete and not notes,
         notes=(*notes, *found.notes),
     )
+    return answer, superset.only_points and not found.notes

@@ -28,21 +28,26 @@ from nag.witness.witness import PathCounts
 REGULAR = 1e-13
 # Part of the usual work after which a multiple zero beside a set passes for a point of it.
 IN_PASSING = 0.02
-# Other flags on which a doubtful intersection is tried again.
-ELSEWHERE = 1
 
 
 @dataclass(frozen=True, eq=False)
 class Superset:
     """Witness points of every dimension, on the leading rows of a flag of slices.
 
-    ``notes`` tell of singular ends that no cut was found for.
+    ``notes`` tell of singular ends that no cut was found for. ``about_points``: how many of these,
+    and of the failed paths, are about points of dimension 0.
     """
 
     fibres: dict[int, list[Fibre]]
     flag: np.ndarray
     counts: PathCounts
     notes: tuple[str, ...]
+    about_points: int = 0
+
+    @property
+    def only_points(self) -> bool:
+        """Whether nothing but isolated points may be missing."""
+        return self.counts.failed + len(self.notes) == self.about_points
 
 
 def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
@@ -126,11 +131,6 @@ class _Meeting:
     crossed: Crossing
     settled: Superset | None
 
-    @property
-    def doubts(self) -> tuple[int, int]:
-        notes = self.settled.notes if self.settled is not None else ()
-        return len(notes), self.crossed.counts.failed
-
 
 @dataclass(frozen=True, eq=False)
 class _Stage:
@@ -151,7 +151,7 @@ class _Stage:
         return len(self.found.flag)
 
     def best(self, f: Polynomial, mixing: bool) -> tuple[_Meeting, bool, PathCounts]:
-        """The least doubtful meeting with ``f``, or with a combination of it with later ones.
+        """The meeting with ``f``, or with a combination of it with later ones.
 
         The first equations alone may define components that are not reduced where all together do
         not. A general combination of an equation with later ones of its degree meets a reduced set
@@ -172,19 +172,11 @@ class _Stage:
                 settled, spent = self.settled(best.polynomial, best.crossed, deflate=True)
                 counts += spent
                 best = replace(best, settled=settled)
-        for _ in range(ELSEWHERE):
-            if best.doubts == (0, 0):
-                break
-            other, spent = self.meeting(best.polynomial, deflate=True, elsewhere=True)
-            counts += spent
-            best = min(best, other, key=lambda meeting: meeting.doubts)
         return best, mixing, counts
 
-    def meeting(
-        self, f: Polynomial, deflate: bool, elsewhere: bool = False
-    ) -> tuple[_Meeting, PathCounts]:
+    def meeting(self, f: Polynomial, deflate: bool) -> tuple[_Meeting, PathCounts]:
         sections = Sections(self.found.fibres, self.found.flag)
-        crossed = crossing(sections, f, self.rng, self.tracker, elsewhere)
+        crossed = crossing(sections, f, self.rng, self.tracker)
         settled, spent = self.settled(f, crossed, deflate)
         return _Meeting(f, crossed, settled), PathCounts(crossed.counts.tracked) + spent
 
@@ -315,8 +307,9 @@ class _Stage:
         flag = crossed.before.flag
         so_far = Equations((*self.before, f), self.n)
         kept = {d: list(fibres) for d, fibres in crossed.kept.items()}
-        counts, notes = PathCounts(), []
+        counts, notes, higher = PathCounts(), [], 0
         for d in sorted(crossed.ends, reverse=True):
+            higher = len(notes)
             candidates = _collect(crossed.ends[d], flag[:d], self.avoid)
             if candidates.unclear:
                 notes.append(f"{candidates.unclear} points may be such as are excluded")
@@ -334,7 +327,8 @@ class _Stage:
                     return None, counts
                 notes += doubts
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
-        return Superset(kept, flag, PathCounts(), tuple(notes)), counts
+        points = len(notes) - higher if 0 in crossed.ends else 0
+        return Superset(kept, flag, PathCounts(), tuple(notes), points), counts
 
 
 @dataclass(frozen=True, eq=False)
@@ -371,7 +365,7 @@ def witness_superset(
     each equation.
     """
     equations = list(equations)
-    counts, notes = PathCounts(), []
+    counts, notes, points = PathCounts(), [], 0
     found = Superset(dict(ambient.sections.fibres), ambient.sections.flag, counts, ())
     mixing = False
     for k, f in enumerate(equations):
@@ -382,6 +376,7 @@ def witness_superset(
         found = best.settled
         equations[k] = best.polynomial
         notes += found.notes
+        points += found.about_points + best.crossed.failed_to(0)
         failed, infinite = best.crossed.counts.failed, best.crossed.counts.at_infinity
         counts += PathCounts(spent.tracked, failed, infinite)
-    return Superset(found.fibres, found.flag, counts, tuple(notes))
+    return Superset(found.fibres, found.flag, counts, tuple(notes), points)

@@ -188,11 +188,8 @@ def samples(source: Source, count: int, rng: np.random.Generator, tracker: Track
     evaluator = Evaluator.of(source.system.polynomials, n)
     found: list[Sample] = []
     while len(found) < count:
-        for how in tracker.attempts():
-            target, there = at_random(source.fibres, source.rows, rng, how)
-            if len(there.x) and np.isfinite(there.accuracy):
-                break
-        else:
+        target, there = at_random(source.fibres, source.rows, rng, tracker)
+        if not (len(there.x) and np.isfinite(there.accuracy)):
             raise SourceError("the path to a point failed")
         (fibre,) = there.fibres
         if evaluator.residuals(fibre.x).max(initial=0.0) > ON:

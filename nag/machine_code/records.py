@@ -11,6 +11,7 @@ import ctypes
 from dataclasses import dataclass
 from functools import cache
 from operator import index
+from struct import Struct
 from typing import Any, get_type_hints
 
 import numpy as np
@@ -85,6 +86,8 @@ _WORDS: dict[Type, Any] = {
     pointer(REAL): np.dtype("f8"),
     pointer(COMPLEX): np.dtype("c16"),
 }
+# A double as the word that it is.
+_REAL, _WHOLE = Struct("=d"), Struct("=q")
 # No bytes, wherever they begin.
 _PLACE = ctypes.c_char * 0
 
@@ -122,9 +125,10 @@ def table(values: Any) -> Table:
     if isinstance(values, Table):
         return values
     layout = _layout(type(values))
-    words = np.zeros(len(layout), dtype=np.int64)
-    for k, (value, dtype) in enumerate(zip(values, layout, strict=True)):
-        _put(words, k, value, dtype, values)
+    pairs = zip(values, layout, strict=True)
+    words = np.array(
+        [_word(k, value, dtype, values) for k, (value, dtype) in enumerate(pairs)], dtype=np.int64
+    )
     return Table(words, address(words), values)
 
 
@@ -135,38 +139,45 @@ def replaced(known: Table, **fields: Any) -> Table:
         TypeError: as `table` does.
     """
     values = known.record._replace(**fields)
-    layout, names = _layout(type(values)), values._fields
+    layout, places = _layout(type(values)), _places(type(values))
     words = known.words.copy()
     for name, value in fields.items():
-        k = names.index(name)
-        _put(words, k, value, layout[k], values)
+        k = places[name]
+        words[k] = _word(k, value, layout[k], values)
     return Table(words, address(words), values)
 
 
-def _put(words: np.ndarray, k: int, value: Any, dtype: Any, values: Any) -> None:
-    """Make word ``k``, of a field of ``values``."""
+def _word(k: int, value: Any, dtype: Any, values: Any) -> int:
+    """Word ``k``, of a field of ``values``."""
     if dtype is int:
-        words[k] = index(value)
-    elif dtype is bool:
-        words[k] = bool(value)
-    elif dtype is float:
-        words.view(np.float64)[k] = value
-    else:
-        if value.dtype != dtype or not value.flags.c_contiguous:
-            name = f"{type(values).__name__}.{values._fields[k]}"
-            raise TypeError(f"{name} is no contiguous array of {dtype.name}")
-        words[k] = address(value)
+        return index(value)
+    if dtype is bool:
+        return bool(value)
+    if dtype is float:
+        return _WHOLE.unpack(_REAL.pack(value))[0]
+    if (value.dtype is not dtype and value.dtype != dtype) or not value.flags.c_contiguous:
+        name = f"{type(values).__name__}.{values._fields[k]}"
+        raise TypeError(f"{name} is no contiguous array of {dtype.name}")
+    return address(value)
 
 
 def address(array: np.ndarray) -> int:
     """Where the first entry of a contiguous array lies."""
-    if array.flags.writeable:
+    try:
         # Four times as fast as asking NumPy.
         return ctypes.addressof(_PLACE.from_buffer(array))
-    return array.ctypes.data
+    except TypeError:
+        # It must not be written to.
+        return array.ctypes.data
 
 
 @cache
 def _layout(cls: type) -> tuple[Any, ...]:
     """What each field's word is made from: ``bool, int, float``, or an array of a dtype."""
     return tuple(_WORDS[kind] for _, kind in record(cls).fields)
+
+
+@cache
+def _places(cls: type) -> dict[str, int]:
+    """The number of each field's word."""
+    return {name: k for k, name in enumerate(cls._fields)}

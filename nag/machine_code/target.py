@@ -60,7 +60,9 @@ def _machine(processor: Processor) -> binding.TargetMachine:
 def object_code(text: str, target: Processor | None = None) -> bytes:
     """Object code for a module in LLVM's language.
 
-    Vectors are written by hand, so that loops are not looked through for more of them.
+    Vectors are written by hand, so that loops are not looked through for more of them. Nor are they
+    unrolled: most are run a few times only, which then takes a tenth longer, and compiling twice as
+    long.
 
     Args:
         target: by default this computer; of another kind of processor only after
@@ -74,6 +76,7 @@ def object_code(text: str, target: Processor | None = None) -> bytes:
     options = binding.create_pipeline_tuning_options(speed_level=1)
     options.loop_vectorization = False
     options.slp_vectorization = False
+    options.loop_unrolling = False
     passes = binding.create_pass_builder(machine, options)
     passes.getModulePassManager().run(module, passes)
     return machine.emit_object(module)

@@ -112,19 +112,39 @@ def certify_points(
     blank = np.full((P, n), np.inf)
     boxes = Boxes(points.copy(), blank, blank.copy(), np.zeros(P, dtype=bool), {})
     found = CertifiedPoints(points, (), boxes, np.full(P, np.inf), np.zeros(P, dtype=bool), ())
-    proofs, refuted = [Proof.NONE] * P, set()
+    proofs: list[Proof] = [Proof.NONE] * P
+    refuted: set[int] = set()
     reach = np.maximum(NEAR, SLACK * np.nan_to_num(accuracy, nan=0.0))
-    tested = np.flatnonzero(~singular & np.isfinite(points).all(axis=1))
-    if len(equations) + len(slices) == n:
-        _enter(boxes, tested, boxes_of(equations, slices, points[tested], reach[tested]))
-        for i in np.flatnonzero(boxes.proved).tolist():
-            proofs[i] = Proof.SIMPLE
-    elif len(equations) + len(slices) > n:
-        refuted = _overdetermined(equations, slices, found, proofs, tested, reach)
-    for i in np.flatnonzero(~boxes.proved).tolist():
-        if i not in refuted:
-            _singular(equations, slices, found, proofs, i, float(accuracy[i]))
+    finite = np.isfinite(points).all(axis=1)
+    tested = np.flatnonzero(~singular & finite)
+    refuted |= _regular(equations, slices, found, proofs, tested, reach)
+    for i in np.flatnonzero(~boxes.proved & finite).tolist():
+        if i in refuted:
+            continue
+        simple = _singular(equations, slices, found, proofs, i, float(accuracy[i]))
+        if simple and singular[i]:
+            refuted |= _regular(equations, slices, found, proofs, np.array([i]), reach)
     return replace(found, proofs=tuple(proofs), refuted=tuple(sorted(refuted)))
+
+
+def _regular(
+    equations: Sequence[Polynomial],
+    slices: np.ndarray,
+    found: CertifiedPoints,
+    proofs: list[Proof],
+    tested: np.ndarray,
+    reach: np.ndarray,
+) -> set[int]:
+    """Prove simple zeros next to the points ``tested``; those proved to be next to none."""
+    boxes, points = found.boxes, found.points
+    count, n = len(equations) + len(slices), points.shape[1]
+    if count > n:
+        return _overdetermined(equations, slices, found, proofs, tested, reach)
+    if count == n:
+        _enter(boxes, tested, boxes_of(equations, slices, points[tested], reach[tested]))
+        for i in tested[boxes.proved[tested]].tolist():
+            proofs[i] = Proof.SIMPLE
+    return set()
 
 
 def _overdetermined(
@@ -264,32 +284,48 @@ def _singular(
     proofs: list[Proof],
     i: int,
     accuracy: float,
-) -> None:
-    """What is proved of a point that may be singular; enters it at place ``i``."""
+) -> bool:
+    """What is proved of a point that may be singular; enters it at place ``i``.
+
+    Returns:
+        Whether it seems to be a simple zero, of which nothing is entered.
+    """
     rng = np.random.default_rng(0)
     boxes = result.boxes
     point = boxes.centres[i]
-    if not np.isfinite(point).all():
-        return
     error = max(accuracy, 1e-15) if np.isfinite(accuracy) else NEAR
     end = analyse(equations, point, error, rng, slices if len(slices) else None)
     if end.place is not Place.ISOLATED or not end.digits:
-        return
+        return False
     if end.rational is not None and not len(slices):
-        values = [f(end.rational) for f in equations]
-        if any(values):
-            return
+        if any(f(end.rational) for f in equations):
+            return False
+        if _rank(equations, end.rational) == len(point):
+            return True
         enter_box(boxes, i, _rational_box(end.rational))
         proofs[i], result.digits[i], result.real[i] = Proof.EXACT, np.inf, True
-        return
+        return False
     found = deflated_zero(equations, slices, end.digits, rng)
     if found is None or found.vanishing < EVIDENCE:
-        return
+        return False
+    if not found.rounds:
+        return True
     proofs[i], result.real[i] = Proof.DEFLATED, found.real
     result.digits[i] = found.vanishing if found.left else np.inf
     box, n = found.box, len(point)
     # Of the deflated equations the zero is the only one in its box, of the given ones it need not.
     enter_box(boxes, i, FineBox(box.centre[:n], (flint.arb(0),) * n, box.inner[:n]))
+    return False
+
+
+def _rank(equations: Sequence[Polynomial], point: Sequence[Fraction]) -> int:
+    """The rank of the Jacobian at a rational point, exactly; 0 where coefficients are not."""
+    if not all(f.exact for f in equations):
+        return 0
+    rows = [[f.derivative(j)(point) for j in range(len(point))] for f in equations]
+    return flint.fmpq_mat(
+        [[flint.fmpq(c.numerator, c.denominator) for c in map(Fraction, row)] for row in rows]
+    ).rank()
 
 
 def _rational_box(point: Sequence[Fraction]) -> FineBox:

@@ -28,3 +28,10 @@ class CurveSearch:
             self.times += 1
             self.dimension = self.look(4 * self.times)
         return self.dimension > 0
+
+    def last(self) -> bool:
+        """The same where the dual space cannot be followed further."""
+        if self.times < len(self.degrees):
+            self.times += 1
+            self.dimension = self.look(4 * self.times)
+        return self.dimension > 0

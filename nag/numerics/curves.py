@@ -12,15 +12,12 @@ from nag.numerics.deflation import MOST_WORK_ROUGHLY, Deflated, NotDeflated, def
 from nag.numerics.descent import Point, Round, work
 from nag.numerics.digits import LOG10_2, log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
+from nag.numerics.far_along import far_value
 from nag.numerics.implicit_function import Reduction, eliminate
 from nag.numerics.power_series import evaluate
 from nag.numerics.series_zeros import ScaledSeries
-from nag.numerics.sharpening import DIGITS, predicted, sharpen
+from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO, predicted, sharpen
 
-# Orders of contact that are seen: all that are possible where there are at most so many zeros,
-# else this one, or the largest degree of an equation. Isolated zeros beside which the equations
-# vanish along some curve to a higher order are not told from others.
-ALL_OF, HIGHEST_CONTACT = 2000, 400
 # Binary logarithms of distances at which a smooth set of zeros is followed; the smaller ones where
 # it bends too much.
 NEAR = (7, 24, 48)
@@ -30,23 +27,25 @@ STEP = 3
 CLOSER = (12.5, 8.0, 5.0, 2.0)
 # The digits that are taken at least. Values below this share of the digits are zero.
 LEAST_DIGITS, VANISHING = 150, 0.75
+# Digits in which a zero on a hyperplane is looked at before the set that it may lie on is.
+MORE_DIGITS = 600
 # Digits of coefficients that ask for no more.
 ROUND_NUMBERS = 20
 # Part of the usual work for a zero on a hyperplane: there are others.
 PATIENCE = 0.05
+# How many digits less than it has a zero on a hyperplane is known to.
+CLOSE = 5.0
 # Binary logarithms of distances at which hyperplanes pass a singular point.
 DISTANCES = (5, 9, 13, 17)
 
 
 def digits_at(system: ExactSystem, k: int) -> int:
-    """Digits in which 2^-k to the power of the highest order of contact is no zero.
+    """Digits in which 2^-k to the power of the highest possible order of contact is no zero.
 
     Long coefficients may be nearly equal, and what is small to their difference's power.
     """
-    highest = system.most_zeros
-    if highest > ALL_OF:
-        highest = max(HIGHEST_CONTACT, system.largest_degree)
-    return max(LEAST_DIGITS, int((highest * (k + 2) * LOG10_2 + _length(system) + 20) / VANISHING))
+    contact = system.most_zeros * (k + 2) * LOG10_2
+    return max(LEAST_DIGITS, int((contact + _length(system) + 20) / VANISHING))
 
 
 def _length(system: ExactSystem) -> float:
@@ -70,9 +69,10 @@ def smooth_set(
 ) -> float:
     """Whether the equations vanish along the smooth set that the rounds leave: 0 if they do.
 
-    They are evaluated at a point of the set, at a distance r and to as many digits that r to the
-    power of any possible multiplicity would be seen. If they do not vanish, the order to which they
-    do is returned, roughly, by a second distance; ``inf`` where no further points were found.
+    They are evaluated at a point of the set beside the given one. Where that does not show every
+    possible order of contact, they are also evaluated at a point far away. If they do not vanish,
+    the order to which they do is returned, roughly, or a lower bound of it; ``inf`` where no
+    further points were found.
 
     Args:
         inverse: of the blocks that were solved for, decimal logarithm: Newton's method converges
@@ -80,17 +80,18 @@ def smooth_set(
     """
     nearer = int(max(0.0, inverse) / LOG10_2)
     for k in (k + nearer for k in NEAR):
-        digits = LEAST_DIGITS
-        first = _values(system, point, rounds, k, digits)
-        if first is not None and first < -VANISHING * digits:
-            digits = max(digits, digits_at(system, k))
-            if digits > LEAST_DIGITS:
-                first = _values(system, point, rounds, k, digits)
-            if first is not None and first < -VANISHING * digits:
-                return 0.0
+        first = _values(system, point, rounds, k, LEAST_DIGITS)
         if first is None:
             continue
-        second = _values(system, point, rounds, k + STEP, digits)
+        if first < -VANISHING * LEAST_DIGITS:
+            if digits_at(system, k) <= LEAST_DIGITS:
+                return 0.0
+            digits = LEAST_DIGITS + int(_length(system) / VANISHING)
+            far = far_value(system, point, rounds, inverse, digits)
+            if far is None:
+                return inf
+            return 0.0 if far < -VANISHING * digits else max(2.0, -first / (k * LOG10_2))
+        second = _values(system, point, rounds, k + STEP, LEAST_DIGITS)
         if second is not None:
             return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
     return inf
@@ -151,7 +152,7 @@ def _followed(
     rng: np.random.Generator,
 ) -> int:
     u = rng.normal(size=found.corank) + 1j * rng.normal(size=found.corank)
-    dimension = 0
+    zero: Deflated | None = None
     for k in [k for k in DISTANCES if k >= begin]:
         scaled = ScaledSeries.of(series.ring, series.rest, -k * LOG10_2)
         u = scaled.newton(u / (plane @ u), plane)
@@ -159,28 +160,21 @@ def _followed(
             return 0
         along = [flint.acb(complex(c)) / 2**k for c in u]
         start = [middle(flint.acb(evaluate(f, series.ring, along))) for f in series.images]
-        dimension = _on_hyperplane(system, found, start, k, plane, rng, k == begin)
-        if not dimension:
+        sliced = _on_hyperplane(system, found, k, plane)
+        if zero is None:
+            zero = _zero_near(sliced, start, k, rng)
+            if zero is None or not _vanishes(sliced, zero, MORE_DIGITS):
+                return 0
+            if not _on_set(system, zero, rng):
+                return 0
+        elif not _continues(sliced, start, k, zero):
             return 0
-    return dimension
+    return 0 if zero is None else 1 + zero.free
 
 
-def _on_hyperplane(
-    system: ExactSystem,
-    found: Deflated,
-    start: Point,
-    k: int,
-    plane: np.ndarray,
-    rng: np.random.Generator,
-    proof: bool,
-) -> int:
-    """Dimension of the exact zeros by ``start`` on the hyperplane at distance 2^-k; 0 if none.
-
-    It counts the direction away from the hyperplane. With ``proof``, they are zeros to so many
-    digits that an isolated zero of any possible multiplicity could not make them vanish.
-    """
-    first = Round(found.rounds[0].rows, found.rounds[0].columns)
-    free = [i for i in range(system.n) if i not in first.columns]
+def _on_hyperplane(system: ExactSystem, found: Deflated, k: int, plane: np.ndarray) -> ExactSystem:
+    """The equations on the hyperplane at distance 2^-k."""
+    free = [i for i in range(system.n) if i not in found.rounds[0].columns]
     weights = [flint.acb(complex(c)) for c in plane]
     constant = -flint.acb(1) / 2**k
     for i, w in zip(free, weights, strict=True):
@@ -188,16 +182,40 @@ def _on_hyperplane(
     row = [
         (tuple(int(i == j) for j in range(system.n)), w) for i, w in zip(free, weights, strict=True)
     ]
-    sliced = system.with_row([((0,) * system.n, middle(constant)), *row])
+    return system.with_row([((0,) * system.n, middle(constant)), *row])
+
+
+def _zero_near(
+    sliced: ExactSystem, start: Point, k: int, rng: np.random.Generator
+) -> Deflated | None:
+    """The zero on the hyperplane at distance 2^-k beside a point, if it is one to all digits."""
     for closer in CLOSER:
         try:
             zero = deflate(sliced, start, -k * LOG10_2 - closer, rng, PATIENCE)
         except NotDeflated:
             continue
         if zero.exact:
-            certain = not proof or _vanishes(sliced, zero, digits_at(system, k))
-            return (1 + zero.free) * certain
-    return 0
+            return zero
+    return None
+
+
+def _on_set(system: ExactSystem, zero: Deflated, rng: np.random.Generator) -> bool:
+    """Whether a zero on a hyperplane lies on a smooth set of zeros that leaves the hyperplane."""
+    try:
+        whole = deflate(system, zero.point, ARRIVED + CLOSE, rng, PATIENCE)
+    except NotDeflated:
+        return False
+    return whole.exact and whole.free > zero.free
+
+
+def _continues(sliced: ExactSystem, start: Point, k: int, zero: Deflated) -> bool:
+    """Whether there is a zero of the same kind by ``start`` on the hyperplane at distance 2^-k."""
+    with working(DIGITS):
+        there = sharpen(sliced, start, zero.rounds)
+        if there is None or there[1].defect > ZERO:
+            return False
+        moved = log_norm(a - b for a, b in zip(there[0], start, strict=True))
+    return moved < 1 - k * LOG10_2 - CLOSER[-1]
 
 
 def _vanishes(system: ExactSystem, zero: Deflated, digits: int) -> bool:

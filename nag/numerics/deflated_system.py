@@ -30,6 +30,8 @@ DIGITS, ZERO = 150, -50.0
 # Digits of the arithmetic, more than which nothing is said to vanish to.
 MOST_DIGITS = 154.0
 MOST_UNKNOWNS = 64
+# Bits of the random weights of conditions.
+WEIGHT = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,9 +103,11 @@ def _deflated(
     blank = np.zeros((len(slices), n), dtype=complex)
     rows = [np.hstack([slices, blank])]
     rows.append(np.hstack([blank[:, :1], blank, slices[:, 1:]]))
+    shape = 2, n - len(chosen), n
     # Without slices the deflated equations are real, and so is the zero in a box that holds its
     # conjugate.
-    parts = rng.integers(-9, 10, (2, n - len(chosen), n))
+    # Dyadic numbers of so many bits: of few, a kernel vector might satisfy conditions without e_1.
+    parts = np.ldexp(rng.integers(-(2**WEIGHT), 2**WEIGHT, shape), -WEIGHT)
     conditions = parts[0] + (1j * parts[1] if len(slices) else 0j)
     one = np.zeros((len(conditions), 1 + n), dtype=complex)
     one[:1, 0] = -1.0

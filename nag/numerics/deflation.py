@@ -21,13 +21,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import comb, inf, log10
+from math import comb, inf, log10, prod
 from typing import Any
 
 import flint
 import numpy as np
 
-from nag.numerics.descent import Descent, Point, Round, descend, total_order, work
+from nag.numerics.descent import Descent, Point, Round, descend, total_work
 from nag.numerics.digits import log_norm, log_size, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import jacobian
@@ -38,7 +38,7 @@ from nag.numerics.sharpening import ARRIVED, DIGITS, ROUNDING, ZERO, sharpen
 # Orders of the series in which the lowest terms of what remains are looked for, one after the
 # other, while they do not cost too much: where all terms so far are zero, and where they are not,
 # as at a point that is not known well.
-ORDERS = (3, 6, 12, 24, 48, 96, 192, 384)
+ORDERS = (3, 6, 12, 17, 24, 34, 48, 68, 96, 136, 192, 272, 384)
 # Digits that rounding may have taken from coefficients beside those that each degree loses.
 SPARE = 20.0
 MOST_WORK, MOST_WORK_ROUGHLY = 1e6, 1.5e5
@@ -206,7 +206,7 @@ def _lowest_terms(
     for order in ORDERS:
         if order < min(least, ORDERS[-1]):
             continue
-        if work(len(point) - len(rounds[0].columns), total_order(rounds, order), rounds) > most:
+        if total_work(system, rounds, order) > most:
             raise SeriesTooLong(f"its series in {left} variables are too long at order {order}")
         descent = descend(system, DIGITS, point, rounds, order)
         assert descent is not None
@@ -218,9 +218,11 @@ def _lowest_terms(
         if any(size > _noise(degree, descent.inverse) for size, degree in sizes):
             most = patience * MOST_WORK_ROUGHLY
         elif not least:
+            # Each round's equations are derivatives, of lower order along the set.
             least = smooth_set(system, point, rounds, descent.inverse)
             if least == 0:
                 return None
+            least /= prod(r.order for r in rounds[:-1])
         if noisy:
             break
     raise NotDeflated(f"nothing is seen of what remains to order {order}")

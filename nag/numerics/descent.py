@@ -59,6 +59,23 @@ def work(m: int, order: int, rounds: Sequence[Round]) -> float:
     return comb(2 * m + order, order) * (1 + order / 4 * bool(rounds[0].columns))
 
 
+def total_work(system: ExactSystem, rounds: Sequence[Round], order: int) -> float:
+    """The work of all rounds for series of that order in the last one.
+
+    A round in which nothing is solved for leaves polynomials that are no longer than the given.
+    """
+    left, total = system.n, 0.0
+    for place, this in enumerate(rounds):
+        left -= len(this.columns)
+        length = total_order(rounds[place:], order)
+        if left == system.n:
+            length = min(length, system.largest_degree)
+            total += comb(left + length, length) * length
+        else:
+            total += work(left, length, rounds[place:])
+    return total
+
+
 def descend(
     system: ExactSystem,
     digits: int,

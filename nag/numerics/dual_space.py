@@ -82,13 +82,15 @@ def dual_space(
     Raises:
         nag.numerics.null_space.UnclearRank: if a rank cannot be read.
     """
+    if m == 1:
+        return _in_one_variable(series, highest, stop)
     basis = _Basis({0: 0}, [[1]], [0], [[[0]] for _ in range(m)])
     hilbert = [1]
     ring, equations = series(min(2, highest))
     for degree in range(1, highest + 1):
         if degree > ring.order:
             # In many variables longer series cost more than making them again.
-            more = max(2, ring.order // 2) if m < 3 else max(1, ring.order // (m + 1))
+            more = max(2, ring.order // 2) if m == 2 else max(1, ring.order // (m + 1))
             ring, equations = series(min(ring.order + more, highest))
         found = _next(field, ring, equations, basis)
         if not found:
@@ -97,6 +99,25 @@ def dual_space(
         if sum(hilbert) > MOST_FUNCTIONALS or stop(hilbert):
             break
         _extend(field, ring, basis, found)
+    return DualSpace(tuple(hilbert), False)
+
+
+def _in_one_variable(
+    series: Callable[[int], tuple[SeriesRing, Sequence[Series]]],
+    highest: int,
+    stop: Callable[[Sequence[int]], bool],
+) -> DualSpace:
+    """One functional for each degree below that of the lowest term."""
+    ring, equations = series(min(2, highest))
+    hilbert = [1]
+    for degree in range(1, highest + 1):
+        if degree > ring.order:
+            ring, equations = series(min(2 * ring.order, highest))
+        if any(degree * ring.unit(0) in f for f in equations):
+            return DualSpace(tuple(hilbert), True)
+        hilbert.append(1)
+        if len(hilbert) > MOST_FUNCTIONALS or stop(hilbert):
+            break
     return DualSpace(tuple(hilbert), False)
 
 

@@ -41,11 +41,18 @@ class ExactSystem:
         polynomials: Sequence[Polynomial],
         x: np.ndarray,
         slices: np.ndarray | None = None,
+        units: np.ndarray | None = None,
     ) -> ExactSystem:
-        """The polynomials and slices, rows on ``(1, x)``, scaled to coordinates of at most one."""
+        """The polynomials and slices, rows on ``(1, x)``, scaled to coordinates of at most one.
+
+        Args:
+            units: sizes of the variables' units, to be rounded up to powers of two; by default
+                those of the coordinates that are larger than one.
+        """
         n = len(x)
-        sizes = np.maximum(np.abs(np.asarray(x, dtype=complex)), 1.0)
-        scales = tuple(int(k) for k in np.ceil(np.log2(sizes)))
+        if units is None:
+            units = np.maximum(np.abs(np.asarray(x, dtype=complex)), 1.0)
+        scales = tuple(int(k) for k in np.ceil(np.log2(units)))
         rows = [_scaled(f.terms.items(), scales) for f in polynomials if f]
         units = [tuple(int(i == j) for j in range(n)) for i in range(n)]
         for a in np.zeros((0, 1 + n)) if slices is None else slices:

@@ -16,7 +16,7 @@ from typing import Any
 import flint
 
 from nag.numerics.digits import log_norm, middle
-from nag.numerics.power_series import Series, SeriesRing, Terms, composed, product_of
+from nag.numerics.power_series import Series, SeriesRing, Terms, composed, product_of, shifted
 
 Matrix = list[list[Any]]
 Slopes = Callable[[Sequence[Any]], Matrix]
@@ -91,7 +91,7 @@ def eliminate(
     rest_rows = [rows[i] for i in others]
     if not columns:
         images = _images(centre, free, ring)
-        return Reduction(ring, images, composed(rest_rows, images, ring), -float("inf"))
+        return Reduction(ring, images, shifted(rest_rows, centre, ring), -float("inf"))
     chosen = [rows[i] for i in solved]
     slopes = slopes or partial(jacobian, rows, modulus=modulus)
     found = _at_centre(chosen, slopes, centre, solved, columns, modulus)

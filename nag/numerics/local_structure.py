@@ -16,7 +16,7 @@ from nag.numerics.curve_search import CurveSearch
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
 from nag.numerics.descent import work
-from nag.numerics.digits import doubles, log_norm, middle, point, working
+from nag.numerics.digits import LOG10_2, doubles, log_norm, middle, point, working
 from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem, modular
 from nag.numerics.implicit_function import eliminate
@@ -63,21 +63,43 @@ class Effort:
 def judged(
     polynomials: Sequence[Polynomial],
     x: Sequence[Any] | np.ndarray,
-    accuracy: float,
+    accuracy: float | np.ndarray,
     rng: np.random.Generator,
     slices: np.ndarray | None,
     effort: Effort,
 ) -> SingularEnd:
     """See `nag.numerics.singular_point.analyse`."""
+    units, spread = None, None
     with working(DIGITS):
         precise = point(x)
         rounded = doubles(precise)
         if not np.isfinite(rounded).all():
-            return _undecided(rounded, accuracy, "the point is not finite")
-        system = ExactSystem.of(polynomials, rounded, slices)
+            return _undecided(rounded, np.inf, "the point is not finite")
+        if isinstance(accuracy, np.ndarray):
+            accuracy, units = _units(rounded, accuracy)
+        system = ExactSystem.of(polynomials, rounded, slices, units)
+        if units is None:
+            # Errors count relative to the whole point, the scales to each of its coordinates.
+            spread = LOG10_2 * (max(system.scales, default=0) - min(system.scales, default=0))
         y = [middle(c / flint.arb(2) ** k) for c, k in zip(precise, system.scales, strict=True)]
         reach = log10(max(accuracy, 1e-300))
-        return _judged(system, y, max(reach, 5.0 - DIGITS), rng, effort)
+        return _judged(system, y, max(reach, 5.0 - DIGITS), rng, effort, spread or 0.0)
+
+
+def _units(x: np.ndarray, radii: np.ndarray) -> tuple[float, np.ndarray]:
+    """An error, and the units in which no coordinate has a larger one.
+
+    Coordinates are at most one in them, and those that are known best are of size one. Those that
+    may be zero are so beside the others, however well that is known.
+    """
+    sizes, least = np.abs(x), 10 ** (5.0 - DIGITS)
+    there = radii < sizes
+    if not there.any():
+        return max(float(radii.max(initial=0.0)), least), np.ones(len(x))
+    error = max(float((radii[there] / sizes[there]).min()), least)
+    units = np.maximum(sizes, radii / error)
+    units[~there] = np.maximum(units[~there], sizes.max())
+    return error, units
 
 
 def _judged(
@@ -86,12 +108,12 @@ def _judged(
     claimed: float,
     rng: np.random.Generator,
     effort: Effort,
+    spread: float,
     depth: int = 0,
 ) -> SingularEnd:
+    """The judgement of a point that is known to ``10^claimed``, or to ``10^spread`` times that."""
     reasons: list[str] = []
     tried: set[float] = set()
-    # Errors count relative to the whole point, the scales to each of its coordinates.
-    spread = 0.30103 * (max(system.scales, default=0) - min(system.scales, default=0))
     for more in (*REACHES[:2], REACHES[0] + spread, *REACHES[2:]):
         reach = min(claimed + more, max(FURTHEST, claimed))
         if reach in tried:
@@ -107,7 +129,7 @@ def _judged(
         reasons.append(f"what should vanish there is of size 1e{found.defect:.0f}")
         if found.free or depth == DEEPEST:
             continue
-        nearby = _resolved(system, found, reach, rng, effort, depth)
+        nearby = _resolved(system, found, reach, rng, effort, spread, depth)
         if len(nearby) == 1 and (found.corank > 1 or nearby[0].place is Place.ON_COMPONENT):
             return nearby[0]
         if nearby:
@@ -164,7 +186,11 @@ def _by_dual_space(
     spaces: list[DualSpace] = []
     for field in [PrimeField(p) for p in PRIMES] if exact is not None else [NUMBERS]:
         centre = found.point if exact is None else [modular(q, field.modulus) for q in exact]
-        spaces.append(_dual_space(system, field, centre, found, search.succeeds, patience))
+        try:
+            spaces.append(_dual_space(system, field, centre, found, search.succeeds, patience))
+        except _TooLarge:
+            if not search.last():
+                raise
         if search.dimension:
             reason = "a curve of zeros was followed to the point"
             return _end(system, found, Place.ON_COMPONENT, 0, reason, search.dimension)
@@ -212,6 +238,7 @@ def _resolved(
     reach: float,
     rng: np.random.Generator,
     effort: Effort,
+    spread: float,
     depth: int,
 ) -> list[SingularEnd]:
     """The zeros of a cluster about a point, each judged by itself.
@@ -224,7 +251,7 @@ def _resolved(
     for start, size, regular in close_zeros(system, found, reach, rng):
         if component is not None and not regular:
             break
-        end = _judged(system, start, size - 4.0, rng, effort, depth + 1)
+        end = _judged(system, start, size - 4.0, rng, effort, spread, depth + 1)
         if end.dimension:
             component = end
         for one in end.nearby or (end,):

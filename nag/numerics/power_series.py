@@ -19,6 +19,8 @@ BITS = 10
 MASK = (1 << BITS) - 1
 # Sums of up to so many terms are not worth a matrix.
 SMALL = 400
+# Terms from which on series in one variable are multiplied in compiled code.
+LONG = 12
 
 Series = dict[int, Any]
 Terms = Sequence[tuple[tuple[int, ...], Any]]
@@ -50,6 +52,8 @@ class SeriesRing:
         return tuple(key >> BITS * i & MASK for i in range(self.m))
 
     def multiply(self, a: Series, b: Series) -> Series:
+        if self.m == 1 and min(len(a), len(b)) >= LONG:
+            return self._multiply_long(a, b)
         limit = (self.order + 1) << BITS * self.m
         second = sorted(b.items())
         result: Series = {}
@@ -60,6 +64,18 @@ class SeriesRing:
                     break
                 result[key] = result[key] + x * y if key in result else x * y
         return {k: c % self.modulus for k, c in result.items()} if self.modulus else result
+
+    def _multiply_long(self, a: Series, b: Series) -> Series:
+        """The product in one variable, in compiled code."""
+        unit = self.unit(0)
+        dense = [[x.get(k * unit, 0) for k in range(max(x) // unit + 1)] for x in (a, b)]
+        if self.modulus:
+            first, second = (flint.nmod_poly(x, self.modulus) for x in dense)
+            found = [int(c) for c in first.mul_low(second, self.order + 1).coeffs()]
+        else:
+            first, second = (flint.acb_poly(x) for x in dense)
+            found = [c.mid() for c in (first * second).coeffs()[: self.order + 1]]
+        return {k * unit: c for k, c in enumerate(found) if c}
 
     def add(self, total: Series, a: Series, factor: Any) -> None:
         """Add ``factor * a`` to ``total``."""
@@ -108,6 +124,31 @@ def composed(rows: Sequence[Terms], images: Sequence[Series], ring: SeriesRing) 
         for e, c in row:
             ring.add(total, monomial(e), c)
         result.append(total)
+    return result
+
+
+def shifted(rows: Sequence[Terms], centre: Sequence[Any], ring: SeriesRing) -> list[Series]:
+    """Polynomials about another point, one variable after the other."""
+    result = []
+    for row in rows:
+        terms: dict[tuple[int, ...], Any] = {}
+        for e, c in row:
+            terms[e] = terms[e] + c if e in terms else c
+        for i, x in enumerate(centre):
+            if not x:
+                continue
+            moved: dict[tuple[int, ...], Any] = {}
+            powers: list[Any] = [1]
+            for e, c in terms.items():
+                while len(powers) <= e[i]:
+                    powers.append(powers[-1] * x % ring.modulus if ring.modulus else powers[-1] * x)
+                for k in range(e[i] + 1):
+                    to = (*e[:i], k, *e[i + 1 :])
+                    part = c * (comb(e[i], k) * powers[e[i] - k])
+                    moved[to] = moved[to] + part if to in moved else part
+            terms = {e: c % ring.modulus for e, c in moved.items()} if ring.modulus else moved
+        kept = {ring.key(e): c for e, c in terms.items() if sum(e) <= ring.order}
+        result.append(kept if ring.modulus else {k: flint.acb(c).mid() for k, c in kept.items()})
     return result
 
 

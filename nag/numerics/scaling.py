@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from math import floor, log2
+from operator import mul
 
 import numpy as np
 
@@ -35,25 +36,25 @@ def variable_scales(polynomials: Sequence[Polynomial], n: int) -> np.ndarray:
     The least squares problem of the logarithms of all coefficients, the equations free to be
     scaled too.
     """
-    rows: list[np.ndarray] = []
-    right: list[float] = []
-    for f in polynomials:
-        if len(f.terms) < 2:
-            continue
-        exponents = np.array(list(f.terms), dtype=float)
-        sizes = np.array([magnitude(c) for c in f.terms.values()])
-        rows.append(exponents - exponents.mean(axis=0))
-        right.extend(sizes.mean() - sizes)
-    if not rows:
+    several = [f.terms for f in polynomials if len(f.terms) > 1]
+    if not several:
         return np.zeros(n, dtype=np.int64)
-    matrix = np.vstack([*rows, INERTIA * np.eye(n)])
-    solution, *_ = np.linalg.lstsq(matrix, np.concatenate([right, np.zeros(n)]), rcond=None)
+    exponents = np.array([e for terms in several for e in terms], dtype=float)
+    sizes = np.array([magnitude(c) for terms in several for c in terms.values()])
+    counts = np.array([len(terms) for terms in several])
+    first = np.append(0, np.cumsum(counts)[:-1])
+    means = np.add.reduceat(exponents, first) / counts[:, None]
+    mean_sizes = np.add.reduceat(sizes, first) / counts
+    matrix = np.vstack([exponents - np.repeat(means, counts, axis=0), INERTIA * np.eye(n)])
+    right = np.append(np.repeat(mean_sizes, counts) - sizes, np.zeros(n))
+    solution, *_ = np.linalg.lstsq(matrix, right, rcond=None)
     return np.clip(np.rint(solution), -LARGEST, LARGEST).astype(np.int64)
 
 
 def scaled_terms(f: Polynomial, scales: np.ndarray) -> dict[Exponents, Number]:
     """Terms of ``f`` in the scaled variables, divided by a power of two near the largest."""
-    shifts = {e: int(np.dot(e, scales)) for e in f.terms}
+    weights = scales.tolist()
+    shifts = {e: sum(map(mul, e, weights)) for e in f.terms}
     top = floor(max((magnitude(c) + shifts[e] for e, c in f.terms.items()), default=0.0))
     powers = {shift: Fraction(2) ** (shift - top) for shift in set(shifts.values())}
     return {e: c if shifts[e] == top else c * powers[shifts[e]] for e, c in f.terms.items()}

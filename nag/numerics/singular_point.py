@@ -58,7 +58,7 @@ class SingularEnd:
 def analyse(
     polynomials: Sequence[Polynomial],
     x: np.ndarray | Sequence[complex | str | tuple[str, str] | flint.acb],
-    accuracy: float,
+    accuracy: float | np.ndarray,
     rng: np.random.Generator,
     slices: np.ndarray | None = None,
     place_only: bool = False,
@@ -75,7 +75,8 @@ def analyse(
         polynomials: exact, in ``n`` variables.
         x: the point: complex doubles, decimal texts (or pairs of them, real and imaginary parts),
             or `flint.acb`.
-        accuracy: how far the zero may be, relative to the size of ``x`` or to one.
+        accuracy: how far the zero may be, relative to the size of ``x`` or to one; or how far each
+            of its coordinates, absolute, shape ``(n,)``.
         rng: chooses directions and hyperplanes.
         slices: further linear equations as rows on ``(1, x)``, complex, taken as exact.
         place_only: whether 150 digits will do for coefficients of any length, as only where the

@@ -23,7 +23,7 @@ WRITTEN = 1e-90
 def possible_zeros(
     equations: Sequence[Polynomial],
     x: np.ndarray,
-    accuracy: float,
+    accuracy: float | np.ndarray,
     rng: np.random.Generator,
     slices: np.ndarray | None = None,
     place_only: bool = False,

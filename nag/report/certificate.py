@@ -20,7 +20,8 @@ WORDS = {
     Proof.SIMPLE: "simple zeros of all equations, one in each box",
     Proof.PART: "simple zeros of as many equations as unknowns, the others vanishing there to "
     "{digits} digits, which is evidence and no proof",
-    Proof.DEFLATED: "singular, as simple zeros of deflated equations",
+    Proof.DEFLATED: "singular, as simple zeros of as many deflated equations as unknowns, the "
+    "others vanishing there to {digits} digits",
     Proof.EXACT: "singular, as exact rational zeros",
     Proof.NONE: "not proved",
 }
@@ -35,6 +36,9 @@ def solution_rows(certificate: SolutionsCertificate, seconds: float) -> Rows:
     open_ = int(proved.sum()) - real - complex_
     rows.append(("reality", text + (f", {open_} open" if open_ else "")))
     rows += _distinct_rows(certificate.same, certificate.unknown)
+    for what, count in certificate.contradicted.items():
+        text = f"{count} of the solutions that are said to be {what} are proved not to be"
+        rows.append(("refuted", text))
     lost = int((proved & ~certificate.nonzero).sum())
     if lost:
         rows.append(("doubt", f"{lost} may be zeros of what must not vanish"))
@@ -130,10 +134,11 @@ def _points_rows(
     total = sum(counts.values())
     proved = total - counts[Proof.NONE]
     rows = [("certified", f"{proved} of {total} {what}")]
-    digits = min((float(g.digits[g.having(Proof.PART)].min(initial=np.inf)) for g in groups),
-                 default=np.inf)  # fmt: skip
-    many = f"{digits:.0f}" if np.isfinite(digits) else "all"
-    rows += [("", f"{counts[p]} {WORDS[p].format(digits=many)}") for p in Proof if counts[p]]
+    rows += [
+        ("", f"{counts[p]} {WORDS[p].format(digits=_least_digits(groups, p))}")
+        for p in Proof
+        if counts[p]
+    ]
     if images:
         there = sum(int(g.boxes.proved.sum()) for g in images)
         points = sum(len(g.points) for g in images)
@@ -148,6 +153,13 @@ def _points_rows(
         text = f"no point is further from its zero than {magnitude(largest)}, relative to its size"
         rows.append(("error", text))
     return rows
+
+
+def _least_digits(groups: Iterable[CertifiedPoints], proof: Proof) -> str:
+    """Digits to which equations that a proof of this kind did not need vanish, in words."""
+    least = min((float(g.digits[g.having(proof)].min(initial=np.inf)) for g in groups),
+                default=np.inf)  # fmt: skip
+    return f"{least:.0f}" if np.isfinite(least) else "all"
 
 
 def _distinct_rows(same: tuple[tuple[int, int], ...], unknown: tuple[tuple[int, int], ...]) -> Rows:

@@ -15,18 +15,17 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.branches import branches
-from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.generic_multiplicity import (
     generic_multiplicity,
     independent_gradients,
-    is_own_ring,
 )
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.vanishing import Vanishing, follows
+from nag.algebra.vanishing import Vanishing
 from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.small_values import NONZERO, SLACK, widened
@@ -37,6 +36,7 @@ from nag.numerics.zero_values import (
     possible_zeros,
     vanishes_at_all,
 )
+from nag.solving.lifted_solution import lifted_solution
 from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
@@ -56,14 +56,14 @@ class _Found:
 
     Attributes:
         zero: the exact zero, where it is one of an algebraic branch.
-        elimination: what led from the branch to the system that was tracked otherwise.
-        branch: the branch's own equations.
+        branch: where it is one of a system that was tracked, what led there from the branch.
+        tracked: the solution of that system.
     """
 
     solution: Solution
     zero: AlgebraicZero | None = None
-    elimination: Elimination | None = None
-    branch: tuple[Polynomial, ...] = ()
+    branch: BranchEquations | None = None
+    tracked: Solution | None = None
 
     @cached_property
     def vanishes(self) -> Vanishing:
@@ -78,20 +78,24 @@ class _Found:
             return False
         if self.zero is not None:
             return None
-        assert self.elimination is not None
-        reduced = self.elimination
-        image = f.compose(reduced.images)
-        if follows(image, reduced):
+        assert self.branch is not None
+        image, zero = self.branch.image(f)
+        if zero:
             return True
         return vanishes_at_all(self._zeros, image)
 
     @cached_property
     def _zeros(self) -> tuple[SingularEnd, ...]:
-        """The exact zeros of the system that was tracked that this may be."""
-        assert self.elimination is not None
-        reduced, x = self.elimination, self.solution.point
-        y, rng = reduced.project(x), np.random.default_rng(0)
-        zeros = possible_zeros(reduced.system.polynomials, y, self.solution.accuracy, rng)
+        """The exact zeros of the system that was tracked that this may be.
+
+        Paths end at a zero as many times as its multiplicity says: no other is meant.
+        """
+        assert self.branch is not None
+        assert self.tracked is not None
+        equations = self.branch.elimination.system.polynomials
+        y, error = _known(self.tracked)
+        zeros = possible_zeros(equations, y, error, np.random.default_rng(0))
+        zeros = tuple(z for z in zeros if z.multiplicity == self.tracked.multiplicity)
         return alike(zeros, y) if len(zeros) > 1 else zeros
 
     @cached_property
@@ -103,10 +107,15 @@ class _Found:
 
         from nag.numerics.digits import number, point
 
-        assert self.elimination is not None
+        assert self.branch is not None
         with flint.ctx.workdps(WORKING):
             y = point(self._zeros[0].digits)
-            return [flint.acb(f(y, number)).mid() for f in self.elimination.images]
+            return [flint.acb(f(y, number)).mid() for f in self.branch.elimination.images]
+
+
+def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
+    """The point, and its error: of each coordinate where these are known."""
+    return solution.point, solution.accuracy if solution.radii is None else solution.radii
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,17 +189,16 @@ def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
     zeros = algebraic_zeros(system, two_variables=exactly)
     if zeros is not None:
         return _algebraic(system, zeros)
-    elimination = eliminate_linear(system)
+    branch = BranchEquations(system, graphs=True)
+    elimination = branch.elimination
     reduced = elimination.system
     if not reduced.polynomials:
         # A linear space, or a graph over one: every point of it will do.
         point = elimination.lift(np.ones((1, reduced.n), dtype=complex))
         return _Part(system, (), None, point, np.zeros((0, system.n), dtype=complex))
     result = tracked(reduced)
-    equations = system.polynomials
     found = tuple(
-        _Found(replace(s, point=elimination.lift(s.point)), None, elimination, equations)
-        for s in result.solutions
+        _Found(lifted_solution(s, elimination), None, branch, s) for s in result.solutions
     )
     lifted = elimination.lift
     return _Part(system, found, result, lifted(result.on_components), lifted(result.undecided))
@@ -340,7 +348,7 @@ def _near(each: _Found, others: Sequence[_Found]) -> bool:
 def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
     """The multiplicity of a solution in the scheme of all equations; 0 if it was not found."""
     x, accuracy = each.solution.point, each.solution.accuracy
-    if each.branch and is_own_ring(equations, each.branch, each.vanishes):
+    if each.branch is not None and each.branch.is_own_ring(equations, each.vanishes):
         return each.solution.multiplicity
 
     def independent(polynomials: Sequence[Polynomial]) -> bool:
@@ -349,10 +357,12 @@ def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
         if each.solution.precision >= DIGITS:
             # Each coordinate is known to rounding, however small it is beside the others.
             return independent_gradients(*scaled_at(polynomials, x), SLACK * accuracy)
+        if each.solution.radii is not None:
+            return independent_gradients(polynomials, x, SLACK * each.solution.radii)
         return independent_gradients(polynomials, x, widened(x, accuracy))
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
-        at, error = x, accuracy
+        at, error = _known(each.solution)
         if each.zero is not None:
             at, error = each.zero.known_to(BITS), 2.0**-BITS
         elif each.in_digits is not None:

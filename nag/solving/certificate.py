@@ -68,9 +68,25 @@ class SolutionsCertificate:
         return not self.same and not self.unknown
 
     @property
+    def contradicted(self) -> dict[str, int]:
+        """What the result says of so many solutions, and is proved to be false."""
+        solutions, proofs = self.result.solutions, self.points.proofs
+        said_real = np.array([s.real for s in solutions], dtype=bool)
+        said_simple = np.array([s.multiplicity == 1 for s in solutions], dtype=bool)
+        simple = np.array([p is Proof.SIMPLE for p in proofs], dtype=bool)
+        singular = np.array([p in (Proof.EXACT, Proof.DEFLATED) for p in proofs], dtype=bool)
+        found = {
+            "real": said_real & self.not_real,
+            "not real": ~said_real & self.real,
+            "multiple": ~said_simple & simple,
+            "simple": said_simple & singular,
+        }
+        return {what: int(false.sum()) for what, false in found.items() if false.any()}
+
+    @property
     def all_proved(self) -> bool:
-        """Whether something is proved of each solution, and each pair is distinct."""
-        return Proof.NONE not in self.points.proofs and self.distinct
+        """Whether something is proved of each solution and nothing against it, and all differ."""
+        return Proof.NONE not in self.points.proofs and self.distinct and not self.contradicted
 
     @property
     def complete(self) -> bool:

@@ -14,7 +14,8 @@ import numpy as np
 from nag.algebra.zero_count import ZeroCount, most_zeros
 from nag.solving.judged_ends import JudgedEnds
 from nag.solving.square_problem import SquareProblem
-from nag.solving.start.target import Start
+from nag.solving.start.choice import FEW
+from nag.solving.start.target import Start, StartError
 from nag.tracking.paths import Paths, PathStatus
 
 
@@ -37,9 +38,25 @@ def counted(problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds
         return replace(ends, count=ZeroCount(len(paths), False)) if patient else ends
     if begin.complete and bool((paths.status == PathStatus.REGULAR).all()):
         return ends
-    if ends.zeros == begin.known.most:
-        return replace(ends, count=ZeroCount(begin.known.most, False))
+    if ends.zeros in (begin.known.most, _mixed_volume(problem, begin)):
+        return replace(ends, count=ZeroCount(ends.zeros, False))
     return replace(ends, count=most_zeros(problem.system.polynomials, ends.zeros, patient))
+
+
+def _mixed_volume(problem: SquareProblem, begin: Start) -> int | None:
+    """The mixed volume of the equations' polytopes, each with the origin, if few zeros are.
+
+    No system of these supports has more isolated zeros, by multiplicity, also where coordinates
+    vanish (Li & Wang, The BKK root count in C^n, 1996).
+    """
+    if begin.known.bound is not None or problem.squared or len(begin.points) > FEW:
+        return begin.known.bound
+    from nag.solving.start.mixed_cells import mixed_cells
+
+    try:
+        return mixed_cells(problem.target.supports, np.random.default_rng(0)).mixed_volume
+    except StartError:
+        return None
 
 
 def verdict(ends: JudgedEnds) -> Verdict:

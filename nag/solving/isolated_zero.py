@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,16 +16,18 @@ from nag.tracking.paths import Ball
 # Digits in which the quotients of projective coordinates are worked out, and errors of points that
 # are written to 100 digits.
 DIGITS, WRITTEN = 110, 1e-95
+# Relative error of a coordinate in doubles, where a few operations led to it.
+ROUNDING = 2.0**-50
 # Least distance, beside their size or one, of zeros that are two.
 TWO = 1e-80
 
 
 @dataclass(frozen=True, eq=False)
 class FinePoint:
-    """Coordinates in FLINT's ``acb``, with an error relative to the point's size or to one."""
+    """Coordinates in FLINT's ``acb``, and their errors, absolute, shape ``(n,)``."""
 
     coordinates: tuple[Any, ...]
-    error: float
+    radii: np.ndarray
 
     @classmethod
     def of_ball(cls, begin: Start, ball: Ball) -> FinePoint:
@@ -33,7 +36,7 @@ class FinePoint:
 
         shift, radii = len(begin.groups), ball.radii
         values: dict[int, Any] = {}
-        errors = []
+        errors: dict[int, float] = {}
         with flint.ctx.workdps(DIGITS):
             x = [number(c) for c in ball.centre]
             for k, group in enumerate(begin.groups):
@@ -41,12 +44,17 @@ class FinePoint:
                 for i in group:
                     values[i] = (x[shift + i] / x[k]).mid()
                     own = float(abs(values[i]).mid())
-                    errors.append((radii[shift + i] + own * radii[k]) / size / (1 + own))
-        return cls(tuple(values[i] for i in sorted(values)), float(max(errors, default=0.0)))
+                    errors[i] = (radii[shift + i] + own * radii[k]) / size
+        order = sorted(values)
+        return cls(tuple(values[i] for i in order), np.array([errors[i] for i in order]))
 
     @classmethod
-    def of_end(cls, end: SingularEnd) -> FinePoint | None:
-        """The coordinates that the judgement of an end gives; None if it gives none."""
+    def of_end(cls, end: SingularEnd, scales: Sequence[int] = ()) -> FinePoint | None:
+        """The coordinates that the judgement of an end gives; None if it gives none.
+
+        Args:
+            scales: powers of two over which the end's variables are these.
+        """
         if not end.digits:
             return None
         import flint
@@ -54,11 +62,20 @@ class FinePoint:
         from nag.numerics.digits import point
 
         with flint.ctx.workdps(DIGITS):
-            return cls(tuple(point(end.digits)), WRITTEN)
+            x, radii = point(end.digits), WRITTEN * (1 + np.abs(end.point))
+            if len(scales):
+                x = [c * flint.arb(2) ** int(k) for c, k in zip(x, scales, strict=True)]
+                radii = radii * np.exp2(scales)
+            return cls(tuple(x), radii)
+
+    @property
+    def error(self) -> float:
+        """The largest error, relative to the coordinate's size or to one."""
+        sizes = np.array([float(abs(c).mid()) for c in self.coordinates])
+        return float((self.radii / (1 + sizes)).max(initial=0.0))
 
 
-@dataclass(frozen=True, eq=False)
-class IsolatedZero:
+class IsolatedZero(NamedTuple):
     """An isolated solution in the scaled variables; ``fine``: more digits of it, if known."""
 
     point: np.ndarray
@@ -68,6 +85,13 @@ class IsolatedZero:
     condition: float
     precision: int
     fine: FinePoint | None = None
+
+    @property
+    def radii(self) -> np.ndarray | None:
+        """Errors of the coordinates in doubles, shape ``(n,)``, where each is known."""
+        if self.fine is None:
+            return None
+        return self.fine.radii + ROUNDING * np.abs(self.point)
 
     @classmethod
     def of_end(cls, end: SingularEnd, residual: float, precision: int) -> IsolatedZero:

@@ -5,22 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from itertools import repeat
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import ZeroCount
-from nag.numerics.coincidence import SAFETY, clusters, coincident, conjugates_present
+from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.small_values import ON
 from nag.solving.isolated_zero import FinePoint, IsolatedZero
+from nag.solving.reality import which_are_real
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
 from nag.tracking.paths import Paths, PathStatus
 
-# Imaginary parts of real points, relative to their size; their conjugates must be points as well.
-REAL = 1e-10
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
 # Points evaluated at once.
@@ -31,10 +31,10 @@ BLOCK = 2048
 class JudgedEnds:
     """The end points of all paths, sorted; coordinates are those of the original variables.
 
-    ``close``: the paths to those undecided. ``isolated``: the isolated zeros of all equations in
-    the scaled variables, those included that ``nonzero`` leaves out. ``unclear``: what notes say
-    of ends that are no such zeros, or may not be; ``notes``: all else. ``count``: how many zeros
-    there are, by exact algebra, where that was asked.
+    ``close``: the paths to ends that may be several zeros close together. ``isolated``: the
+    isolated zeros of all equations in the scaled variables, those included that ``nonzero`` leaves
+    out. ``unclear``: what notes say of ends that are no such zeros, or may not be; ``notes``: all
+    else. ``count``: how many zeros there are, by exact algebra, where that was asked.
     """
 
     solutions: tuple[Solution, ...]
@@ -122,6 +122,7 @@ def judged_ends(
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
         # Of a cluster with as many zeros as paths, each is the end of its own.
         met = found.place is Place.CLUSTER and whole and multiplicity == len(group)
+        several = found.close or (bool(multiplicity) and whole and multiplicity != len(group))
         if met or found.place is Place.ISOLATED:
             isolated.extend(found.isolated)
             if whole and multiplicity != len(group):
@@ -131,7 +132,7 @@ def judged_ends(
             place = Place.UNDECIDED if found.place is Place.CLUSTER else found.place
             # Where equations were added, an end stands for one point of a component.
             elsewhere[place].extend(zeros.points[[best] if problem.added else group])
-        if found.close:
+        if several:
             close.extend(zeros.path[group].tolist())
         if finite and found.place is Place.ON_COMPONENT:
             unclear.append("the solution set is not finite; the other ends were not looked at")
@@ -185,7 +186,6 @@ def _zeros(
 
 def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
     """Regular ends as zeros of the equations."""
-
     path = zeros.path[chosen]
     columns = (
         zeros.residual[chosen],
@@ -193,17 +193,12 @@ def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> li
         paths.condition[path],
         paths.precision[path],
     )
-    return [
-        IsolatedZero(
-            point,
-            1,
-            *numbers,
-            FinePoint.of_ball(begin, paths.balls[i]) if i in paths.balls else None,
-        )
-        for i, point, *numbers in zip(
-            path.tolist(), zeros.points[chosen], *(c.tolist() for c in columns), strict=True
-        )
-    ]
+    fine = repeat(None)
+    if paths.balls:
+        balls = [paths.balls.get(i) for i in path.tolist()]
+        fine = [None if ball is None else FinePoint.of_ball(begin, ball) for ball in balls]
+    points = zeros.points[chosen]
+    return list(map(IsolatedZero, points, repeat(1), *(c.tolist() for c in columns), fine))
 
 
 def _place(
@@ -227,14 +222,22 @@ def _place(
         if not solves:
             return _Place(None)
         return _Place(Place.ISOLATED, tuple(_simple(begin, zeros, np.array([i]), paths)))
-    end = analyse(problem.equations, point, accuracy, rng)
+    # The coordinates of a limit either vanish or are known each by itself.
+    limit = int(path) in paths.branches
+    errors = accuracy * np.abs(point) if limit else accuracy
+    end = analyse(problem.equations, point, errors, rng)
     members = [end]
     if end.place is Place.CLUSTER:
         met = coincident(zeros.points[zeros.alone()], end.point, max(accuracy, end.accuracy))
+        if end.dimension and met.sum() == sum(z.multiplicity for z in end.nearby):
+            # All that is isolated there are ends of other paths.
+            return _Place(Place.ON_COMPONENT)
         members = [] if met.any() else list(end.nearby)
     isolated = tuple(
         IsolatedZero.of_end(z, residual, precision)
-        for z, residual in zip(members, _residuals(evaluator, _points(members)), strict=True)
+        for z, residual in zip(
+            members, _residuals(evaluator, _points(members, len(point))), strict=True
+        )
         if z.place is Place.ISOLATED
     )
     return _Place(end.place, isolated, end.place is Place.UNDECIDED)
@@ -266,30 +269,40 @@ def _together(
     return best, replace(found, isolated=tuple(isolated))
 
 
-def _points(ends: Sequence[SingularEnd]) -> np.ndarray:
+def _points(ends: Sequence[SingularEnd], n: int) -> np.ndarray:
     """The points of ends, shape ``(k, n)``."""
-    return np.array([end.point for end in ends]).reshape(len(ends), -1)
+    return np.array([end.point for end in ends]).reshape(len(ends), n)
 
 
 def _solutions(
     problem: SquareProblem, isolated: Sequence[IsolatedZero]
 ) -> tuple[tuple[Solution, ...], tuple[Solution, ...], tuple[str, ...]]:
     """The solutions where nothing vanishes that must not, and those that were left out; notes."""
-    points = np.array([s.point for s in isolated], dtype=complex).reshape(-1, problem.system.n)
+    points = np.concatenate(
+        [np.zeros(0), *(s.point for s in isolated)], dtype=np.complex128
+    ).reshape(-1, problem.system.n)
     accuracy = np.array([s.accuracy for s in isolated])
     multiplicity = np.array([s.multiplicity for s in isolated], dtype=np.int64)
-    sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
-    imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
-    real = imaginary <= np.maximum(SAFETY * accuracy, REAL) * sizes
+    real = which_are_real(isolated)
     paired = bool(conjugates_present(points, accuracy, multiplicity, real))
     answers: list[bool | None] = [False] * len(isolated)
     if problem.nonzero:
         answers = [problem.excluded(s) for s in isolated]
     original = np.array(problem.target.original(points), dtype=np.complex128)
     original.setflags(write=False)
+    errors = (accuracy + problem.target.rounding(points)).tolist()
     solutions = [
-        Solution(point, s.multiplicity, is_real, s.residual, s.accuracy, s.condition, s.precision)
-        for point, s, is_real in zip(original, isolated, real.tolist(), strict=True)
+        Solution(
+            point,
+            s.multiplicity,
+            is_real,
+            s.residual,
+            error,
+            s.condition,
+            s.precision,
+            problem.target.original_radii(point, s.radii),
+        )
+        for point, s, is_real, error in zip(original, isolated, real.tolist(), errors, strict=True)
     ]
     kept, left_out = (
         tuple(s for s, answer in zip(solutions, answers, strict=True) if answer is wanted)

@@ -9,7 +9,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.solving.counted import Verdict, doubtful, verdict
-from nag.solving.isolated_zero import IsolatedZero
+from nag.solving.isolated_zero import FinePoint, IsolatedZero
 from nag.solving.judged_ends import JudgedEnds, enlarged
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
@@ -46,7 +46,16 @@ def with_missing_zeros(
     least = 0.0 if verdict(ends) is Verdict.MISSING else EXTREME
     far = tropical_zeros(problem.equations, *_known(problem, ends), rng, least)
     zeros = [
-        IsolatedZero(z.point, 1, z.residual, z.end.accuracy, z.end.condition, DIGITS) for z in far
+        IsolatedZero(
+            z.point,
+            1,
+            z.residual,
+            z.end.accuracy,
+            z.end.condition,
+            DIGITS,
+            FinePoint.of_end(z.end, z.scales),
+        )
+        for z in far
     ]
     return enlarged(problem, ends, zeros) if zeros else ends
 

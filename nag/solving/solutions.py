@@ -8,6 +8,8 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 
+COMPLEX = np.dtype(np.complex128)
+
 
 @dataclass(frozen=True, eq=False)
 class Solution:
@@ -22,6 +24,8 @@ class Solution:
         condition: condition number of the Jacobian that determines the point; of a multiple
             solution that of the deflated system.
         precision: decimal digits of the arithmetic that was needed.
+        radii: errors of the coordinates, absolute, shape ``(n,)``; None where only ``accuracy`` is
+            known.
     """
 
     point: np.ndarray
@@ -31,8 +35,11 @@ class Solution:
     accuracy: float
     condition: float
     precision: int
+    radii: np.ndarray | None = None
 
     def __post_init__(self) -> None:
+        if getattr(self.point, "dtype", None) is COMPLEX and not self.point.flags.writeable:
+            return
         point = np.asarray(self.point, dtype=np.complex128)
         # What can be written to may be changed by others.
         if point.flags.writeable:

@@ -11,6 +11,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import ZeroCount
 from nag.solving.branch_solutions import solve_apart
+from nag.solving.conjugate_ends import with_conjugate_ends
 from nag.solving.counted import Verdict, counted, doubtful, verdict
 from nag.solving.judged_ends import JudgedEnds, judged_ends
 from nag.solving.missing_zeros import with_missing_zeros
@@ -96,9 +97,10 @@ def _solve_whole(
     paths = track(begin.homotopy, begin.points, settings, threads, known=begin.known)
 
     def look(paths: Paths, count: ZeroCount | None = None) -> JudgedEnds:
-        ends = judged_ends(problem, begin, paths, rng, finite)
-        ends = replace(ends, count=count) if count else counted(problem, begin, paths, ends)
-        return with_missing_zeros(problem, begin, paths, ends, rng)
+        whole = with_conjugate_ends(begin, paths)
+        ends = judged_ends(problem, begin, whole, rng, finite)
+        ends = replace(ends, count=count) if count else counted(problem, begin, whole, ends)
+        return with_missing_zeros(problem, begin, whole, ends, rng)
 
     ends = look(paths)
     unclear = len(ends.close) and not (finite and len(ends.on_components))
@@ -115,6 +117,7 @@ def _solve_whole(
         again = look(more, ends.count)
         if again.zeros > ends.zeros or verdict(again) is Verdict.ALL:
             paths, ends = more, again
+    paths = with_conjugate_ends(begin, paths)
     return _result(problem, begin, reason, paths, ends, seed, name)
 
 

@@ -55,7 +55,10 @@ class SquareProblem:
         square = _squared([*equations, *slices], n, rng)
         target = Target.of(square, n, digits)
         nonzero = tuple(target.scaled(f) for f in system.nonzero)
-        mended = tuple(target.scaled(f) for f in [*equations, *slices])
+        if len(equations) + added == n:
+            mended = tuple(Polynomial(n, terms) for terms in target.given)
+        else:
+            mended = tuple(target.scaled(f) for f in [*equations, *slices])
         return cls(system, mended, nonzero, target, added, len(equations) > n)
 
     def solves(self, x: np.ndarray) -> bool | None:

@@ -48,11 +48,13 @@ class TropicalZero:
         point: shape ``(n,)``.
         end: what is known of it, in coordinates of about size one.
         residual: largest value of an equation over the sum of the sizes of its terms.
+        scales: the powers of two over which those coordinates are.
     """
 
     point: np.ndarray
     end: SingularEnd
     residual: float
+    scales: np.ndarray
 
 
 def tropical_zeros(
@@ -148,7 +150,7 @@ def _zero(
             if end.place is not Place.ISOLATED or end.multiplicity != 1:
                 return None
             residual = float(evaluator.residuals(end.point[None]).max())
-            return TropicalZero(end.point * np.exp2(scales), end, residual)
+            return TropicalZero(end.point * np.exp2(scales), end, residual, scales)
     return None
 
 

@@ -12,9 +12,10 @@ import numpy as np
 from nag.tracking.compiled import CompiledRows, Terms
 from nag.tracking.ends.follow import DIGITS, follow_whole
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.jumps import collisions
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings, named
-from nag.tracking.track import collisions, merged, without
+from nag.tracking.track import merged, without
 
 # Words of a start point, and Newton's constant above which double-double is not tried first.
 WORDS, STEEP = 4, 1e11

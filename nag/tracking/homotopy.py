@@ -12,9 +12,11 @@ from nag.tracking.compiled import CompiledRows, blend
 Factors = tuple[tuple[complex, complex], ...]
 
 
-def _frozen(array: np.ndarray | None, N: int) -> np.ndarray:
-    array = np.zeros((0, N)) if array is None else array
-    array = np.array(array, dtype=np.complex128).reshape(-1, N)
+def _frozen(array: np.ndarray | None, shape: tuple[int, int]) -> np.ndarray:
+    if array is None:
+        array = np.zeros((max(shape[0], 0), shape[1]), dtype=np.complex128)
+    else:
+        array = np.array(array, dtype=np.complex128).reshape(shape)
     array.setflags(write=False)
     return array
 
@@ -50,8 +52,8 @@ class Homotopy:
 
     def __post_init__(self) -> None:
         N = self.rows.N
-        A0 = _frozen(self.A0, N)
-        A1 = _frozen(np.zeros_like(A0) if self.A1 is None else self.A1, N)
+        A0 = _frozen(self.A0, (-1, N))
+        A1 = _frozen(self.A1, (len(A0) if self.A1 is None else -1, N))
         if A0.shape != A1.shape:
             raise ValueError(f"A0 has {len(A0)} rows, A1 has {len(A1)}")
         object.__setattr__(self, "A0", A0)

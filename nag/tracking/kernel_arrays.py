@@ -10,7 +10,7 @@ import numpy as np
 from nag.machine_code.lanes import VECTOR, aligned, separate
 from nag.machine_code.records import Reals, Table, Wholes, address, replaced, table
 from nag.tracking.compiled import CompiledRows
-from nag.tracking.homotopy import Homotopy
+from nag.tracking.homotopy import Homotopy, norms
 
 
 class System(NamedTuple):
@@ -158,6 +158,16 @@ def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
     if weights is None:
         homotopy._cache["system"] = made
     return made
+
+
+def at_end(homotopy: Homotopy) -> Table:
+    """The same for t = 0 alone, with linear rows scaled to norms between 1/2 and 1."""
+    made, A0 = system(homotopy), homotopy.A0
+    exponents = np.frexp(norms(A0))[1]
+    if not exponents.any():
+        return made
+    A0_re, A0_im = _parts(A0 * np.ldexp(1.0, -exponents)[:, None])
+    return replaced(made, A0_re=A0_re, A0_im=A0_im)
 
 
 def _template(homotopy: Homotopy) -> Table:

@@ -51,10 +51,12 @@ class Known:
             coordinates, has no other zeros: once these are found, all other paths lead to
             infinity.
         orbits: paths that need not be tracked, as others are their images.
+        bound: the target has no more isolated zeros, by multiplicity.
     """
 
     most: int | None = None
     orbits: PathOrbits | None = None
+    bound: int | None = None
 
 
 NOTHING = Known()

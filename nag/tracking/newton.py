@@ -66,11 +66,10 @@ def refine(
     A point where the Jacobian is singular is returned with a large ``error`` and whatever
     Newton's method made of it; compare ``moved`` with what was expected.
     """
-    from nag.tracking.kernel_arrays import system, work
+    from nag.tracking.kernel_arrays import at_end, work
     from nag.tracking.newton_kernel import Refinement, low_parts, newton_lanes
 
-    homotopy = rows if isinstance(rows, Homotopy) else Homotopy(rows, A)
-    fixed = _at(homotopy, t, homotopy.A0 + t * homotopy.A1 if A is None else A)
+    homotopy = _at(rows, A, t)
     start = homotopy.normalized(points)
     result = start.copy()
     P = len(start)
@@ -80,7 +79,7 @@ def refine(
         batch = Refinement(
             result, P, iterations, before, smallest, error, size, further, int(twice)
         )
-        newton_lanes(system(fixed), work(fixed, 1), low_parts(fixed), batch)
+        newton_lanes(at_end(homotopy), work(homotopy, 1), low_parts(homotopy), batch)
         evaluations.count(P * (iterations + 1 + int(twice)))
     # A matrix that is singular in double precision leaves NaN.
     before, smallest = (np.where(np.isfinite(v), v, 0.0) for v in (before, smallest))
@@ -94,10 +93,12 @@ def refine(
     return Refined(result, error, moved, before, smallest, size, condition, steps)
 
 
-def _at(homotopy: Homotopy, t: complex, A: np.ndarray) -> Homotopy:
-    """The homotopy at ``t``, with linear rows scaled to norms between 1/2 and 1."""
-    A = np.array(A, dtype=np.complex128).reshape(-1, homotopy.N)
-    exponents = np.frexp(np.linalg.norm(A, axis=1))[1]
-    factors = tuple((a + t * b, 0.0) for a, b in homotopy.factors)
-    scaled = A * np.ldexp(1.0, -exponents)[:, None]
-    return Homotopy(homotopy.rows, scaled, None, factors, homotopy.infinity)
+def _at(rows: CompiledRows | Homotopy, A: np.ndarray | None, t: complex) -> Homotopy:
+    """A homotopy that is at t = 0 what is to be solved."""
+    if not isinstance(rows, Homotopy):
+        return Homotopy(rows, A)
+    if A is None and t == 0:
+        return rows
+    A = rows.A0 + t * rows.A1 if A is None else A
+    factors = tuple((a + t * b, 0.0) for a, b in rows.factors)
+    return Homotopy(rows.rows, A, None, factors, rows.infinity)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
 
+from nag.algebra.number import Number
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import aligned, fma, load, splat, square_root, store
 from nag.machine_code.records import Complexes, Reals
@@ -52,10 +54,11 @@ def low_parts(homotopy: Homotopy) -> Low:
     rows = homotopy.rows
     if "low" not in rows._cache:
         parts = []
-        for row, scale in zip(rows.parts, rows.scales, strict=True):
-            inverse = 1 / Fraction(float(scale))
-            for _, terms in row:
-                parts += [words(terms[e], 2, inverse)[1::2] for e in sorted(terms, reverse=True)]
+        for row, blocks, scale in zip(
+            rows.parts, rows.in_doubles, rows.scales.tolist(), strict=True
+        ):
+            for (_, terms), block in zip(row, blocks, strict=True):
+                parts += [_low(terms[e], c, scale) for e, c in block]
         rows._cache["low"] = np.array(parts).reshape(-1, 2).T.copy()
     re, im = rows._cache["low"]
     size = homotopy.N + 1 + rows.tape.value_products
@@ -65,6 +68,17 @@ def low_parts(homotopy: Homotopy) -> Low:
         aligned(4 * size),
         aligned(4 * max(homotopy.N, 1)),
     )
+
+
+def _low(number: Number | complex, rounded: complex, scale: float) -> Sequence[float]:
+    """Real and imaginary part of what rounding took away from a coefficient over a power of two."""
+    if type(number) is Fraction:
+        a, b = rounded.real.as_integer_ratio()
+        rest = number.numerator * b - a * number.denominator
+        return (rest / (number.denominator * b) / scale if rest else 0.0, 0.0)
+    if isinstance(number, complex | float):
+        return (0.0, 0.0)
+    return words(number, 2, 1 / Fraction(scale))[1::2]
 
 
 def _residual(s, w, low):

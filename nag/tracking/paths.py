@@ -12,6 +12,8 @@ import numpy as np
 
 from nag.tracking.homotopy import Homotopy
 
+# Errors of ends in more digits that may be as much larger.
+SAFETY = 16
 # The order of a coordinate that vanishes all along a branch.
 NEVER = 1 << 40
 
@@ -147,7 +149,15 @@ class Paths:
     branches: Mapping[int, Branch] = field(default_factory=dict)
 
     def same(self, homotopy: Homotopy, i: int, j: int) -> bool:
-        """Whether two ends coincide in all digits that they are known to, if both are balls."""
+        """Whether two ends coincide in all digits that they are known to.
+
+        A limit in which coordinates vanish is no end in which they certainly do not.
+        """
+        for one, other in ((i, j), (j, i)):
+            if one in self.balls and other in self.branches:
+                ball, none = self.balls[one], self.points[other] == 0
+                sizes = np.hypot(*ball.centre[none, :, 0].T)
+                return not (sizes > SAFETY * ball.radii[none]).any()
         if i not in self.balls or j not in self.balls:
             return True
         first, second = self.balls[i].fractions(), self.balls[j].fractions()
@@ -160,7 +170,7 @@ class Paths:
                     for ball in (self.balls[i], self.balls[j])
                 )
                 a, b = _ratio(first[k], first[largest]), _ratio(second[k], second[largest])
-                if max(abs(float(a[0] - b[0])), abs(float(a[1] - b[1]))) > 16 * error:
+                if max(abs(float(a[0] - b[0])), abs(float(a[1] - b[1]))) > SAFETY * error:
                     return False
         return True
 

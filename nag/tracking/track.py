@@ -9,18 +9,16 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
 
-from nag.numerics.coincidence import neighbours
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.jumps import alike, collisions
 from nag.tracking.known import NOTHING, Known
 from nag.tracking.newton import refine
 from nag.tracking.paths import Paths, PathStatus, Reason
-from nag.tracking.projective import meeting
 from nag.tracking.settings import Settings, named, tighter
 
 # Newton's method may move the end of a path by so many of its errors, and by this much, or by this
@@ -35,10 +33,6 @@ PROOF = 1e5
 # Rounding errors of a homogenising coordinate that Newton's method found with residuals in
 # double-double, times the inverse of the smallest singular value.
 RESIDUAL = 1e-29
-# Leading coefficients of branches that differ by less are the same.
-ALIKE = 1e-9
-# Their next coefficients, over the sum of their sizes.
-BENT = 1e-4
 # A coordinate that exceeds the error of its point so many times does not vanish.
 NONZERO = 1e3
 # Below so many paths a second thread costs more than it brings.
@@ -120,7 +114,7 @@ def track_regular(
         weights: where each part is one term: part ``p`` is multiplied by
             ``exp(-weights[path, p] t)``, shape ``(P, parts)``.
     """
-    raw = _run(homotopy, homotopy.normalized(starts), settings, threads, False, weights)
+    raw = run_in_doubles(homotopy, homotopy.normalized(starts), settings, threads, False, weights)
     ended = np.flatnonzero(raw.reason == Reason.NONE)
     # A row may be small at a point near infinity, so that singular values would say nothing.
     sharp = refine(homotopy, None, raw.points[ended])
@@ -131,8 +125,11 @@ def track_regular(
 
 
 @dataclass(frozen=True, eq=False)
-class _Raw:
-    """Where the paths are after a run in doubles: see `nag.tracking.straight_run.Batch`."""
+class StraightRun:
+    """Where the paths are after a run in doubles: see `nag.tracking.straight_run.Batch`.
+
+    ``points``: shape ``(P, N)``, at t = 0 where ``reason`` is `Reason.NONE`.
+    """
 
     points: np.ndarray
     safe: np.ndarray
@@ -140,6 +137,23 @@ class _Raw:
     error: np.ndarray
     steps: np.ndarray
     reason: np.ndarray
+
+
+def ended(homotopy: Homotopy, points: np.ndarray, error: float) -> Paths | None:
+    """Zeros at t = 0 as paths that ended there, from points near them.
+
+    Args:
+        points: shape ``(P, N)``.
+        error: about how far they are from the zeros, relative to them.
+
+    Returns:
+        None unless each is proved to be near a finite regular zero, of its own.
+    """
+    P, points = len(points), homotopy.normalized(points)
+    none = np.zeros(P, dtype=np.int64)
+    raw = StraightRun(points, points, np.zeros(P), np.full(P, error), none, none)
+    paths, _ = _judged(homotopy, raw)
+    return paths if paths.simple.all() and not len(collisions(homotopy, paths)) else None
 
 
 def _attempt(
@@ -153,7 +167,7 @@ def _attempt(
     orbits = known.orbits
     if orbits is not None:
         starts = starts[orbits.chosen]
-    raw = _run(homotopy, starts, settings, threads, endgame)
+    raw = run_in_doubles(homotopy, starts, settings, threads, endgame)
     paths, regular = _judged(homotopy, raw)
     doubtful = paths.where(PathStatus.FAILED)
     doubtful = doubtful[raw.reason[doubtful] != Reason.START]
@@ -162,16 +176,27 @@ def _attempt(
         if known.most is not None and _all_are_found(homotopy, every, known.most):
             paths = _to_infinity(homotopy, paths, doubtful)
         else:
-            more = _followed(homotopy, raw, regular, doubtful, settings, threads)
-            if not endgame:
-                more = without(more, more.where(PathStatus.SINGULAR))
-            paths = merged(paths, more, doubtful)
+            infinite, ends = _infinite(homotopy, paths, doubtful[regular[doubtful]])
+            paths, doubtful = merged(paths, ends, infinite), np.setdiff1d(doubtful, infinite)
+            if len(doubtful):
+                more = _followed(homotopy, raw, regular, doubtful, settings, threads)
+                if not endgame:
+                    more = without(more, more.where(PathStatus.SINGULAR))
+                paths = merged(paths, more, doubtful)
     return paths if orbits is None else orbits.expanded(paths, homotopy.groups)
+
+
+def _infinite(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> tuple[np.ndarray, Paths]:
+    """Which of the paths ``chosen``, all to regular ends, lead to infinity, and these ends."""
+    from nag.tracking.ends.at_infinity import regular_paths
+
+    found, ends = regular_paths(homotopy, paths.points[chosen], paths.condition[chosen])
+    return chosen[found], ends
 
 
 def _followed(
     homotopy: Homotopy,
-    raw: _Raw,
+    raw: StraightRun,
     regular: np.ndarray,
     doubtful: np.ndarray,
     settings: Settings,
@@ -211,18 +236,19 @@ def _to_infinity(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> Paths:
     return replace(paths, points=points, status=status, reason=reason)
 
 
-def _run(
+def run_in_doubles(
     homotopy: Homotopy,
     starts: np.ndarray,
     settings: Settings,
     threads: int,
     endgame: bool,
     weights: np.ndarray | None = None,
-) -> _Raw:
+) -> StraightRun:
+    """Track paths once, in doubles alone; nothing is said of their ends."""
     from nag.tracking import kernel_arrays, straight_run
 
     P = len(starts)
-    raw = _Raw(
+    raw = StraightRun(
         starts.copy(),
         starts.copy(),
         np.ones(P),
@@ -266,7 +292,7 @@ def _run(
     return raw
 
 
-def _judged(homotopy: Homotopy, raw: _Raw) -> tuple[Paths, np.ndarray]:
+def _judged(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
     """Finite ends that Newton's method proves regular; the others have failed.
 
     Also which ends are regular ones of the homogenised system, shape ``(P,)``: whether those that
@@ -309,48 +335,6 @@ def without(paths: Paths, lost: np.ndarray) -> Paths:
     status[lost], reason[lost], winding[lost] = PathStatus.FAILED, Reason.ENDGAME, 0
     simple = paths.simple & (status != int(PathStatus.FAILED))
     return replace(paths, status=status, reason=reason, winding=winding, simple=simple)
-
-
-def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
-    """Indices of the paths with regular ends, finite or at infinity, that are another one's too.
-
-    Two ends coincide if they do in all digits that both are known to. A limit that is reached
-    without winding is compared with the regular ends as well.
-    """
-    # Paths that failed have no winding number.
-    chosen = np.flatnonzero((paths.simple | (paths.winding == 1)) & np.isfinite(paths.accuracy))
-    if len(chosen) < 2 or not paths.simple.any():
-        return chosen[:0]
-    found: set[int] = set()
-    for a, b in meeting(homotopy.groups, paths.points[chosen], paths.accuracy[chosen]).tolist():
-        i, j = chosen[[a, b]].tolist()
-        if (paths.simple[i] or paths.simple[j]) and paths.same(homotopy, i, j):
-            found |= {i, j}
-    return np.array(sorted(found), dtype=np.int64)
-
-
-def alike(paths: Paths) -> np.ndarray:
-    """Indices of the paths whose branches begin like another's, with the first two terms alike."""
-    kinds: dict[tuple[Fraction, ...], list[int]] = {}
-    for path, branch in paths.branches.items():
-        ratios = tuple(Fraction(k, branch.winding) for k in branch.orders)
-        kinds.setdefault(ratios, []).append(path)
-    found: set[int] = set()
-    for members in kinds.values():
-        if len(members) < 2:
-            continue
-        indices = np.array(members)
-        logs = np.array([paths.branches[path].logs for path in members])
-        bends = np.array([paths.branches[path].bends for path in members])
-        key = (logs.real + np.cos(logs.imag)) @ np.cos(np.arange(logs.shape[1]) ** 2)
-        for i, j in neighbours(key, np.full(len(key), 1e-6)):
-            difference = logs[i] - logs[j]
-            turns = np.abs(np.exp(1j * difference.imag) - 1)
-            same = np.maximum(np.abs(difference.real), turns).max(axis=1) < ALIKE
-            sizes = np.abs(bends[i]).max(axis=1) + np.abs(bends[j]).max(axis=1)
-            same &= np.abs(bends[i] - bends[j]).max(axis=1) <= BENT * sizes
-            found.update(indices[i[same]].tolist(), indices[j[same]].tolist())
-    return np.array(sorted(found), dtype=np.int64)
 
 
 def merged(old: Paths, new: Paths, indices: np.ndarray) -> Paths:

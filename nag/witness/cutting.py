@@ -16,6 +16,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.numerics.small_values import SLACK
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.witness.isosingular import Deflated, Level
@@ -36,6 +37,8 @@ FLAT = 1e-4
 NEWTON_STEPS = 12
 # Steps that are rounding errors, and residuals at points that are known.
 ROUNDING, VANISHING = 1e-14, 1e-11
+# Sizes are very unequal if they, and 1, differ by more than two to this power.
+UNEQUAL = 10
 # Rows of larger matrices are chosen by LAPACK, which takes longer to load than smaller ones take.
 MOST_ENTRIES = 2000
 
@@ -75,6 +78,22 @@ class Cut:
     @cached_property
     def evaluator(self) -> Evaluator:
         return Evaluator.of(self.polynomials, self.n + self.aux)
+
+    @cached_property
+    def powers(self) -> np.ndarray:
+        """Binary logarithms of sizes that make coefficients comparable, shape ``(n + aux,)``.
+
+        Zero where sizes are not very unequal.
+        """
+        powers = variable_scales(self.polynomials, self.n + self.aux)
+        return powers if np.ptp([*powers, 0]) > UNEQUAL else np.zeros_like(powers)
+
+    @cached_property
+    def scaled(self) -> Cut:
+        """The cut where coordinates are divided by two to the `powers`."""
+        total = self.n + self.aux
+        terms = [scaled_terms(f, self.powers) for f in self.polynomials]
+        return Cut(self.n, self.aux, tuple(Polynomial(total, own) for own in terms))
 
     @property
     def deflated(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -36,8 +36,6 @@ from nag.witness.witness import PathCounts
 
 # Newton's constant of points that are close, over their inverse distance.
 STEEPER = 2.0
-# Further attempts in coordinates of very unequal sizes, where one path in five failed at first.
-CAREFUL = 3
 
 # Called with a stage's name, the step reached and the number of steps.
 Progress = Callable[[str, int, int], None]
@@ -115,16 +113,6 @@ class Tracker:
         """Tell of the step ``done`` of ``total``; 0 if their number is not known."""
         if self.progress is not None:
             self.progress(stage, done, total)
-
-    def attempts(self) -> Iterator[Tracker]:
-        """How to move points in the user's coordinates, whose sizes may be very unequal.
-
-        Steps in such coordinates may be too long for some of the paths: what fails has others, with
-        the careful settings, on slices of its own.
-        """
-        yield self
-        for _ in range(CAREFUL):
-            yield replace(self, settings="careful")
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,10 +10,11 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.small_values import ON
+from nag.witness.comparable import coordinate_sizes, move_comparable
 from nag.witness.error_radii import Sharp, in_order, sharpened
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
-from nag.witness.slices import to_slice, unit_complex
+from nag.witness.slices import evened, to_slice, unit_complex
 from nag.witness.witness import Slice, WitnessSet
 
 # Rows whose singular values differ by more than this count as dependent.
@@ -82,10 +83,12 @@ def arrival(
     """What becomes of fibres when the slice moves from ``rows`` to ``target``."""
     gamma, found = complex(unit_complex(rng)), []
     infinite, irregular = 0, 0
+    sizes = coordinate_sizes(fibres[0])
+    source, goal = evened(rows, sizes), evened(target, sizes)
     for fibre in fibres:
         there = fibre
         if len(rows):
-            ends = move(fibre, rows, target, gamma, tracker, endgame)
+            ends = move_comparable(fibre, source, goal, gamma, tracker, endgame)
             infinite += ends.counts.at_infinity
             irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
             there = ends.fibre(fibre.cut, fibre.dimension, np.flatnonzero(ends.regular))
@@ -123,10 +126,7 @@ def witness_at(
     rows, goal = component.slice.rows, orthonormal_rows(target.rows)
     fibres = component_fibres(system, component)
     evaluator = Evaluator.of(system.polynomials, system.n)
-    for tracker in Tracker(settings, threads).attempts():
-        there = arrival(fibres, rows, goal, rng, tracker)
-        if not there.irregular:
-            break
+    there = arrival(fibres, rows, goal, rng, Tracker(settings, threads))
     found = [in_order(each) for each in there.sharp]
     points = np.vstack([each.fibre.x for each in found])
     residual = float(evaluator.residuals(points).max(initial=0.0))

@@ -15,8 +15,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from nag.numerics.coincidence import compared
-from nag.witness.fibres import Fibre, Tracker, move
-from nag.witness.slices import rows_through, unit_complex
+from nag.witness.comparable import coordinate_sizes, move_comparable
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.slices import evened, rows_through, unit_complex
 
 # Relative error of ends at a point of multiplicity m, about the m-th root of rounding.
 MULTIPLE = 1e-7
@@ -42,14 +43,16 @@ def multiplicity_at(
     """
     fibres = [fibre for fibre in fibres if len(fibre)]
     dimension, scale = len(rows), 1 + float(np.linalg.norm(point))
-    target = rows_through(rng, dimension, point)
+    sizes = coordinate_sizes(fibres[0])
+    source, target = rows, rows_through(rng, dimension, point, sizes)
+    source, target = evened(source, sizes), evened(target, sizes)
     gamma = complex(unit_complex(rng))
     count = 0
     for fibre in fibres:
         if dimension == 0:
             ends, regular = fibre.x, np.ones(len(fibre), dtype=bool)
         else:
-            moved = move(fibre, rows, target, gamma, tracker, endgame=True)
+            moved = move_comparable(fibre, source, target, gamma, tracker, endgame=True)
             if moved.failed.any():
                 return None
             ends = moved.points[moved.finite, : fibre.cut.n]

@@ -15,8 +15,10 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
 from nag.numerics.small_values import SINGULAR
+from nag.witness.comparable import coordinate_sizes
 from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre, Tracker
+from nag.witness.frame import EPS
 from nag.witness.membership import component_fibres
 from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows, to_slice
@@ -67,22 +69,31 @@ class Projection:
 
 def _image_dimension(fibre: Fibre, coordinates: Sequence[int]) -> int:
     """Rank of the projection on the tangent space at a fibre's first point."""
-    z = fibre.points[0]
-    _, _, vh = np.linalg.svd(fibre.cut.evaluator.balanced_jacobian(z))
+    z = fibre.points[0] * np.ldexp(1.0, -fibre.cut.powers)
+    evaluator = fibre.cut.scaled.evaluator if fibre.cut.powers.any() else fibre.cut.evaluator
+    _, _, vh = np.linalg.svd(evaluator.balanced_jacobian(z))
     tangent, _ = np.linalg.qr(vh[len(z) - fibre.dimension :].conj().T[: fibre.cut.n])
     s = np.linalg.svd(tangent[list(coordinates)], compute_uv=False)
     return fibre.dimension - numerical_corank(s, fibre.dimension, SINGULAR)
 
 
 def _special_rows(
-    rng: np.random.Generator, n: int, coordinates: Sequence[int], dimension: int, rest: int
+    rng: np.random.Generator,
+    sizes: np.ndarray,
+    coordinates: Sequence[int],
+    dimension: int,
+    rest: int,
 ) -> np.ndarray:
-    """A random slice, the first ``dimension`` equations in the given coordinates only."""
+    """A random slice, the first ``dimension`` equations in the given coordinates only.
+
+    It is generic where homogeneous coordinates are divided by ``sizes``, shape ``(1 + n,)``.
+    """
+    n = len(sizes) - 1
     inner = random_rows(rng, dimension, len(coordinates))
     first = np.zeros((dimension, 1 + n), dtype=complex)
     first[:, 0] = inner[:, 0]
     first[:, [1 + i for i in coordinates]] = inner[:, 1:]
-    return np.vstack([first, random_rows(rng, rest, n)])
+    return np.vstack([first, random_rows(rng, rest, n)]) / sizes
 
 
 def project(
@@ -132,20 +143,21 @@ def _pseudo_witness(
 ) -> tuple[tuple[int, int], np.ndarray, Arrival]:
     """Degrees of the image and of the fibre, the slice's rows, and the points on it."""
     rows, d = component.slice.rows, component.dimension
-    target = _special_rows(rng, rows.shape[1] - 1, coordinates, r, d - r)
-    for how in tracker.attempts():
-        there = arrival(fibres, rows, target, rng, how)
-        # Finite points of a generic slice are regular (Bertini's theorem).
-        if not there.irregular and there.accuracy < SHARP:
-            break
-    else:
+    sizes = coordinate_sizes(fibres[0])
+    target = _special_rows(rng, sizes, coordinates, r, d - r)
+    there = arrival(fibres, rows, target, rng, tracker)
+    # Finite points of a generic slice are regular (Bertini's theorem).
+    if there.irregular or not there.accuracy < SHARP:
         raise ProjectionError("paths failed; the component may not be irreducible")
-    x = there.x
-    images = clusters(x[:, list(coordinates)], np.full(len(x), there.accuracy))
-    sizes = {len(image) for image in images}
-    if len(sizes) > 1:
+    units = sizes[[1 + i for i in coordinates]]
+    image = there.x[:, list(coordinates)] / units
+    radii = np.vstack([each.radii for each in there.sharp])[:, list(coordinates)] / units
+    errors = np.linalg.norm(radii, axis=1) / (1 + np.linalg.norm(image, axis=1))
+    images = clusters(image, np.maximum(errors, EPS))
+    counts = {len(same) for same in images}
+    if len(counts) != 1:
         raise ProjectionError(
             "the fibres over the image's points differ in degree; the component may not be "
             "irreducible"
         )
-    return (len(images), sizes.pop()), target, there
+    return (len(images), counts.pop()), target, there

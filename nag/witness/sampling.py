@@ -10,6 +10,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.small_values import ON
+from nag.witness.comparable import coordinate_sizes
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
 from nag.witness.moving import Arrival, arrival
@@ -70,15 +71,12 @@ def sample(
     evaluator = Evaluator.of(system.polynomials, system.n)
     points, accuracy = np.zeros((count, system.n), dtype=complex), float(np.finfo(float).eps)
     for k in range(count):
-        for how in tracker.attempts():
-            _, there = at_random(fibres, component.slice.rows, rng, how)
-            x = there.x
-            if len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON:
-                points[k], accuracy = x[0], max(accuracy, there.accuracy)
-                break
-        else:
+        _, there = at_random(fibres, component.slice.rows, rng, tracker)
+        x = there.x
+        if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
             some = _samples(evaluator, points[:k], accuracy)
             raise SamplingError(f"point {k + 1} of {count}: the path to it failed", some)
+        points[k], accuracy = x[0], max(accuracy, there.accuracy)
     return _samples(evaluator, points, accuracy)
 
 
@@ -92,7 +90,7 @@ def at_random(
             break
         chosen -= len(fibre)
     one = fibre.only(np.arange(len(fibre)) == chosen)
-    target = random_rows(rng, len(rows), fibre.cut.n)
+    target = random_rows(rng, len(rows), fibre.cut.n) / coordinate_sizes(fibre)
     return target, arrival([one], rows, target, rng, tracker, endgame=False)
 
 

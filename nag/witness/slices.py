@@ -34,11 +34,25 @@ def random_rows(
     return np.hstack([-offset * b, q[:codimension]])
 
 
-def rows_through(rng: np.random.Generator, codimension: int, point: np.ndarray) -> np.ndarray:
-    """A generic slice of the given codimension through an affine point."""
-    rows = random_rows(rng, codimension, len(point))
+def rows_through(
+    rng: np.random.Generator, codimension: int, point: np.ndarray, sizes: np.ndarray | float = 1.0
+) -> np.ndarray:
+    """A slice through an affine point, generic where coordinates are divided by ``sizes``.
+
+    Args:
+        sizes: of the homogeneous coordinates, shape ``(1 + n,)``.
+    """
+    rows = random_rows(rng, codimension, len(point)) / sizes
     rows[:, 0] = -rows[:, 1:] @ point
     return rows
+
+
+def evened(rows: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """The same slice by rows of norm one where coordinates are divided by ``sizes``.
+
+    Of two rows of very unequal norms one would decide until the very end of a path.
+    """
+    return rows / np.linalg.norm(rows * sizes, axis=1, keepdims=True)
 
 
 def to_slice(rows: np.ndarray) -> Slice:

@@ -98,7 +98,7 @@ def _least_work(
         groups, number = _usable_groups(target, given)
     if len(groups) > 1:
         counts.append(f"multihomogeneous {number} in {_groups(groups)}")
-    least, most = min(tracked, number), None
+    least, most, bound = min(tracked, number), None, None
     # Few paths may still have infinite ends, which so many zeros show to be that.
     if min(total, number) > FEW:
         from nag.solving.start.mixed_cells import mixed_cells
@@ -106,7 +106,7 @@ def _least_work(
 
         try:
             cells = mixed_cells(target.supports, rng)
-            volume = cells.mixed_volume
+            volume = bound = cells.mixed_volume
             counts.append(f"mixed volume {volume}")
             if 0 < WORK * volume <= least:
                 start = polyhedral(target, cells, rng, threads)
@@ -122,10 +122,10 @@ def _least_work(
     elif least > 1:
         counts.append("so few that the mixed volume was not computed")
     if number < tracked:
-        start = replace(multihomogeneous(target, groups, rng), known=Known(most))
+        start = replace(multihomogeneous(target, groups, rng), known=Known(most, bound=bound))
         return start, f"multihomogeneous, the least work: {', '.join(counts)}"
     start = total_degree(target, rng, generic, shape)
-    start = replace(start, known=replace(start.known, most=most))
+    start = replace(start, known=replace(start.known, most=most, bound=bound))
     return start, f"total degree, the least work: {', '.join(counts)}"
 
 

@@ -14,11 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
 
 from nag.machine_code.kernel import Kernel
+from nag.machine_code.lanes import aligned, any_less, load, select_less, splat, store
 from nag.machine_code.records import Reals, Wholes
 from nag.solving.start.target import StartError
 
@@ -75,7 +77,9 @@ class Followed(NamedTuple):
     ``found``: the cells at t = infinity, at most ``most_cells``; ``numbers``: how many there are,
     and a code: 0, 1 for too many steps or cells, 2 for a degenerate cell. ``stack, times``: at most
     ``depth`` cells to be followed, and from when. ``cell``: the present one. ``matrix,
-    pivots, right``: the factors of its edges, and two right-hand sides.
+    pivots, right``: the factors of its edges, and two right-hand sides. ``wide``: the points eight
+    by eight, those of support i from number ``blocks[i]`` on: n vectors of coordinates, one of
+    ``lift`` and one of ``slope``. Vector ``width``, the last one, is for times.
     """
 
     most_cells: int
@@ -88,6 +92,9 @@ class Followed(NamedTuple):
     matrix: Reals
     pivots: Wholes
     right: Reals
+    blocks: Wholes
+    wide: Reals
+    width: int
 
 
 def _factorize(n, matrix, pivots):
@@ -151,27 +158,55 @@ def _dual(s, w):
     return True
 
 
+def _widened(s, w):
+    """Put the points eight by eight; where there are fewer, others that never enter."""
+    size = s.n + 2
+    number = 0
+    for i in range(s.n):
+        w.blocks[i] = number
+        first, count = s.first[i], s.first[i + 1] - s.first[i]
+        for k in range(8 * ((count + 7) // 8)):
+            place = 8 * size * (number + k // 8) + k % 8
+            c = first + min(k, count - 1)
+            for j in range(s.n):
+                w.wide[place + 8 * j] = s.points[s.n * c + j]
+            w.wide[place + 8 * s.n] = s.lift[c] if k < count else np.inf
+            w.wide[place + 8 * (s.n + 1)] = s.slope[c]
+        number += (count + 7) // 8
+    w.blocks[s.n] = number
+
+
+def _times(s, w, block, a, now):
+    """When the points of a block come to lie on the hull's face that has point ``a``."""
+    n = s.n
+    never = splat(np.inf)
+    top = block * (n + 2)
+    value = load(w.wide, top + n) - splat(s.lift[a])
+    rate = load(w.wide, top + n + 1) - splat(s.slope[a])
+    for j in range(n):
+        d = load(w.wide, top + j) - splat(s.points[n * a + j])
+        value = value + d * splat(w.right[2 * j])
+        rate = rate + d * splat(w.right[2 * j + 1])
+    time = select_less(rate, splat(-1e-9), (splat(0.0) - value) / rate, never)
+    return select_less(splat(now), time, time, never)
+
+
 def _next(s, w, now):
     """When the cell changes after ``now``, whose edge, and which point enters; -1 if never."""
-    n = s.n
     following = np.inf
     which, enters = -1, -1
-    for i in range(n):
+    for i in range(s.n):
         a, b = w.cell[2 * i], w.cell[2 * i + 1]
-        for c in range(s.first[i], s.first[i + 1]):
-            if c in (a, b):
-                continue
-            value = s.lift[c] - s.lift[a]
-            rate = s.slope[c] - s.slope[a]
-            for j in range(n):
-                d = s.points[n * c + j] - s.points[n * a + j]
-                value += d * w.right[2 * j]
-                rate += d * w.right[2 * j + 1]
-            if rate < -1e-9:
-                time = -value / rate
-                if now < time < following:
-                    following = time
-                    which, enters = i, c
+        for block in range(w.blocks[i], w.blocks[i + 1]):
+            times = _times(s, w, block, a, now)
+            if any_less(times, splat(following)):
+                store(w.wide, w.width, times)
+                for lane in range(8):
+                    time = w.wide[8 * w.width + lane]
+                    c = s.first[i] + 8 * (block - w.blocks[i]) + lane
+                    if time < following and c not in (a, b):
+                        following = time
+                        which, enters = i, c
     return following, which, enters
 
 
@@ -204,6 +239,7 @@ def follow_cells(s: Lifted, w: Followed) -> None:
     cell = w.cell
     numbers = w.numbers
     steps = 0
+    _widened(s, w)
     for start in range(s.cells):
         _copy(w.stack, 0, s.begin, 2 * n * start, 2 * n)
         w.times[0] = -np.inf
@@ -257,33 +293,33 @@ def follow_cells(s: Lifted, w: Followed) -> None:
 _kernel = Kernel(follow_cells, "solving")
 
 
-def _follow(
-    points: np.ndarray, first: np.ndarray, lift: np.ndarray, slope: np.ndarray, begin: np.ndarray
-) -> np.ndarray:
-    """The cells at t = infinity, shape ``(cells, n, 2)``."""
-    n = points.shape[1]
+def _scratch(n: int, points: int) -> Followed:
+    width = (points // 8 + n) * (n + 2)
     # Memory that is never written to costs nothing.
-    found = np.empty((MOST_CELLS, n, 2), dtype=np.int64)
-    numbers = np.zeros(2, dtype=np.int64)
-    stack = np.empty((DEPTH, n, 2), dtype=np.int64)
-    _kernel(
-        Lifted(n, len(begin), MOST_STEPS, points, first, lift, slope, begin),
-        Followed(
-            MOST_CELLS,
-            DEPTH,
-            found,
-            numbers,
-            stack,
-            np.empty(DEPTH),
-            np.empty((n, 2), dtype=np.int64),
-            np.empty((n, n)),
-            np.empty(n, dtype=np.int64),
-            np.empty((n, 2)),
-        ),
+    return Followed(
+        MOST_CELLS,
+        DEPTH,
+        np.empty((MOST_CELLS, n, 2), dtype=np.int64),
+        np.zeros(2, dtype=np.int64),
+        np.empty((DEPTH, n, 2), dtype=np.int64),
+        np.empty(DEPTH),
+        np.empty((n, 2), dtype=np.int64),
+        np.empty((n, n)),
+        np.empty(n, dtype=np.int64),
+        np.empty((n, 2)),
+        np.zeros(n + 1, dtype=np.int64),
+        aligned(width + 1),
+        width,
     )
-    if numbers[1]:
+
+
+def _follow(lifted: Lifted, room: Followed) -> np.ndarray:
+    """The cells at t = infinity, shape ``(cells, n, 2)``; they are overwritten by the next ones."""
+    room.numbers[:] = 0
+    _kernel(lifted, room)
+    if room.numbers[1]:
         raise StartError("mixed volume: too many cells")
-    return found[: numbers[0]].copy()
+    return room.found[: room.numbers[0]]
 
 
 def mixed_cells(
@@ -315,31 +351,27 @@ def mixed_cells(
     if lifts is None:
         lifts = [rng.integers(0, LARGEST_LIFT, len(s)) for s in supports]
     lifts = [lift.astype(float) for lift in lifts]
-    points = [simplex] * n
-    values = list(simplex_lifts)
+    points, values = [simplex] * n, list(simplex_lifts)
     cells = np.array([[[0, 1 + i] for i in range(n)]], dtype=np.int64)
+    room = _scratch(n, sum(map(len, supports)) + (n + 1) ** 2)
     for stage, i in enumerate(order):
-        degree = max(1, int(supports[i].sum(axis=1).max()))
-        count = len(supports[i])
-        here = [*points]
-        here[stage] = np.vstack([supports[i], degree * simplex])
-        lift = [*values]
-        lift[stage] = np.append(lifts[i], degree * simplex_lifts[stage])
-        slope = [np.zeros(len(p)) for p in here]
-        slope[stage][count:] = 1.0
-        first = np.cumsum([0] + [len(p) for p in here])
-        begin = cells + first[:-1][None, :, None]
-        begin[:, stage] += count
-        found = _follow(
-            np.vstack(here).astype(float),
-            first,
-            np.concatenate(lift),
-            np.concatenate(slope),
-            np.ascontiguousarray(begin),
-        )
-        found = found - first[:-1][None, :, None]
-        cells = found[(found[:, stage] < count).all(axis=1)]
+        degree, count = max(1, int(supports[i].sum(axis=1).max())), len(supports[i])
+        last = [degree * simplex, degree * simplex_lifts[stage]]
         points[stage], values[stage] = supports[i], lifts[i]
+        here = [*points[: stage + 1], last[0], *points[stage + 1 :]]
+        lift = np.concatenate([*values[: stage + 1], last[1], *values[stage + 1 :]])
+        counts = [len(p) for p in points]
+        counts[stage] += n + 1
+        first = np.array([0, *accumulate(counts)])
+        shift = first[:-1, None]
+        begin = cells + shift
+        begin[:, stage] += count
+        slope = np.zeros(len(lift))
+        slope[first[stage] + count : first[stage + 1]] = 1.0
+        all_points = np.concatenate(here, dtype=float)
+        lifted = Lifted(n, len(begin), MOST_STEPS, all_points, first, lift, slope, begin)
+        found = _follow(lifted, room)
+        cells = found[(found[:, stage] < first[stage] + count).all(axis=1)] - shift
     edges = np.zeros_like(cells)
     edges[:, order] = cells
     return MixedCells(tuple(supports), tuple(lifts), edges, _volumes(supports, edges))

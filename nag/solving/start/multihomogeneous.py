@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import product
-from math import comb, prod
+from math import comb, factorial, prod
 
 import numpy as np
 
@@ -30,6 +30,8 @@ Groups = tuple[tuple[int, ...], ...]
 MOST_TERMS = 5000
 # States of the count below; the search for groups skips what is dearer.
 MOST_STATES = 20_000
+# Integers below this fit into 64 bits.
+LARGEST = 1 << 62
 # Integers below this are doubles.
 EXACT = 2.0**53
 # A local search from a partition with so many times the paths of the best is not begun.
@@ -41,6 +43,9 @@ MOST_TRIED = 2000
 
 def bezout_number(degrees: np.ndarray, sizes: Sequence[int]) -> int:
     """Coefficient of ``prod(z_g ^ sizes[g])`` in ``prod_i(sum_g degrees[i, g] z_g)``."""
+    weighted = (degrees * np.array(sizes, dtype=np.int64)).sum(axis=1).tolist()
+    if prod(weighted) << sum(sizes) < LARGEST:
+        return _bezout_number_by_exclusion(degrees, sizes)
     rows, most = degrees.tolist(), list(sizes)
     if all(sum(row) > 0 for row in rows) and prod(map(sum, rows)) < EXACT:
         return _bezout_number_of_floats(rows, most)
@@ -54,6 +59,17 @@ def bezout_number(degrees: np.ndarray, sizes: Sequence[int]) -> int:
                     following[key] = following.get(key, 0) + ways * d
         counts = following
     return sum(counts.values())
+
+
+def _bezout_number_by_exclusion(degrees: np.ndarray, sizes: Sequence[int]) -> int:
+    """The same by inclusion and exclusion, as Ryser's formula for permanents, in 64 bits."""
+    weights, chosen = np.ones(1, dtype=np.int64), np.zeros((1, len(degrees)), dtype=np.int64)
+    for size, column in zip(sizes, degrees.T, strict=True):
+        count = np.arange(size + 1)
+        own = np.array([(-1) ** (size - k) * comb(size, k) for k in count.tolist()])
+        weights = (weights[:, None] * own).ravel()
+        chosen = (chosen[:, None] + count[:, None] * column).reshape(-1, len(degrees))
+    return int(weights @ chosen.prod(axis=1)) // prod(map(factorial, sizes))
 
 
 def _bezout_number_of_floats(rows: list[list[int]], sizes: list[int]) -> int:
@@ -143,13 +159,8 @@ def _never_together(target: Target) -> Groups:
 
     Found greedily; such groups make bilinear systems bilinear.
     """
-    clash = np.zeros((target.n, target.n), dtype=bool)
-    for row in target.rows:
-        for e in row:
-            there = [i for i, k in enumerate(e) if k]
-            for i in there:
-                for j in there:
-                    clash[i, j] |= i != j
+    there = (target.stack.exponents > 0).astype(np.int64)
+    clash = there.T @ there > 0
     groups: list[list[int]] = []
     for i in range(target.n):
         for g in groups:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from nag.algebra.number import Number, decimal_digits
+from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.solving.start.centring import centres, shifted
@@ -18,6 +18,8 @@ from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import NOTHING, Known
 
+# Largest relative error of a number that is rounded to a double.
+HALF_UNIT = 2.0**-53
 Terms = Mapping[Exponents, Number | complex]
 
 
@@ -35,6 +37,8 @@ class Target:
         scales, centres: the original variables are ``x_i = 2^scales[i] y_i + centres[i]``, with
             integers and rational numbers.
         digits: decimal digits of the coefficients of the polynomials that the rows come from.
+        given: these polynomials' terms in the variables ``y``, scaled, before rows of the same
+            monomials were combined.
     """
 
     n: int
@@ -42,6 +46,7 @@ class Target:
     scales: tuple[int, ...] = ()
     centres: tuple[Fraction, ...] = ()
     digits: int | None = None
+    given: tuple[Terms, ...] = ()
 
     def __post_init__(self) -> None:
         if len(self.rows) != self.n:
@@ -59,8 +64,9 @@ class Target:
         origins = centres(polynomials, n)
         polynomials = [shifted(f, origins) for f in polynomials]
         scales = variable_scales(polynomials, n)
-        rows = independent_rows([scaled_terms(f, scales) for f in polynomials])
-        return cls(n, rows, tuple(scales.tolist()), origins, digits)
+        given = tuple(scaled_terms(f, scales) for f in polynomials)
+        rows = independent_rows(given)
+        return cls(n, rows, tuple(scales.tolist()), origins, digits, given)
 
     def scaled(self, f: Polynomial) -> Polynomial:
         """``f``, a polynomial in the original variables, in the variables ``y``, scaled."""
@@ -74,6 +80,26 @@ class Target:
             return points
         origins = np.array([float(b) for b in self.centres])
         return points * np.exp2(self.scales) + origins
+
+    def rounding(self, points: np.ndarray) -> np.ndarray:
+        """Errors that `original` adds, relative to one and the size of the result, shape ``(P,)``.
+
+        A shift may cancel most of a coordinate, of which doubles round all of it.
+        """
+        if not any(self.centres):
+            return np.zeros(len(points))
+        before = np.linalg.norm(points * np.exp2(self.scales), axis=1)
+        after = np.linalg.norm(self.original(points), axis=1)
+        shift = float(np.linalg.norm([float(b) for b in self.centres]))
+        return HALF_UNIT * (before + shift + after) / (1 + after)
+
+    def original_radii(self, point: np.ndarray, radii: np.ndarray | None) -> np.ndarray | None:
+        """Errors of a point's original coordinates, from those of ``y``, shape ``(n,)``."""
+        if radii is None or not self.scales:
+            return radii
+        moved = np.array([b != 0 for b in self.centres])
+        rounding = np.where(moved, np.finfo(float).eps * np.abs(point), 0.0)
+        return radii * np.exp2(self.scales) + rounding
 
     @cached_property
     def degrees(self) -> tuple[int, ...]:
@@ -160,7 +186,7 @@ class Start:
 
 def most_digits(polynomials: Iterable[Polynomial]) -> int:
     """The most decimal digits that a coefficient has."""
-    return max((decimal_digits(c) for f in polynomials for c in f.terms.values()), default=0)
+    return max((f.digits for f in polynomials), default=0)
 
 
 def homogenized(

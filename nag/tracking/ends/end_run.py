@@ -83,7 +83,8 @@ class Batch(NamedTuple):
     Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
     contraction of Newton's method after it; ``tail``: largest last term of a power series that is
     taken to converge. ``max_steps``: of each path, 0 for those
-    that are only tried.
+    that are only tried. ``close``: 1 where other paths may run beside these, in directions of which
+    corrections along the paths say nothing.
     """
 
     count: int
@@ -106,6 +107,7 @@ class Batch(NamedTuple):
     curvature: Reals
     max_steps: Wholes
     max_winding: int
+    close: int
     accuracy: float
     contraction: float
     tail: float
@@ -176,6 +178,11 @@ def _keep(s, r, f, order):
     keep_series(s, r, order)
 
 
+def _steepest(f, lane):
+    """What Newton's constant may be, in a direction that corrections have not had."""
+    return SECOND * f[8 * KNOWN + lane] / (RESIDUAL * number.EPSILON)
+
+
 def _keep_safe(s, r, f):
     """Keep the bases that are known so well that the next arithmetic may start from them.
 
@@ -184,8 +191,7 @@ def _keep_safe(s, r, f):
     """
     half = splat(0.5)
     for lane in range(8):
-        inverse = f[8 * KNOWN + lane] / (RESIDUAL * number.EPSILON)
-        curvature = max(f[8 * CURVATURE + lane], SECOND * inverse, 1.0)
+        curvature = max(f[8 * CURVATURE + lane], _steepest(f, lane), 1.0)
         r.measures[lane] = 0.0
         if r.accepted[lane] > 0.5 and f[8 * KNOWN + lane] * curvature <= SAFE:
             r.measures[lane] = 1.0
@@ -278,7 +284,8 @@ def _advance(s, r, f, lane, b, best, winding):
     if f[8 * TAKEN + lane] >= b.max_steps[path] or f[8 * T + lane] < 1e-280:
         _close(s, r, f, lane, b, TOO_LONG, r.base)
         return
-    goal = min(b.accuracy, b.contraction / curvature)
+    steep = max(curvature, _steepest(f, lane)) if b.close > 0 else curvature
+    goal = min(b.accuracy, b.contraction / steep)
     h = reach(s, r, b.order, lane, goal)
     if converged_here:
         # Further in, rounding errors grow: no further than a limit is wanted.
@@ -286,7 +293,10 @@ def _advance(s, r, f, lane, b, best, winding):
     f[8 * H + lane] = min(h, f[8 * H + lane]) if rejected > 0.5 else h
     # Tails that are rounding errors, as of paths that stay where they are, say nothing new.
     end = max(tail_at_end(s, r, b.order, lane), number.EPSILON)
-    if end <= 0.1 * f[8 * TRIED + lane] and b.straight[path] != 0:
+    near = 0.1 * f[8 * TRIED + lane]
+    if b.close > 0:
+        near = min(near, b.contraction / steep)
+    if end <= near and b.straight[path] != 0:
         f[8 * TRIED + lane] = end
         f[8 * MODE + lane] = FINISH
         f[8 * WANTED + lane] = 1.0

@@ -40,7 +40,8 @@ class States:
     ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
     ``found``: regular ends; ``limits``: others, or where they are tried as regular ones first.
     ``straight``: 0 where Newton's method at t = 0 is of no use; ``regular``: where the first trial
-    needs no proof; ``last``: the limits that were looked at last; ``most``: steps.
+    needs no proof; ``last``: the limits that were looked at last; ``most``: steps;
+    ``close``: whether other paths run beside these.
     """
 
     where: np.ndarray
@@ -62,6 +63,7 @@ class States:
     found: dict[int, np.ndarray]
     last: dict[int, Limit]
     most: np.ndarray
+    close: bool = False
 
     @classmethod
     def from_start(cls, starts: np.ndarray, curvature: np.ndarray) -> States:
@@ -71,7 +73,7 @@ class States:
         states.where, states.safe, states.ends = starts.copy(), starts.copy(), starts.copy()
         states.t = np.tile(np.eye(1, words), (P, 1))
         states.safe_t = states.t.copy()
-        states.curvature, states.most[:] = curvature.copy(), MOST_STEPS
+        states.curvature, states.most[:], states.close = curvature.copy(), MOST_STEPS, True
         return states
 
     @classmethod
@@ -147,6 +149,9 @@ def follow(
     left = unfinished
     states = States.of(left.ends, left.reached, left.safe, left.t)
     states.regular[:] = left.regular
+    # An end that must hold to more digits is looked for as much further in.
+    asked = digits_of_evidence(homotopy, settings.evidence)[0]
+    states.most[:] = MAX_STEPS * asked // LEAST_EVIDENCE
     # What doubles lost on the way may have come close to other paths there.
     states.most[left.t > settings.radius] = MOST_STEPS
     pending = np.arange(len(left.safe))

@@ -10,6 +10,7 @@ Reference:
 
 from __future__ import annotations
 
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -115,7 +116,7 @@ def values_at(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) 
             if c == 0:
                 continue
             for j, k in factors:
-                c = c * (x[j] ** k if k > 1 else x[j])
+                c = c * (x[j] if k == 1 else x[j] ** k)
             value += c
         values.append(value)
     values += _on_patches(flint, patches, x)
@@ -123,4 +124,4 @@ def values_at(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) 
 
 
 def _on_patches(flint: Any, patches: list[list[Any]], x: list[Any]) -> list[Any]:
-    return [sum((c * z for c, z in zip(patch, x, strict=True)), flint.acb(-1)) for patch in patches]
+    return [sum(map(mul, patch, x), flint.acb(-1)) for patch in patches]

@@ -134,23 +134,17 @@ def _split(numerator: int, denominator: int, count: int) -> list[float]:
     return parts
 
 
-def _words(value: Fraction, count: int) -> list[float]:
-    return _split(value.numerator, value.denominator, count)
-
-
 def words(value: Number | complex, count: int, factor: Fraction = Fraction(1)) -> list[float]:
     """Real and imaginary part of a product as sums of ``count`` doubles, the largest first."""
+    over, under = factor.numerator, factor.denominator
     if isinstance(value, complex | float | np.complexfloating | np.floating):
         z = complex(value)
-        return [
-            *_words(Fraction(z.real) * factor, count),
-            *_words(Fraction(z.imag) * factor, count),
-        ]
+        ratios = z.real.as_integer_ratio(), z.imag.as_integer_ratio()
+        return [part for p, q in ratios for part in _split(p * over, q * under, count)]
     if isinstance(value, Irrational):
         value = rounded_fraction(value, 20 * count)
-    numerator, denominator = value.numerator, value.denominator
     # A common factor does no harm.
-    real = _split(numerator * factor.numerator, denominator * factor.denominator, count)
+    real = _split(value.numerator * over, value.denominator * under, count)
     return [*real, *[0.0] * count]
 
 
@@ -166,11 +160,13 @@ def coefficients(homotopy: Homotopy, count: int) -> tuple[np.ndarray, np.ndarray
             for part, terms in row:
                 derivatives: dict[int, list[float]] = {}
                 for e in sorted(terms, reverse=True):
-                    values += words(terms[e], count, inverse)
+                    own = {1: words(terms[e], count, inverse)}
+                    values += own[1]
                     for j, k in enumerate(e):
                         if k:
-                            own = words(terms[e], count, k * inverse)
-                            derivatives.setdefault(j, []).extend(own)
+                            if k not in own:
+                                own[k] = words(terms[e], count, k * inverse)
+                            derivatives.setdefault(j, []).extend(own[k])
                 blocks += [(r * rows.N + j, part, derivatives[j]) for j in sorted(derivatives)]
         blocks.sort(key=lambda block: block[:2])
         flat = [x for _, _, own in blocks for x in own]

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 # Order of the Taylor coefficients.
 ORDER = 14
-# Steps to an end, and those of a path that is lost on the way there.
+# Steps to an end that must hold to the least number of digits, and those of a path that is lost on
+# the way there.
 MAX_STEPS, MOST_STEPS = 300, 3000
 MAX_WINDING = 40
 # Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
@@ -91,6 +92,7 @@ def _batch(
         states.curvature[own],
         np.where([path in states.limits for path in own.tolist()], 0, states.most[own]),
         MAX_WINDING,
+        int(states.close),
         ACCURACY * settings.tolerance,
         CONTRACTION * settings.contraction,
         TAIL,

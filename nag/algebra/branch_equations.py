@@ -1,0 +1,77 @@
+"""The equations of a branch of a system, and what follows from them; each is worked out once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from nag.algebra.elimination import Elimination, eliminate_linear, solved, substituted
+from nag.algebra.factoring import Factors
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.algebra.vanishing import follows
+
+
+@dataclass(frozen=True, eq=False)
+class BranchEquations:
+    """A branch of a system, which all its components share.
+
+    Attributes:
+        graphs: whether equations of degree two and more are solved for variables as well.
+    """
+
+    system: PolynomialSystem
+    graphs: bool
+    _images: dict[Polynomial, tuple[Polynomial, bool]] = field(default_factory=dict)
+    _own: dict[frozenset[Polynomial], bool] = field(default_factory=dict)
+
+    @cached_property
+    def elimination(self) -> Elimination:
+        """The way to fewer variables."""
+        return eliminate_linear(self.system, graphs=self.graphs)
+
+    def image(self, f: Polynomial) -> tuple[Polynomial, bool]:
+        """A polynomial in the variables that are left, and whether it is seen to vanish there."""
+        if f not in self._images:
+            image = f.compose(self.elimination.images)
+            self._images[f] = image, follows(image, self.elimination)
+        return self._images[f]
+
+    def is_own_ring(
+        self, equations: Sequence[Factors], vanishes: Callable[[Polynomial], bool | None]
+    ) -> bool:
+        """Whether it has the local ring of all equations at a generic point of a component.
+
+        So it is where one simple factor of each equation may vanish there, and these are the
+        branch's, perhaps when the linear ones have been used: the others are units.
+        """
+        there = [[(p, k) for p, k in factors if vanishes(p) is not False] for factors in equations]
+        if not all(len(own) == 1 and own[0][1] == 1 for own in there):
+            return False
+        given = frozenset(own[0][0] for own in there)
+        if given not in self._own:
+            self._own[given] = self._has(given)
+        return self._own[given]
+
+    def _has(self, given: frozenset[Polynomial]) -> bool:
+        """Whether other equations have the same ideal, once their linear ones have been used."""
+        linear = {p for p in given if p.degree == 1}
+        branch = set(self.system.polynomials)
+        if linear != {p for p in branch if p.degree == 1}:
+            return False
+        rules = sorted(linear, key=str)
+        return _modulo(rules, given - linear) == _modulo(rules, branch - linear)
+
+
+def _modulo(linear: Sequence[Polynomial], others: Collection[Polynomial]) -> set[Polynomial]:
+    """Polynomials in which linear equations have been used, up to constants."""
+    rules, rest = list(linear), list(others)
+    while rules:
+        p = rules.pop()
+        if p.degree != 1:
+            continue
+        index = max(i for i in range(p.n) if i in p.support)
+        image = solved(p, index)
+        rules, rest = ([substituted(f, index, image) for f in fs] for fs in (rules, rest))
+    return {f * (1 / f.terms[max(f.terms)]) for f in rest if f}

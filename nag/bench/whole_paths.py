@@ -1,0 +1,123 @@
+"""Paths tracked wholly in one arithmetic, from their starts to their ends: error against time.
+
+Doubles, with ends as they are or sharpened with residuals in double-double; double-double and
+quad-double throughout. In balls, in which a step of Newton's method takes some hundred times as
+long as in doubles, only the ends of paths in doubles are sharpened.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from typing import Any
+
+import flint
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.bench.reference import Found, Reference, compared, compared_in_balls
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import middle, number
+from nag.solving.isolated_zero import FinePoint
+from nag.solving.square_problem import SquareProblem
+from nag.solving.start.choice import choose
+from nag.solving.start.target import Start, Target
+from nag.tracking.ends.follow import follow_whole
+from nag.tracking.evaluations import counted
+from nag.tracking.newton import refine
+from nag.tracking.paths import PathStatus, Reason
+from nag.tracking.settings import NAMED, Settings
+from nag.tracking.track import run_in_doubles
+
+# Largest corrections after a prediction, by which a curve's points differ.
+WHOLE_TOLERANCES = (1e-1, 1e-3, 1e-5)
+# Doubles in a number, and what numbers of so many are called.
+WORDS = {"double-double": 2, "quad-double": 4}
+# Digits of balls, and steps of Newton's method in them, from the end of a path in doubles.
+DIGITS, STEPS = {"balls of 50 digits": 50, "balls of 100 digits": 100}, {50: 3, 100: 4}
+DOUBLE, RESIDUALS = "double", "double, residuals in double-double"
+# Digits of what is worked out from ends, and a singular value that does not vanish.
+FINEST, TINY = 120, 1e-12
+ARITHMETICS = (DOUBLE, RESIDUALS, *WORDS, *DIGITS)
+
+Ends = np.ndarray | list[list[Any]]
+
+
+@dataclass(frozen=True, eq=False)
+class WholePaths:
+    """A square system in scaled variables and the paths to its zeros, each to be tracked."""
+
+    target: Target
+    begin: Start
+
+    @classmethod
+    def of(cls, system: PolynomialSystem, seed: int) -> WholePaths:
+        """The start system that `nag.solving.solve.solve` would choose."""
+        rng = np.random.default_rng(seed)
+        problem = SquareProblem.of(system, [f for f in system.polynomials if f], rng)
+        return cls(problem.target, choose(problem.target, "auto", system.groups, rng, 1)[0])
+
+    def tracked(self, arithmetic: str, tolerance: float) -> Ends:
+        """Regular ends in the system's own variables, where they are finite."""
+        settings = replace(NAMED["default"], tolerance=tolerance, digits=16)
+        if arithmetic in (DOUBLE, RESIDUALS):
+            ends = self._in_doubles(settings, arithmetic == RESIDUALS)
+            return self.target.original(ends)
+        if arithmetic in WORDS:
+            return self._original(self._in_words(WORDS[arithmetic], settings))
+        return self._original(self._in_balls(DIGITS[arithmetic], settings))
+
+    def _in_doubles(self, settings: Settings, sharpened: bool) -> np.ndarray:
+        homotopy = self.begin.homotopy
+        starts = homotopy.normalized(self.begin.points)
+        run = run_in_doubles(homotopy, starts, settings, 1, endgame=False)
+        ends = run.points[run.reason == Reason.NONE]
+        return self.begin.affine(refine(homotopy, None, ends).points if sharpened else ends)
+
+    def _in_words(self, words: int, settings: Settings) -> list[list[Any]]:
+        homotopy = self.begin.homotopy
+        starts = homotopy.normalized(self.begin.points)
+        least = refine(homotopy, None, starts, t=1.0, iterations=0).smallest
+        parts = np.zeros((*starts.shape, 2, words))
+        parts[..., 0, 0], parts[..., 1, 0] = starts.real, starts.imag
+        paths = follow_whole(homotopy, parts, 1 / np.maximum(least, TINY), settings)
+        chosen = paths.where(PathStatus.REGULAR).tolist()
+        return [list(FinePoint.of_ball(self.begin, paths.balls[i]).coordinates) for i in chosen]
+
+    def _in_balls(self, digits: int, settings: Settings) -> list[list[Any]]:
+        n = self.target.n
+        rows = BallPolynomials.of(
+            [Polynomial(n, dict(row)) for row in self.target.rows], np.zeros((0, 1 + n))
+        )
+        found = []
+        with flint.ctx.workdps(digits):
+            for point in self._in_doubles(settings, True):
+                x = [flint.acb(complex(z)) for z in point]
+                for _ in range(STEPS[digits]):
+                    moves = (rows.jacobian(x).mid().inv().mid() * rows(x)).entries()
+                    x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
+                found.append(x)
+        return found
+
+    def _original(self, points: list[list[Any]]) -> list[list[Any]]:
+        if not self.target.scales:
+            return points
+        with flint.ctx.workdps(FINEST):
+            factors = [flint.arb(2) ** k for k in self.target.scales]
+            origins = [number(b) for b in self.target.centres]
+            return [
+                [z * f + b for z, f, b in zip(x, factors, origins, strict=True)] for x in points
+            ]
+
+
+def tracked_in(
+    paths: WholePaths, reference: Reference, arithmetic: str, tolerance: float
+) -> tuple[float, int, Found]:
+    """Processor seconds of tracking, evaluations of the system, and what was found."""
+    with counted() as spent:
+        begin = time.process_time()
+        ends = paths.tracked(arithmetic, tolerance)
+        seconds = time.process_time() - begin
+    compare = compared if isinstance(ends, np.ndarray) else compared_in_balls
+    return seconds, spent.number, compare(reference, ends)

@@ -1,0 +1,96 @@
+"""A component of a branch of a system: what vanishes on it, and which zeros its points are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from nag.algebra.algebraic_zeros import AlgebraicZero
+from nag.algebra.branch_equations import BranchEquations
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.vanishing import Vanishing
+from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.numerics.small_values import NONZERO
+from nag.numerics.zero_values import WRITTEN, alike, possible_zeros, vanishes_at_all
+from nag.witness.confirm import vanishing
+from nag.witness.fibres import Fibre
+from nag.witness.membership import component_fibres
+from nag.witness.multiplicity import ACCURACY
+from nag.witness.witness import WitnessSet
+
+
+@dataclass(frozen=True, eq=False)
+class BranchComponent:
+    """A component of a branch.
+
+    Attributes:
+        zero: the exact zero, where it is one of an algebraic branch.
+    """
+
+    witness: WitnessSet
+    branch: BranchEquations
+    zero: AlgebraicZero | None = None
+
+    @cached_property
+    def vanishes(self) -> Vanishing:
+        """Whether a polynomial vanishes on the component."""
+        return Vanishing(self._vanishes)
+
+    def _vanishes(self, f: Polynomial) -> bool | None:
+        if self.zero is not None and f.exact:
+            return self.zero.vanishes(f)
+        if (Evaluator.of([f], f.n).residuals(self.witness.points) > NONZERO).any():
+            return False
+        image, zero = self.branch.image(f)
+        if not self.branch.elimination.system.polynomials and f.exact:
+            return not image
+        if zero:
+            return True
+        multiple = self._isolated and self.witness.multiplicity != 1
+        fibre = None if multiple and self.zeros else self._fibre
+        if fibre is None:
+            # Doubles do not see that the points are regular, or are of a zero known to 100 digits.
+            return vanishes_at_all(self.zeros, f)
+        answer = vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0]
+        return vanishes_at_all(self.zeros, f) if answer is None else answer
+
+    @property
+    def _isolated(self) -> bool:
+        """Whether it is a point that paths ended at."""
+        return not self.witness.fibres and not self.witness.dimension
+
+    def place_among(self, equations: Sequence[Polynomial]) -> Place:
+        """Where it lies among zeros of others, if it is an isolated point and one of these."""
+        if self.witness.dimension or self.zero is not None or len(self.zeros) != 1:
+            return Place.UNDECIDED
+        rng = np.random.default_rng(0)
+        return analyse(equations, self.zeros[0].digits, WRITTEN, rng, place_only=True).place
+
+    @cached_property
+    def _fibre(self) -> Fibre | None:
+        """The points with equations that cut them; None where these are not regular zeros."""
+        try:
+            return component_fibres(self.branch.system, self.witness)[0]
+        except ValueError:
+            return None
+
+    @cached_property
+    def zeros(self) -> tuple[SingularEnd, ...]:
+        """The exact zeros on the slice that the first point may stand for."""
+        x, rows = self.witness.points[0], self.witness.slice.rows
+        accuracy: float | np.ndarray = self.witness.accuracy
+        if self._isolated and np.ptp(self.witness.radii[0]) > 0:
+            accuracy = self.witness.radii[0]
+        elif self.witness.fibres or self.witness.multiplicity != 1:
+            # Of what was sharpened by a deflation no more is known.
+            accuracy = max(self.witness.accuracy, ACCURACY)
+        rng = np.random.default_rng(0)
+        zeros = possible_zeros(self.branch.system.polynomials, x, accuracy, rng, rows)
+        if self._isolated:
+            # Paths end at a zero as many times as its multiplicity says: no other is meant.
+            zeros = tuple(z for z in zeros if z.multiplicity == self.witness.multiplicity)
+        return alike(zeros, x) if len(zeros) > 1 else zeros

@@ -1,0 +1,58 @@
+"""A solution of a system in fewer variables, in those of the system that led to it.
+
+Terms of what gives the other variables may cancel: these are worked out in more digits then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.elimination import Elimination
+from nag.algebra.high_precision import DIGITS
+from nag.numerics.digits import doubles
+from nag.numerics.zero_values import possible_zeros
+from nag.solving.isolated_zero import ROUNDING
+from nag.solving.solutions import Solution
+
+# Coordinates with larger errors than this, relative to their sizes, are worked out in more digits.
+ROUGH = 1e-9
+
+
+def lifted_solution(solution: Solution, elimination: Elimination) -> Solution:
+    """The solution above one of ``elimination.system``.
+
+    Its ``radii`` are known where those of the given one are, or where more digits were needed.
+    """
+    y, radii = solution.point, solution.radii
+    x = elimination.lift(y)
+    if len(elimination.kept) == len(x):
+        return replace(solution, point=x)
+    even = solution.accuracy * (1 + np.linalg.norm(y))
+    errors = elimination.lift_radii(y, np.full(len(y), even) if radii is None else radii)
+    others = np.delete(np.arange(len(x)), elimination.kept)
+    if solution.multiplicity == 1 and (errors > ROUGH * np.abs(x))[others].any():
+        fine = _in_digits(elimination, y, solution.accuracy if radii is None else radii)
+        if fine is not None:
+            x = doubles(fine)
+            return replace(solution, point=x, radii=ROUNDING * np.abs(x))
+    return replace(solution, point=x, radii=None if radii is None else errors)
+
+
+def _in_digits(
+    elimination: Elimination, y: np.ndarray, error: float | np.ndarray
+) -> Sequence[Any] | None:
+    """The point above the regular zero near ``y``, in FLINT's ``acb``; None if there is none."""
+    import flint
+
+    from nag.numerics.digits import number, point
+
+    zeros = possible_zeros(elimination.system.polynomials, y, error, np.random.default_rng(0))
+    if len(zeros) != 1 or zeros[0].multiplicity != 1:
+        return None
+    with flint.ctx.workdps(DIGITS):
+        zero = point(zeros[0].digits)
+        return [flint.acb(image(zero, number)).mid() for image in elimination.images]

@@ -1,0 +1,93 @@
+"""Small systems that were answered wrongly once, or only after very long, and what is true of them.
+
+The truth is that of `exact_counts`.
+"""
+
+from __future__ import annotations
+
+import pytest
+from systems import kinds, system
+
+from nag.decomposition import decompose
+from nag.solving.solve import solve
+
+VARIABLES = {3: "x y z", 4: "x y z w"}
+SIMPLE, TRIPLE_LINE = (0, 1, 1), (1, 1, 3)
+SYSTEMS = {
+    # Two simple zeros 1e-15 from a multiple one, in the same branch.
+    "beside a multiple zero": (
+        (
+            "300*x^2*z - 44000*x*y^2 + 20*x*z^2",
+            "-40000/9*x^3*y - 27/50000*z^4 - 200/3*x^3 + 1/500*y",
+            "9/100*x^4*y - 7/100*x*y^2*z^2 + 200*y*z^4 + 1/10000*x*y^2 + 3/100000*x^2 + 900000*y",
+        ),
+        {SIMPLE: 39, (0, 1, 8): 1},
+    ),
+    # A multiple zero of one branch on the line that another one is.
+    "a multiple zero on a line": (
+        (
+            "-8/3*x^3*z - 60000*y^2*z^2 - 8400000*x^3 - 3/10000*x^2*z + 1/5000*z^2",
+            "-7000*x*y^2*z + 4000*x*y*z^2 + 470000*x*z^3 - 900000*y^3*z - 700*z^4",
+            "-44*x^3*z^2 + 1/12500*z^5 + 6*y*z^3 + 195*y*z^2",
+        ),
+        {SIMPLE: 28, TRIPLE_LINE: 1},
+    ),
+    # Two simple zeros of one branch on the conic that another one has, and two beside it.
+    "on a conic and beside it": (
+        (
+            "1250*x^2 + 1000*y^2 + 1/50000*y*z + 4000",
+            "700000*x*y*w + 700000*y*z^2 - 40000/7*y*z*w + 3/20*y*z",
+            "500*x*z^2 - 3/50000*x*z + 1000*x*w + 7/100*z*w + 1/125*w^2",
+            "70*x^2*w^2 + 1/1000*x*y^2*z - 7/10*x*w^3 + 9/100*x^2*z + 930*x*y*z + 600*w^2",
+        ),
+        {SIMPLE: 38, (1, 2, 1): 1},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_components_are_those_that_exact_algebra_counts(name: str) -> None:
+    equations, truth = SYSTEMS[name]
+    answer = decompose(system(VARIABLES[len(equations)], *equations))
+    assert kinds(answer) == truth
+    assert answer.complete
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_isolated_zeros_are_as_many_as_exact_algebra_counts(name: str) -> None:
+    equations, truth = SYSTEMS[name]
+    result = solve(system(VARIABLES[len(equations)], *equations))
+    found = [s.multiplicity for s in result.solutions]
+    assert sorted(found) == sorted(
+        k for (d, _, k), count in truth.items() if not d for _ in range(count)
+    )
+    assert result.complete
+
+
+def test_an_end_beside_one_that_is_proved_lies_on_the_curve_there() -> None:
+    equations = (
+        "-1/20*x*y - 100*y*w + 200000/3*z^2 + 490000*x + 6000*z",
+        "30*x^2*y + 7/1200*y*z^2 + 7*z*w^2 + 120*z*w - 100000*z",
+        "-3/2*x*y + 800000*y*z + 1/1250*z^2 - 53/10*z + 1/20000*w",
+        "-70/9*x*z - 8*y*w - 1/10000*z^2 - 55*w^2",
+    )
+    result = solve(system("x y z w", *equations))
+    assert [s.multiplicity for s in result.solutions] == [1] * 14
+    assert result.complete
+    assert result.positive_dimensional
+
+
+def test_paths_that_end_at_too_few_zeros_are_followed_further_and_no_others() -> None:
+    """Five end where a triple zero seems to be; 28 others go to infinity with winding number 14."""
+    result = solve(
+        system(
+            "x y z w",
+            "-90000*x^2 - 5*y^2 + 53/100000*z + 79/800*w",
+            "3/400*x*y*z^3 + 9/10000*y*z^2*w^2 + 3/25*x^3*z - 1/500000*z^2*w^2 + 9/100*y^2 + 81",
+            "-7/40000*x^2 + 37*x*z - 2/25*y^2 + 39/5000*z^2 - 350000*x + 2000",
+            "-6*z^3*w^2 - 17/10000*x^2*y",
+        )
+    )
+    assert [s.multiplicity for s in result.solutions] == [1] * 66
+    assert result.complete
+    assert result.paths.at_infinity == 28
