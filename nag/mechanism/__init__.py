@@ -4,5 +4,6 @@ Read in this order: `graph` on `joint_types` (the data); `loops` on `rigid_group
 `formulations` and `model` (the choice); the formulations `planar`, `euler`, `half_angles`, `rods`;
 `assembly_modes` and `mode_decomposition`; `unreduced` (all constraints, for checks). `framework`
 (with `isotropic` and `parts_decomposition`), `dh` and `linkage` are other ways to give one;
-`mobility_report` says how one moves.
+`mobility_report` says how one moves; `another_model` (with `pins`) has other equations of the same
+parts, to compare.
 """
