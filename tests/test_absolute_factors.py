@@ -21,7 +21,8 @@ from nag.algebra.system import PolynomialSystem
         ("x^2 - 2", "x y", False),
         ("y - x^3", "x y", True),
         ("x*y - 1/10^20", "x y", True),
-        (f"x*y - 1/{2**61 - 1}", "x y", False),
+        (f"x*y - 1/{2**61 - 1}", "x y", True),
+        (f"x^3 + y^3 - 1/{2**61 - 1}", "x y", False),
         ("(x^2 + y^2 - 1)*(x^2 - 2*y^2 + 3*x - 5) + (x - 2*y + 1)/10^16", "x y", True),
     ],
 )

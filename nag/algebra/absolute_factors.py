@@ -10,6 +10,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from nag.algebra.factoring import is_surely_irreducible, ring
 from nag.algebra.polynomial import Polynomial
 
 # Ranks are computed modulo this prime; a rank that it lowers gives a larger number, never 1.
@@ -45,6 +46,8 @@ def most_absolute_factors(f: Polynomial, rng: np.random.Generator) -> int | None
     """
     if not f.exact or f.n < 2 or not 1 <= f.degree <= MOST_DEGREE:
         return None
+    if is_surely_irreducible(ring(f.n).of(f), f.n):
+        return 1
     plane = _on_a_plane(f, rng)
     if any(c.denominator % PRIME == 0 for c in plane.terms.values()):
         return None

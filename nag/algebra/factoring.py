@@ -66,7 +66,7 @@ def ring(n: int) -> Ring:
 
 
 def is_surely_irreducible(f: Any, n: int) -> bool:
-    """Whether a polynomial of FLINT's, no constant, is seen to have one factor and no other.
+    """Whether a polynomial of FLINT's, no constant, is seen to be irreducible over any field.
 
     Where a variable occurs linearly, factors without it are common to what it is multiplied by and
     to the rest: monomials, if one of both is a single term. A quadric of rank three and more is

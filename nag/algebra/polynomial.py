@@ -136,12 +136,12 @@ class Polynomial:
     @property
     def degree(self) -> int:
         """Total degree; 0 for a constant, -1 for the zero polynomial."""
-        return max((sum(e) for e in self.terms), default=-1)
+        return max(map(sum, self.terms), default=-1)
 
     def degree_in(self, indices: Iterable[int]) -> int:
         """Degree in the variables at ``indices`` together; -1 for the zero polynomial."""
         indices = tuple(indices)
-        return max((sum(e[i] for i in indices) for e in self.terms), default=-1)
+        return max((sum([e[i] for i in indices]) for e in self.terms), default=-1)
 
     @property
     def support(self) -> frozenset[int]:

@@ -69,11 +69,12 @@ def _coranks(
     have.
     """
     d, result, regular = len(rows), [], not fibre.cut.deflated
-    for i, point in enumerate(fibre.x):
+    matrices = [equations.evaluator.balanced_jacobian(point) for point in fibre.x]
+    singular = np.linalg.svd(np.array(matrices), compute_uv=False)
+    for i, (point, s) in enumerate(zip(fibre.x, singular, strict=True)):
         if regular and i in fibre.fine:
             result.append(d)
             continue
-        s = np.linalg.svd(equations.evaluator.balanced_jacobian(point), compute_uv=False)
         corank = numerical_corank(s, len(point), SINGULAR)
         if regular and corank != d and multiplicity(equations.polynomials, rows, point, rng) == 1:
             corank = d

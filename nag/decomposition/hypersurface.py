@@ -38,6 +38,8 @@ from nag.witness.witness import PathCounts
 NEARER = 0.3
 # Errors of roots of a polynomial in one variable, from where Newton's method finds them.
 ROUGH = 1e-8
+# Roots of a polynomial of higher degree are rarely found in doubles, and not soon.
+MOST_ROOTS = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +89,7 @@ def intersect(
         return _intersect_close(fibre, f, flag, gamma, tracker)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     n, total = cut.n, cut.n + cut.aux
-    if not cut.polynomials and len(fibre) == 1:
+    if not cut.polynomials and len(fibre) == 1 and degree <= MOST_ROOTS:
         found = _on_line(n, f, flag[: d - 1], fibre.points[0])
         if found is not None:
             return found

@@ -101,7 +101,7 @@ def _collect(
         chosen = [
             i
             for i in np.flatnonzero(allowed & ends.regular)
-            if not coincident(seen, x[i], ends.accuracy[i]).any()
+            if not (len(seen) and coincident(seen, x[i], ends.accuracy[i]).any())
         ]
         if chosen:
             seen = np.vstack([seen, x[chosen]])

@@ -132,6 +132,10 @@ def compile_rows(
     ).reshape(len(polynomials), len(partition))
     rows = []
     for f, row_degrees in zip(polynomials, degrees, strict=True):
+        if homogenize and len(partition) == 1:
+            degree = int(row_degrees[0])
+            rows.append(((0, {(degree - sum(e), *e): c for e, c in f.terms.items()}),))
+            continue
         terms = {}
         for e, c in f.terms.items():
             missing = tuple(

@@ -99,6 +99,8 @@ class Work(NamedTuple):
 
 
 def _real_blocks(start: np.ndarray, coefficient: np.ndarray) -> np.ndarray:
+    if not coefficient.imag.any():
+        return np.ones(len(start) - 1, dtype=np.int64)
     imaginary = np.append(0, np.cumsum(coefficient.imag != 0))
     return (np.diff(imaginary[start]) == 0).astype(np.int64)
 
@@ -135,18 +137,16 @@ def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
     known = homotopy._cache.get("system")
     if known is not None and weights is None:
         return known
-    factors = np.array(homotopy.factors, dtype=np.complex128).reshape(-1, 2)
-    moving = (factors[:, 1] != 0) | (factors[:, 0] != 1) | (weights is not None)
-    (factor_re, factor_im), (A0_re, A0_im), (A1_re, A1_im) = map(
-        _parts, (factors, homotopy.A0, homotopy.A1)
-    )
+    factors = homotopy.factors
+    moving = [int(b != 0 or a != 1 or weights is not None) for a, b in factors]
+    (A0_re, A0_im), (A1_re, A1_im) = map(_parts, (homotopy.A0, homotopy.A1))
     made = replaced(
         _template(homotopy),
         linear=len(homotopy.A0),
         parts=len(factors),
-        factor_re=factor_re,
-        factor_im=factor_im,
-        moving=moving.astype(np.int64),
+        factor_re=np.array([c.real for pair in factors for c in pair]),
+        factor_im=np.array([c.imag for pair in factors for c in pair]),
+        moving=np.array(moving, dtype=np.int64),
         A0_re=A0_re,
         A0_im=A0_im,
         A1_re=A1_re,
@@ -162,12 +162,13 @@ def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
 
 def at_end(homotopy: Homotopy) -> Table:
     """The same for t = 0 alone, with linear rows scaled to norms between 1/2 and 1."""
-    made, A0 = system(homotopy), homotopy.A0
-    exponents = np.frexp(norms(A0))[1]
+    made, shape = system(homotopy), homotopy.A0.shape
+    exponents = np.frexp(norms(homotopy.A0))[1]
     if not exponents.any():
         return made
-    A0_re, A0_im = _parts(A0 * np.ldexp(1.0, -exponents)[:, None])
-    return replaced(made, A0_re=A0_re, A0_im=A0_im)
+    scales = np.ldexp(1.0, -exponents)[:, None]
+    re, im = (part.reshape(shape) * scales for part in (made.record.A0_re, made.record.A0_im))
+    return replaced(made, A0_re=re.ravel(), A0_im=im.ravel())
 
 
 def _template(homotopy: Homotopy) -> Table:

@@ -64,6 +64,8 @@ def vanishing(
     """
     evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
     small = evaluator.residuals(x)[:, 0] < ON
+    if not small.any():
+        return [False] * len(x)
     rounding = np.abs(evaluator.values(x)) <= CERTAIN * evaluator.absolute(x)
     if max(g.digits for g in (f, *cut.polynomials)) > ROUND_NUMBERS:
         rounding[:] = False

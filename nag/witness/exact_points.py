@@ -149,10 +149,11 @@ def _exact_product(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray
 def fixed(z: np.ndarray, bits: int) -> np.ndarray:
     """Complex doubles as integers of the unit ``2 ** -bits``, real and then imaginary parts."""
     parts = np.concatenate([z.real, z.imag], axis=1)
-    mantissa, exponent = np.frexp(np.where(np.isfinite(parts), parts, 0.0))
-    whole = np.ldexp(mantissa, 53).astype(np.int64).astype(object)
-    shift = (exponent.astype(np.int64) + (bits - 53)).astype(object)
-    return np.where(shift >= 0, whole << np.maximum(shift, 0), whole >> np.maximum(-shift, 0))
+    result = np.zeros(parts.shape, dtype=object)
+    ratios = map(float.as_integer_ratio, np.where(np.isfinite(parts), parts, 0.0).ravel().tolist())
+    # Denominators are powers of two.
+    result.flat = [(whole << bits) >> (unit.bit_length() - 1) for whole, unit in ratios]
+    return result
 
 
 def _from_fine(

@@ -9,7 +9,7 @@ import numpy as np
 
 from nag.numerics.coincidence import coincident
 from nag.numerics.small_values import ON
-from nag.tracking.homotopy import Homotopy
+from nag.tracking.homotopy import Homotopy, norms
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
@@ -149,9 +149,9 @@ class Moved:
 
 def homogeneous(points: np.ndarray) -> np.ndarray:
     """Affine points as homogeneous ones of norm one."""
-    # Columns chosen by indices lie apart in memory; the tracker reads points in one piece.
-    points = np.ascontiguousarray(np.hstack([np.ones((len(points), 1)), points]))
-    return points / np.linalg.norm(points, axis=1, keepdims=True)
+    result = np.ones((len(points), 1 + points.shape[1]), dtype=np.complex128)
+    result[:, 1:] = points
+    return result / norms(result)[:, None]
 
 
 def affine(points: np.ndarray) -> np.ndarray:

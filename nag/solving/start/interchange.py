@@ -9,7 +9,8 @@ Reference: Verschelde & Cools, Symmetric homotopy construction, 1994.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from math import comb, prod
 
 import numpy as np
@@ -70,12 +71,14 @@ def interchange(target: Target, rows: Sequence[int], free: Sequence[int]) -> Int
     """
     blocks: list[list[int]] = []
     owner: dict[int, int] = {}
-    for alike in _alike(target, free):
+    classes = _alike(target, free)
+    plain = replace(target, rows=_numbered(target.rows)) if classes else target
+    for alike in classes:
         owners = _owners(target, rows, alike)
         found: list[list[int]] = []
         for j, row in owners.items():
             for block in found:
-                if _exchanges(target, rows, (block[-1], j), (owners[block[-1]], row)):
+                if _exchanges(plain, rows, (block[-1], j), (owners[block[-1]], row)):
                     block.append(j)
                     break
             else:
@@ -119,6 +122,17 @@ def _owners(target: Target, rows: Sequence[int], alike: Sequence[int]) -> dict[i
             return {}
         owners[j] = seen[min(single)][0]
     return owners if len(set(owners.values())) == len(owners) else {}
+
+
+def _numbered(rows: Sequence[Terms]) -> tuple[Terms, ...]:
+    """Rows of fractions with a whole number for each, as these are compared in less time."""
+    if not all(isinstance(c, Fraction) for row in rows for c in row.values()):
+        return tuple(rows)
+    numbers: dict[tuple[int, int], int] = {}
+    return tuple(
+        {e: numbers.setdefault(c.as_integer_ratio(), len(numbers)) for e, c in row.items()}
+        for row in rows
+    )
 
 
 def _exchanges(

@@ -196,6 +196,10 @@ def homogenized(
     shift = len(groups)
     parts = []
     for row, wanted in zip(rows, degrees, strict=True):
+        if shift == 1:
+            degree = int(wanted[0])
+            parts.append(((0, {(degree - sum(e), *e): c for e, c in row.items()}),))
+            continue
         terms = {}
         for e, c in row.items():
             missing = tuple(

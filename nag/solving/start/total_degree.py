@@ -174,9 +174,13 @@ def _powers(
     rows: list[Row] = []
     for form, d, c in zip(forms.tolist(), degrees, constants, strict=True):
         line = {_unit_vector(j, n): a for j, a in zip(free, form, strict=True) if a}
-        row: Row = {(0,) * n: 1.0}
-        for _ in range(d):
-            row = _product(row, line)
+        if len(line) == 1:
+            ((e, a),) = line.items()
+            row: Row = {tuple(d * k for k in e): a**d}
+        else:
+            row = {(0,) * n: 1.0}
+            for _ in range(d):
+                row = _product(row, line)
         rows.append({**row, (0,) * n: -complex(c)} if d else row)
     return rows
 
