@@ -127,7 +127,11 @@ class Search:
         if more:
             state = replace(leaf, equations=(*leaf.equations, *more))
             parts = list(self.leaves(state))
-            if not parts or len(leaf.equations) > needed:
+            most = len(leaf.equations) + len(leaf.solved)
+            # More equations than there were would be squared up, and their zeros less well known.
+            if not any(len(p.equations) + len(p.solved) > most for p in parts) and (
+                not parts or len(leaf.equations) > needed
+            ):
                 yield from parts
                 return
         elif found is not None and len(leaf.equations) > needed:
