@@ -114,8 +114,12 @@ class _Found:
 
 
 def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
-    """The point, and its error: of each coordinate where these are known."""
-    return solution.point, solution.accuracy if solution.radii is None else solution.radii
+    """The point, and its error: of each coordinate where these are known.
+
+    That tells simple zeros from others; in what units a multiple one is seen best, it does not say.
+    """
+    simple = solution.multiplicity == 1 and solution.radii is not None
+    return solution.point, solution.radii if simple else solution.accuracy
 
 
 @dataclass(frozen=True, eq=False)
