@@ -84,9 +84,10 @@ class BranchComponent:
         x, rows = self.witness.points[0], self.witness.slice.rows
         accuracy: float | np.ndarray = self.witness.accuracy
         simple = self.witness.multiplicity == 1
-        if self._isolated and simple and np.ptp(self.witness.radii[0]) > 0:
+        each = self._isolated and np.ptp(self.witness.radii[0]) > 0
+        if each and simple:
             accuracy = self.witness.radii[0]
-        elif self.witness.fibres or not simple:
+        elif self.witness.fibres or not (each or simple):
             # Of what was sharpened by a deflation no more is known.
             accuracy = max(self.witness.accuracy, ACCURACY)
         rng = np.random.default_rng(0)
