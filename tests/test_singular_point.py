@@ -168,3 +168,16 @@ def test_the_size_of_the_coordinates_does_not_matter(size: float) -> None:
 def test_the_same_seed_gives_the_same_answer() -> None:
     first, second = (judged(ON_COMPONENTS["three lines"], 1e-6, seed=3) for _ in range(2))
     assert first.digits == second.digits and first.reason == second.reason
+
+
+def test_a_line_through_a_rational_point_parallel_to_an_axis_is_seen_exactly() -> None:
+    equations = polynomials(
+        "x y z",
+        "-40*x^5 + 100*x^3*z^2 - 180*x^2*y^2*z + 70*y^2*z^3 + 100/3*x^2",
+        "1/5*x^3*y*z - 1/100*y^3*z^2 - 1/50*x^4 + 6*y^2*z^2 + 23/100*x^2",
+        "-50*x*z^3 - 200/3*y^4 + 400*x*y*z",
+    )
+    end = analyse(equations, np.zeros(3), 1e-15, np.random.default_rng(0))
+    assert end.place is Place.ON_COMPONENT
+    assert end.dimension == 1
+    assert "exactly" in end.reason

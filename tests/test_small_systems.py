@@ -42,6 +42,36 @@ SYSTEMS = {
         ),
         {SIMPLE: 38, (1, 2, 1): 1},
     ),
+    # Paths to isolated points of a curve are lost, those of a start system are not.
+    "paths lost beside a line": (
+        (
+            "1/2000*x*y*z + 1/5*z^2*w - 3/100*w^3 - 47/100000*x*z",
+            "-30*x*y - 800*y^2 - 15/2*y*z - 1/125*w^2 + 1/25000*z",
+            "9/100*x^2*w - 1/1000*x*y*w - 7/200*x*w^2 - 5300*w^3 + 1/20000*x*z",
+            "-1000*y^2 + 1/2*y*w - 3400*z^2",
+        ),
+        {(0, 1, 1): 16, (1, 1, 1): 1},
+    ),
+    # The origin, in three variables whose series are too long, lies on a line.
+    "too long series": (
+        (
+            "-9/4*x^2*y + 75/2*x*y^2 - 2*z^3 + 2*w^3",
+            "70*z^2*w^2 + 12*w^4 - 42*x^3 - 5*x*z^2",
+            "-9*y*z - 6*z^2 - 2*z*w - 36*w",
+            "6*x^2*y - 93*y^2*w",
+        ),
+        {(0, 1, 1): 33, (1, 1, 1): 1},
+    ),
+    # Ends on a line where numbers of 1e-63 are no zeros in units of one.
+    "small coefficients on a line": (
+        (
+            "1/50000*x^3*z + 40000*x^2*z^2 - 3/100000*x^2*y - 500000*z",
+            "60000*x*y^2 + 29/10000*y^2*w - 4000*w^3 + 2000*z*w",
+            "-13/2*y*z*w - 39/5000*z^3 - 2*z^2*w - 2/25*x*w",
+            "-17/20000*x*y^2 - x*z^2 - 3/10*x*w^2 + 940*w",
+        ),
+        {(0, 1, 1): 44, (1, 1, 1): 1, (1, 1, 2): 1},
+    ),
 }
 
 

@@ -25,6 +25,8 @@ MOST_TERMS = 5000
 # Bits in which coordinates are computed, doubled until they are known to those of a double.
 LEAST_BITS, MOST_BITS = 64, 1 << 14
 DOUBLE_BITS = 54
+# Those of zeros whose local rings are looked at.
+BITS = 400
 # Those in which gradients are looked at before exact algebra is.
 BALL_BITS = 256
 

@@ -83,9 +83,11 @@ class BranchComponent:
         """The exact zeros on the slice that the first point may stand for."""
         x, rows = self.witness.points[0], self.witness.slice.rows
         accuracy: float | np.ndarray = self.witness.accuracy
-        if self._isolated and np.ptp(self.witness.radii[0]) > 0:
+        simple = self.witness.multiplicity == 1
+        each = self._isolated and np.ptp(self.witness.radii[0]) > 0
+        if each and simple:
             accuracy = self.witness.radii[0]
-        elif self.witness.fibres or self.witness.multiplicity != 1:
+        elif self.witness.fibres or not (each or simple):
             # Of what was sharpened by a deflation no more is known.
             accuracy = max(self.witness.accuracy, ACCURACY)
         rng = np.random.default_rng(0)

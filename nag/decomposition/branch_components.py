@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.algebraic_zeros import BITS, AlgebraicZero, algebraic_zeros
 from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator, may_vanish
@@ -316,11 +316,14 @@ def _multiplicity(
 
     def by_local_ring(generators: Sequence[Polynomial]) -> int:
         rows, rng = witness.slice.rows, np.random.default_rng(0)
-        zeros = () if component.zero is not None else component.zeros
-        if len(zeros) != 1:
-            return multiplicity(generators, rows, x, rng)
         # Zeros of other branches may be close to it.
-        there = possible_zeros(generators, zeros[0].digits, WRITTEN, rng, padded(rows, 1 + n))
+        if component.zero is not None:
+            at, error = component.zero.known_to(BITS), 2.0**-BITS
+        elif len(component.zeros) == 1:
+            at, error = component.zeros[0].digits, WRITTEN
+        else:
+            return multiplicity(generators, rows, x, rng)
+        there = possible_zeros(generators, at, error, rng, padded(rows, 1 + n))
         return multiplicity_of_all(there) or 0
 
     return generic_multiplicity(

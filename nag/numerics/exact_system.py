@@ -128,6 +128,20 @@ class ExactSystem:
         with flint.ctx.workdps(digits):
             return log_norm(self.values_at(digits).values(y))
 
+    def vanishes_on_an_axis(self, point: Sequence[Fraction]) -> bool:
+        """Whether rational equations vanish where all coordinates but one are those of a point."""
+        return any(self._vanishes_along(point, i) for i in range(self.n))
+
+    def _vanishes_along(self, point: Sequence[Fraction], i: int) -> bool:
+        for row in self.rows:
+            sums: dict[int, Fraction] = {}
+            for e, c in row:
+                others = (point[j] ** k for j, k in enumerate(e) if k and j != i)
+                sums[e[i]] = sums.get(e[i], Fraction(0)) + prod(others, start=c)
+            if any(sums.values()):
+                return False
+        return True
+
     def vanishes_exactly(self, y: Sequence[Fraction]) -> bool:
         """Whether all rows vanish at a rational point."""
         return all(value(row, y) == 0 for row in self.rows)

@@ -182,6 +182,9 @@ def _by_dual_space(
     exact = rational_point(found.point, DIGITS) if system.rational else None
     if exact is not None and not system.vanishes_exactly(exact):
         raise UnclearRank("the equations vanish to all digits, but not at the rational point there")
+    if exact is not None and system.vanishes_on_an_axis(exact):
+        reason = "the equations vanish exactly on a line through it"
+        return _end(system, found, Place.ON_COMPONENT, 0, reason, 1)
     search = CurveSearch(SEARCHES, lambda attempts: curve_through(system, found, rng, attempts))
     spaces: list[DualSpace] = []
     for field in [PrimeField(p) for p in PRIMES] if exact is not None else [NUMBERS]:

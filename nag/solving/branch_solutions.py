@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.algebraic_zeros import BITS, AlgebraicZero, algebraic_zeros
 from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator, may_vanish
@@ -42,8 +42,6 @@ from nag.solving.solutions import PathStatistics, Solution, SolveResult
 
 # Solutions that may be the same, found in two branches: relative distance.
 NEAR = 1e-7
-# Bits of the coordinates of exact zeros whose local rings are looked at.
-BITS = 400
 # Digits to compute with.
 WORKING = 120
 
@@ -114,8 +112,12 @@ class _Found:
 
 
 def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
-    """The point, and its error: of each coordinate where these are known."""
-    return solution.point, solution.accuracy if solution.radii is None else solution.radii
+    """The point, and its error: of each coordinate where these are known.
+
+    That tells simple zeros from others; in what units a multiple one is seen best, it does not say.
+    """
+    simple = solution.multiplicity == 1 and solution.radii is not None
+    return solution.point, solution.radii if simple else solution.accuracy
 
 
 @dataclass(frozen=True, eq=False)

@@ -222,10 +222,10 @@ def _place(
         if not solves:
             return _Place(None)
         return _Place(Place.ISOLATED, tuple(_simple(begin, zeros, np.array([i]), paths)))
-    # The coordinates of a limit either vanish or are known each by itself.
-    limit = int(path) in paths.branches
-    errors = accuracy * np.abs(point) if limit else accuracy
-    end = analyse(problem.equations, point, errors, rng)
+    end = analyse(problem.equations, point, accuracy, rng)
+    if end.place is Place.UNDECIDED and int(path) in paths.branches:
+        # The coordinates of a limit either vanish or are known each by itself, which says more.
+        end = analyse(problem.equations, point, accuracy * np.abs(point), rng)
     members = [end]
     if end.place is Place.CLUSTER:
         met = coincident(zeros.points[zeros.alone()], end.point, max(accuracy, end.accuracy))
