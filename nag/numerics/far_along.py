@@ -33,11 +33,11 @@ DIRECTIONS = 3
 # What Newton's steps may change after a step, as shares of it, so that it leads to no other sheet:
 # the first one after steps by a high order and by a low one; the second one beside the first,
 # or, where both are rounding, beside the step. Where it is larger, doubles do no longer.
-SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING = 0.01, 0.1, 0.05, 1e-6
+SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING = 0.01, 0.05, 0.05, 1e-6
 # The first step, and the least one.
 FIRST, LEAST = 1e-2, 1e-30
 # Inverses (decimal logarithm) up to which doubles do.
-GOOD = 5.0
+GOOD = 10.0
 
 
 def far_value(
@@ -179,13 +179,53 @@ def _step(
 ) -> _Place:
     """A step along the set, or the same place with a smaller step."""
     x, h = place.point, place.step
-    ahead = predicted(system, x, rounds, [c * h for c in turns])
+    one_round = len(rounds) == 1
+    along = [c * h for c in turns]
+    ahead = (_ahead if one_round else predicted)(system, x, rounds, along)
     found = None if ahead is None else descend(system, DIGITS, ahead, rounds, 1)
     if ahead is not None and found is not None and found.inverse < LARGEST_INVERSE:
         moved = log_norm(a - b for a, b in zip(ahead, x, strict=True))
-        one = log_norm(found.displacement)
-        if one < moved + log10(SMALL_ROUGHLY):
-            longer = 2.0 if one < moved + log10(SMALL_ROUGHLY / 4) else 1.0
+        one, small = log_norm(found.displacement), log10(SMALL if one_round else SMALL_ROUGHLY)
+        if one < moved + small:
+            longer = 2.0 if one < moved + small - (1.2 if one_round else 0.6) else 1.0
             point = [middle(a + b) for a, b in zip(ahead, found.displacement, strict=True)]
             return _Place(point, place.gone + h, h * longer)
     return _Place(x, place.gone, h / 2)
+
+
+def _ahead(
+    system: ExactSystem, x: Point, rounds: Sequence[Round], along: Sequence[flint.acb]
+) -> Point | None:
+    """A step along the set of one round, like that in doubles."""
+    a = _tangent(system, x, rounds[0], along)
+    b = a and _tangent(system, _moved(x, a, 0.5), rounds[0], along)
+    c = b and _tangent(system, _moved(x, b, 0.5), rounds[0], along)
+    d = c and _tangent(system, _moved(x, c, 1.0), rounds[0], along)
+    if a is None or b is None or c is None or d is None:
+        return None
+    total = [(p + 2 * q + 2 * r + s) / 6 for p, q, r, s in zip(a, b, c, d, strict=True)]
+    return _moved(x, total, 1.0)
+
+
+def _moved(x: Point, step: Point, share: float) -> Point:
+    return [middle(a + b * share) for a, b in zip(x, step, strict=True)]
+
+
+def _tangent(
+    system: ExactSystem, x: Point, this: Round, along: Sequence[flint.acb]
+) -> Point | None:
+    slopes = system.values_at(DIGITS).jacobian(x)
+    step = [flint.acb(0)] * len(x)
+    free = [j for j in range(len(x)) if j not in this.columns]
+    for j, v in zip(free, along, strict=True):
+        step[j] = v
+    if this.columns:
+        right = [[sum(slopes[i][j] * step[j] for j in free)] for i in this.rows]
+        block = flint.acb_mat([[slopes[i][j] for j in this.columns] for i in this.rows])
+        try:
+            found = block.solve(flint.acb_mat(right)).mid().entries()
+        except ZeroDivisionError:
+            return None
+        for j, c in zip(this.columns, found, strict=True):
+            step[j] = -c
+    return step
