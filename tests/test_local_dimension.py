@@ -224,9 +224,10 @@ def squares(count: int) -> str:
     return ", ".join(f"x{i + 1} - x{i}^2" for i in range(count))
 
 
-@pytest.mark.parametrize("offset", [0, 1e-9])
-@pytest.mark.parametrize("count", [9, 11, 12])
-@pytest.mark.parametrize("last", ["x{0}", "y^2 - x{0}, y*x0"])
+@pytest.mark.parametrize(
+    ("last", "count", "offset"),
+    [("x{0}", 11, 0), ("x{0}", 11, 1e-9), ("y^2 - x{0}, y*x0", 9, 0)],
+)
 def test_a_contact_of_high_order_is_not_taken_for_a_curve(
     last: str, count: int, offset: float
 ) -> None:
