@@ -46,6 +46,10 @@ numerics.curves.VANISHING                   0.75    Share of the digits from whi
                                                     zero.
 numerics.deflated_system.ZERO               -50     Decimal logarithm of entries that are zero, of
                                                     150 digits; others lie far above.
+numerics.far_along.FAR                      5       Scaled distance from a singular point at which
+                                                    it is seen whether equations vanish along a set:
+                                                    no power of it is small.
+numerics.far_along.AT_MOST                  100     The same in variables that the set determines.
 numerics.local_dimension.ROUNDED            1e-8    Relative error of a point of doubles whose error
                                                     is not told.
 numerics.local_structure.FURTHEST           -1.3    Decimal logarithm of the largest distance in
@@ -284,9 +288,10 @@ interpolation.point_cloud.SMALL             1e-5    Singular values of tangents,
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
 rounding, digits that are taken, where random numbers come from.
 
-numerics.certified_points: FLAT; numerics.curves: CLOSER, PATIENCE; numerics.deflated_system:
+numerics.certified_points: FLAT; numerics.curves: CLOSE, CLOSER, PATIENCE; numerics.deflated_system:
 MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY; numerics.digits: LOG10_2, SMALLEST,
-LARGEST; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: EXACT;
+LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST, LEAST, GOOD;
+numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: EXACT;
 numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: REACHES;
 numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2; numerics.scaling: INERTIA,
 NEARLY_ORTHOGONAL; numerics.sharpening: ROUNDING, NEARLY; numerics.small_values: LEAST;

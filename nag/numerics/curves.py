@@ -14,6 +14,7 @@ from nag.numerics.digits import LOG10_2, log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.far_along import far_value
 from nag.numerics.implicit_function import Reduction, eliminate
+from nag.numerics.pivots import pivots
 from nag.numerics.power_series import evaluate
 from nag.numerics.series_zeros import ScaledSeries
 from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO, predicted, sharpen
@@ -80,41 +81,50 @@ def smooth_set(
     """
     nearer = int(max(0.0, inverse) / LOG10_2)
     for k in (k + nearer for k in NEAR):
-        first = _values(system, point, rounds, k, LEAST_DIGITS)
-        if first is None:
+        beside = _beside(system, point, rounds, k)
+        if beside is None:
             continue
+        first = system.log_residual(beside, LEAST_DIGITS)
         if first < -VANISHING * LEAST_DIGITS:
             if digits_at(system, k) <= LEAST_DIGITS:
                 return 0.0
             digits = LEAST_DIGITS + int(_length(system) / VANISHING)
-            far = far_value(system, point, rounds, inverse, digits)
+            begin = (beside, *_reduced(system, beside, rounds, inverse))
+            far = far_value(system, *begin, digits)
             if far is None:
                 return inf
-            return 0.0 if far < -VANISHING * digits else max(2.0, -first / (k * LOG10_2))
-        second = _values(system, point, rounds, k + STEP, LEAST_DIGITS)
-        if second is not None:
+            return 0.0 if far < -VANISHING * digits else max(2.0, -first / ((k + 2) * LOG10_2))
+        nearby = _beside(system, point, rounds, k + STEP)
+        if nearby is not None:
+            second = system.log_residual(nearby, LEAST_DIGITS)
             return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
     return inf
 
 
-def _values(
-    system: ExactSystem, point: Point, rounds: Sequence[Round], k: int, digits: int
-) -> float | None:
-    """Decimal logarithm of the equations' values on the set at distance 2^-k; None if not found."""
+def _beside(system: ExactSystem, point: Point, rounds: Sequence[Round], k: int) -> Point | None:
+    """A point of the smooth set at distance 2^-k; None if not found."""
     with working(LEAST_DIGITS):
         left = len(point) - sum(len(r.columns) for r in rounds)
         along = [flint.acb(1, i + 1) / 2**k / (i + 2) for i in range(left)]
         start = predicted(system, point, rounds, along)
-    if start is None:
-        return None
-    with working(digits):
-        found = sharpen(system, start, rounds, digits)
+        found = None if start is None else sharpen(system, start, rounds, LEAST_DIGITS)
         if found is None:
             return None
         moved = log_norm(a - b for a, b in zip(found[0], point, strict=True))
-        if abs(moved + k * LOG10_2) > 1.5:
-            return None
-        return system.log_residual(found[0], digits)
+    return found[0] if abs(moved + k * LOG10_2) < 1.5 else None
+
+
+def _reduced(
+    system: ExactSystem, point: Point, rounds: Sequence[Round], inverse: float
+) -> tuple[Sequence[Round], float]:
+    """One round for the set that several leave, and its inverse, if one does at a general point."""
+    with working(LEAST_DIGITS):
+        slopes = system.values_at(LEAST_DIGITS).jacobian(point)
+        rows, columns = pivots(lambda _: slopes, system.n, 0, ZERO)
+        if len(rounds) == 1 or len(columns) != sum(len(r.columns) for r in rounds):
+            return rounds, inverse
+        block = flint.acb_mat([[slopes[i][j] for j in columns] for i in rows])
+        return (Round(tuple(rows), tuple(columns)),), log_norm(block.inv().entries())
 
 
 def curve_through(

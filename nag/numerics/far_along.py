@@ -19,24 +19,25 @@ import flint
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.numerics.descent import Point, Round
-from nag.numerics.digits import doubles, log_norm, working
+from nag.numerics.descent import Point, Round, descend
+from nag.numerics.digits import doubles, log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.sharpening import DIGITS, predicted, sharpen
+from nag.numerics.sharpening import DIGITS, LARGEST_INVERSE, predicted, sharpen
 
 # How far a set is followed in the variables that are free, or in any, all of them scaled to a size
-# of one; and in how many steps at most. Much further out many sets are nearly singular.
-FAR, AT_MOST, STEPS = 10.0, 100.0, 600
+# of one (much further out many sets are nearly singular); and in how many steps at most.
+FAR, AT_MOST = 5.0, 100.0
+STEPS, STEPS_IN_DIGITS = 600, 200
 # Directions that are tried: some lead into a branch point.
 DIRECTIONS = 3
 # What Newton's steps may change after a step, as shares of it, so that it leads to no other sheet:
 # the first one after steps by a high order and by a low one; the second one beside the first,
-# or, where both are rounding, beside the step.
-SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING = 0.01, 0.1, 0.05, 1e-6
-# The first step, and the least one beside the distance that was gone.
-FIRST, LEAST = 1e-2, 1e-12
+# or, where both are rounding, beside the step. Where it is larger, doubles do no longer.
+SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING = 0.01, 0.05, 0.05, 1e-6
+# The first step, and the least one.
+FIRST, LEAST = 1e-2, 1e-30
 # Inverses (decimal logarithm) up to which doubles do.
-GOOD = 5.0
+GOOD = 10.0
 
 
 def far_value(
@@ -53,10 +54,10 @@ def far_value(
     left = len(point) - sum(len(r.columns) for r in rounds)
     for attempt in range(DIRECTIONS):
         turn = np.exp(1j * (0.3 + np.arange(left) + 2.0 * attempt))
+        start = _Place(list(point), 0.0, FIRST)
         if len(rounds) == 1 and inverse < GOOD:
-            end = _followed(_Block.of(system, rounds[0], turn), doubles(point))
-        else:
-            end = _followed_in_digits(system, point, rounds, turn)
+            start = _in_doubles(_Block.of(system, rounds[0], turn), start)
+        end = _in_digits(system, rounds, turn, start)
         if end is None:
             continue
         size = system.largest_degree * max(0.0, log_norm(end))
@@ -66,6 +67,19 @@ def far_value(
             if found is not None:
                 return system.log_residual(found[0], more)
     return None
+
+
+@dataclass(frozen=True, eq=False)
+class _Place:
+    """Where a set has been followed to: how far in the free variables, and the next step."""
+
+    point: Point
+    gone: float
+    step: float
+
+    @property
+    def far(self) -> bool:
+        return self.gone >= FAR or log_norm(self.point) >= log10(AT_MOST)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,49 +128,104 @@ class _Block:
         return step
 
 
-def _followed(block: _Block, x: np.ndarray) -> list[flint.acb] | None:
-    """The point far along the set, in doubles."""
-    gone, h = 0.0, FIRST
+def _in_doubles(block: _Block, start: _Place) -> _Place:
+    """As far along the set as doubles do."""
+    x, gone, h = doubles(start.point), start.gone, start.step
     for _ in range(STEPS):
         if gone >= FAR or np.abs(x).max() >= AT_MOST:
-            return [flint.acb(complex(c)) for c in x]
+            break
         try:
-            start = block.ahead(x, h)
-            first = block.newton(start)
-            second = block.newton(start - first)
+            ahead = block.ahead(x, h)
+            first = block.newton(ahead)
+            second = block.newton(ahead - first)
         except np.linalg.LinAlgError:
-            return None
-        moved, one, two = (float(np.abs(v).max()) for v in (start - x, first, second))
-        if not (one <= SMALL * moved and two <= max(CONTRACTION * one, ROUNDING * moved)):
+            break
+        moved, one, two = (float(np.abs(v).max()) for v in (ahead - x, first, second))
+        if one <= SMALL * moved and two <= max(CONTRACTION * one, ROUNDING * moved):
+            x, gone = ahead - first - second, gone + h
+            h *= 2.0 if one < SMALL / 16 * moved else 1.0
+        elif two > CONTRACTION * one and one <= SMALL * moved:
+            break
+        else:
             h /= 2
-            if h < LEAST * max(gone, FIRST):
-                return None
-            continue
-        x, gone = start - first - second, gone + h
-        h *= 2.0 if one < SMALL / 16 * moved else 1.0
-    return None
+            if h < LEAST:
+                break
+    return _Place([flint.acb(complex(c)) for c in x], gone, h)
 
 
-def _followed_in_digits(
-    system: ExactSystem, point: Point, rounds: Sequence[Round], direction: np.ndarray
-) -> list[flint.acb] | None:
-    """The same in all digits, for sets that are not reduced, or begin close to a singular point."""
+def _in_digits(
+    system: ExactSystem, rounds: Sequence[Round], direction: np.ndarray, start: _Place
+) -> Point | None:
+    """The point far along the set, in all digits where doubles did not come there."""
+    place = start
     with working(DIGITS):
-        x, gone, h = list(point), 0.0, FIRST
         turns = [flint.acb(complex(c)) for c in direction]
-        for _ in range(STEPS):
-            if gone >= FAR or log_norm(x) >= log10(AT_MOST):
-                return x
-            start = predicted(system, x, rounds, [c * h for c in turns])
-            found = None if start is None else sharpen(system, start, rounds)
-            if start is not None and found is not None:
-                moved = log_norm(a - b for a, b in zip(start, x, strict=True))
-                one = log_norm(a - b for a, b in zip(found[0], start, strict=True))
-                if one < moved + log10(SMALL_ROUGHLY):
-                    x, gone = found[0], gone + h
-                    h *= 2.0 if one < moved + log10(SMALL_ROUGHLY / 4) else 1.0
-                    continue
-            h /= 2
-            if h < 10.0 ** -(DIGITS / 3):
+        if start.gone and not start.far:
+            known = sharpen(system, start.point, rounds)
+            if known is None:
+                return None
+            place = _Place(known[0], start.gone, start.step)
+        for _ in range(STEPS_IN_DIGITS):
+            if place.far:
+                return place.point
+            place = _step(system, rounds, turns, place)
+            if place.step < LEAST:
                 return None
     return None
+
+
+def _step(
+    system: ExactSystem, rounds: Sequence[Round], turns: Sequence[flint.acb], place: _Place
+) -> _Place:
+    """A step along the set, or the same place with a smaller step."""
+    x, h = place.point, place.step
+    one_round = len(rounds) == 1
+    along = [c * h for c in turns]
+    ahead = (_ahead if one_round else predicted)(system, x, rounds, along)
+    found = None if ahead is None else descend(system, DIGITS, ahead, rounds, 1)
+    if ahead is not None and found is not None and found.inverse < LARGEST_INVERSE:
+        moved = log_norm(a - b for a, b in zip(ahead, x, strict=True))
+        one, small = log_norm(found.displacement), log10(SMALL if one_round else SMALL_ROUGHLY)
+        if one < moved + small:
+            longer = 2.0 if one < moved + small - (1.2 if one_round else 0.6) else 1.0
+            point = [middle(a + b) for a, b in zip(ahead, found.displacement, strict=True)]
+            return _Place(point, place.gone + h, h * longer)
+    return _Place(x, place.gone, h / 2)
+
+
+def _ahead(
+    system: ExactSystem, x: Point, rounds: Sequence[Round], along: Sequence[flint.acb]
+) -> Point | None:
+    """A step along the set of one round, like that in doubles."""
+    a = _tangent(system, x, rounds[0], along)
+    b = a and _tangent(system, _moved(x, a, 0.5), rounds[0], along)
+    c = b and _tangent(system, _moved(x, b, 0.5), rounds[0], along)
+    d = c and _tangent(system, _moved(x, c, 1.0), rounds[0], along)
+    if a is None or b is None or c is None or d is None:
+        return None
+    total = [(p + 2 * q + 2 * r + s) / 6 for p, q, r, s in zip(a, b, c, d, strict=True)]
+    return _moved(x, total, 1.0)
+
+
+def _moved(x: Point, step: Point, share: float) -> Point:
+    return [middle(a + b * share) for a, b in zip(x, step, strict=True)]
+
+
+def _tangent(
+    system: ExactSystem, x: Point, this: Round, along: Sequence[flint.acb]
+) -> Point | None:
+    slopes = system.values_at(DIGITS).jacobian(x)
+    step = [flint.acb(0)] * len(x)
+    free = [j for j in range(len(x)) if j not in this.columns]
+    for j, v in zip(free, along, strict=True):
+        step[j] = v
+    if this.columns:
+        right = [[sum(slopes[i][j] * step[j] for j in free)] for i in this.rows]
+        block = flint.acb_mat([[slopes[i][j] for j in this.columns] for i in this.rows])
+        try:
+            found = block.solve(flint.acb_mat(right)).mid().entries()
+        except ZeroDivisionError:
+            return None
+        for j, c in zip(this.columns, found, strict=True):
+            step[j] = -c
+    return step
