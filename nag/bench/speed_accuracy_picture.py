@@ -48,7 +48,8 @@ def draw_case(chart: Chart, path: str) -> None:
         left = 0.17 / columns
         figure.subplots_adjust(left, 0.26, 0.985, 0.92, 0.26, 0.4)
         noun = f"{chart.expected} {chart.what}"
-        title = f"{chart.case}: {noun}, {chart.seeds} seeds, one thread"
+        seeds = "one seed" if chart.seeds == 1 else f"{chart.seeds} seeds"
+        title = f"{chart.case}: {noun}, {seeds}, one thread"
         figure.suptitle(title, fontsize=10, weight="bold", y=0.975)
         handles: dict[str, Any] = {}
         for k, curve in enumerate(ours):
