@@ -203,7 +203,8 @@ def draw_all(charts: Sequence[Chart], path: str) -> None:
     from matplotlib.lines import Line2D
 
     with rc_context(STYLE | {"font.size": 8}):
-        figure = Figure(figsize=(7.6, 1.25 + 0.3 * len(charts)))
+        # The legend has a line for each mark, however few cases there are.
+        figure = Figure(figsize=(7.6, max(2.8, 1.25 + 0.3 * len(charts))))
         axes = figure.subplots()
         figure.subplots_adjust(0.16, 0.62 / figure.get_figheight(), 0.74,
                                1 - 0.3 / figure.get_figheight())  # fmt: skip
