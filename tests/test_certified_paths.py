@@ -13,12 +13,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
-from nag.files.export import write_decomposition
+from nag.files.export import document, export_of, write_decomposition
 from nag.files.schemas import schema
 from nag.files.solutions_export import write_solutions
 from nag.numerics.disc_series import series_product, values_along
@@ -31,7 +32,7 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.moving_discs import MovingSystem
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
-from nag.witness.certified_loops import prove_monodromy
+from nag.witness.certified_loops import prove_all, prove_monodromy
 from nag.witness.moving import witness_at
 
 CASES = Path(__file__).parents[1] / "cases"
@@ -206,3 +207,20 @@ def test_a_system_without_paths_says_so(command: str, tmp_path: Path, capsys) ->
     text = capsys.readouterr().out
     assert status == (1 if command == "solve" else 0)
     assert ("fewer equations than variables" in text) == (command == "solve")
+
+
+def test_a_point_that_is_no_solution_is_the_end_of_no_path() -> None:
+    result = solve(nag.system(["x^3 - 2*y^2 + 1", "y^3 + x*y - 3"]))
+    assert len(prove_paths(result).solutions) == 9
+    for off in (1e-3, 0.3):
+        first, *others = result.solutions
+        moved = replace(result, solutions=(replace(first, point=first.point + off), *others))
+        assert prove_paths(moved).solutions.tolist() == list(range(1, 9))
+
+
+def test_a_point_off_a_curve_is_connected_with_none() -> None:
+    answer = decompose(nag.system(["x*y - z", "x*z - 1"]))
+    assert prove_all(answer)[0].connected
+    written = document(answer)
+    written["components"][0]["points"][0][0][0] += 1e-3
+    assert not prove_all(export_of(written).decomposition)[0].connected

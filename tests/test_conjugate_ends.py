@@ -12,6 +12,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
 from nag.solving import solve as solving
 from nag.solving.conjugate_ends import with_conjugate_ends
+from nag.solving.counted import counted
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
 from nag.solving.start.target import Start
@@ -112,3 +113,26 @@ def test_a_system_whose_paths_were_lost_is_solved(monkeypatch: pytest.MonkeyPatc
     found = solving.solve(given, start="total")
     assert whole.complete and found.complete
     assert len(found.solutions) == len(whole.solutions)
+
+
+def test_zeros_are_counted_where_paths_were_lost_to_conjugates(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    given = system("x y", *CUBICS)
+    counts = []
+
+    def counting(*arguments: object) -> object:
+        found = counted(*arguments)
+        counts.append(found.count)
+        return found
+
+    def losing(*arguments: object, **options: object) -> Paths:
+        paths = track(*arguments, **options)
+        x = paths.points[:, 1] / paths.points[:, 0]
+        return lost(paths, int(np.abs(x.imag).argmax()))
+
+    monkeypatch.setattr(solving, "track", losing)
+    monkeypatch.setattr(solving, "counted", counting)
+    found = solving.solve(given, start="total")
+    assert found.complete and len(found.solutions) == 9
+    assert counts and counts[0].bound == 9

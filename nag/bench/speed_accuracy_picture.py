@@ -16,7 +16,7 @@ COLOURS = ("#1b1b4b", "#b2182b", "#1f78b4", "#e08214", "#35978f", "#7b9e2f", "#c
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 PEERS = {
     "M2": ("#555555", "<"),
-    "M2, refined": ("#555555", "4"),
+    "M2, refined": ("#777777", "v"),
     "phc": ("#999999", ">"),
     "bertini2": ("#222222", "d"),
 }
@@ -48,7 +48,8 @@ def draw_case(chart: Chart, path: str) -> None:
         left = 0.17 / columns
         figure.subplots_adjust(left, 0.26, 0.985, 0.92, 0.26, 0.4)
         noun = f"{chart.expected} {chart.what}"
-        title = f"{chart.case}: {noun}, {chart.seeds} seeds, one thread"
+        seeds = "one seed" if chart.seeds == 1 else f"{chart.seeds} seeds"
+        title = f"{chart.case}: {noun}, {seeds}, one thread"
         figure.suptitle(title, fontsize=10, weight="bold", y=0.975)
         handles: dict[str, Any] = {}
         for k, curve in enumerate(ours):
@@ -202,7 +203,8 @@ def draw_all(charts: Sequence[Chart], path: str) -> None:
     from matplotlib.lines import Line2D
 
     with rc_context(STYLE | {"font.size": 8}):
-        figure = Figure(figsize=(7.6, 1.25 + 0.3 * len(charts)))
+        # The legend has a line for each mark, however few cases there are.
+        figure = Figure(figsize=(7.6, max(2.8, 1.25 + 0.3 * len(charts))))
         axes = figure.subplots()
         figure.subplots_adjust(0.16, 0.62 / figure.get_figheight(), 0.74,
                                1 - 0.3 / figure.get_figheight())  # fmt: skip

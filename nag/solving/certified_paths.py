@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.certified_points import NEAR
 from nag.solving.solutions import SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import KINDS, choose
@@ -98,7 +99,8 @@ def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
     except OverflowError as error:
         raise PathsError(str(error)) from None
     starts = located(system, _charted(start.points, patches), 1.0)
-    known = located(system, _charted(_coordinates(problem.target, start, result), patches), 0.0)
+    ends = _charted(_coordinates(problem.target, start, result), patches)
+    known = located(system, ends, 0.0, NEAR)
     simple = sum(s.multiplicity == 1 for s in result.solutions)
     paths, steps = certified_paths(system, starts), 0
     for endgame in FURTHER:

@@ -97,10 +97,10 @@ def _solve_whole(
     paths = track(begin.homotopy, begin.points, settings, threads, known=begin.known)
 
     def look(paths: Paths, count: ZeroCount | None = None) -> JudgedEnds:
-        whole = with_conjugate_ends(begin, paths)
-        ends = judged_ends(problem, begin, whole, rng, finite)
-        ends = replace(ends, count=count) if count else counted(problem, begin, whole, ends)
-        return with_missing_zeros(problem, begin, whole, ends, rng)
+        ends = judged_ends(problem, begin, with_conjugate_ends(begin, paths), rng, finite)
+        # Zeros are counted, where that is possible, whatever ends lost paths were given.
+        ends = replace(ends, count=count) if count else counted(problem, begin, paths, ends)
+        return with_missing_zeros(problem, begin, paths, ends, rng)
 
     ends = look(paths)
     unclear = len(ends.close) and not (finite and len(ends.on_components))

@@ -94,14 +94,19 @@ class _State:
     at: Located
 
 
-def located(system: MovingSystem, points: np.ndarray, t: float) -> Located:
-    """The zeros next to points at a fixed t, as far as doubles can prove them."""
+def located(system: MovingSystem, points: np.ndarray, t: float, reach: float = np.inf) -> Located:
+    """The zeros next to points at a fixed t, as far as doubles can prove them.
+
+    Args:
+        reach: how far from the points zeros may be to count, relative to their size.
+    """
     found = Located(points.copy(), np.full(points.shape, np.inf), np.full(points.shape, -1.0))
     left = np.arange(len(points))
     with np.errstate(all="ignore"):
         times_ = np.full(len(points), t)
         x, _ = _corrected(system, points, times_)
         sizes = np.abs(x).max(axis=1, initial=0.0)
+        left = left[np.abs(x - points).max(axis=1, initial=0.0) <= reach * sizes]
         for exponent in range(SIDES):
             if not len(left):
                 break

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.certified_points import NEAR
 from nag.numerics.discs import Terms
 from nag.tracking.certified_paths import Located, certified_paths, located
 from nag.tracking.moving_discs import MovingPart, MovingSystem
@@ -103,7 +104,7 @@ def _loop(
     for fibre in fibres:
         out = moving_slice(fibre, rows, middle, turns[0])
         back = moving_slice(fibre, middle, rows, turns[1])
-        starts = located(out, fibre.points.astype(complex), 1.0)
+        starts = located(out, fibre.points.astype(complex), 1.0, NEAR)
         there = certified_paths(out, starts)
         half = _arrived(there.ends, there.reached)
         again = certified_paths(back, half)
@@ -111,7 +112,8 @@ def _loop(
         # Points of another fibre may be zeros of this one's equations as well.
         known, begin = starts, first
         if not fibre.cut.aux:
-            known, begin = located(out, np.vstack([f.x for f in fibres]).astype(complex), 1.0), 0
+            every = np.vstack([f.x for f in fibres]).astype(complex)
+            known, begin = located(out, every, 1.0, NEAR), 0
         for i in range(len(fibre)):
             same = np.flatnonzero(ends.only(np.array([i])).same(known))
             places.append(begin + int(same[0]) if len(same) == 1 else -1)
