@@ -33,7 +33,7 @@ DIRECTIONS = 3
 # What Newton's steps may change after a step, as shares of it, so that it leads to no other sheet:
 # the first one after steps by a high order and by a low one; the second one beside the first,
 # or, where both are rounding, beside the step. Where it is larger, doubles do no longer.
-SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING = 0.01, 0.05, 0.05, 1e-6
+SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING = 0.001, 0.05, 0.05, 1e-6
 # The first step, and the least one.
 FIRST, LEAST = 1e-2, 1e-30
 # Inverses (decimal logarithm) up to which doubles do.
