@@ -56,13 +56,18 @@ def _log2(a: flint.arb) -> float:
 
 
 def log_size(z: flint.acb | int) -> float:
-    """The decimal logarithm of ``|z|`` to within a factor of three; also beyond doubles' range."""
+    """The decimal logarithm of ``|z|`` to within a factor of three; also beyond doubles' range.
+
+    It is ``inf`` where nothing is known of z, as of a quotient by what may be zero.
+    """
     if isinstance(z, int):
         return LOG10_2 * z.bit_length() if z else -np.inf
     rounded = complex(z)
     size = hypot(rounded.real, rounded.imag)
     if SMALLEST < size < LARGEST:
         return log10(size)
+    if not z.is_finite():
+        return np.inf
     return LOG10_2 * max(_log2(z.real), _log2(z.imag))
 
 

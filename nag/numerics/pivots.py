@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import inf
 
 import flint
 
@@ -51,11 +52,11 @@ def _largest(
     for i in left:
         noise = max(
             (log_size(other[i][j] - first[i][j]) for other in others for j in right),
-            default=-float("inf"),
+            default=-inf,
         )
         for j in right:
             size = log_size(first[i][j])
-            if size > best and size > noise + CLEAR:
+            if best < size < inf and size > noise + CLEAR:
                 best, place = size, (i, j)
     return place
 
