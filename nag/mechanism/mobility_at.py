@@ -70,6 +70,19 @@ class Subject:
         """Whose they are, in words."""
         return " and ".join(f"{freedoms} by {whose}" for freedoms, whose in self.free)
 
+    @property
+    def described(self) -> dict[str, Any]:
+        """What a report says of them, whatever was computed."""
+        return {
+            "space": self.space,
+            "gruebler_kutzbach": self.counted,
+            "formulation": self.formulation,
+            "variables": self.system.n,
+            "equations": len(self.system.polynomials),
+            "free": self.freedoms,
+            "free_of": self.free_of,
+        }
+
     @classmethod
     def of_model(cls, made: Model) -> Subject:
         """The equations of a mechanism's model."""
@@ -172,13 +185,7 @@ def _report(
         motions = [_curve(subject, c, **options) for c in through if c.dimension == 1]
     known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
     return MobilityReport(
-        space=subject.space,
-        gruebler_kutzbach=subject.counted,
-        formulation=subject.formulation,
-        variables=subject.system.n,
-        equations=len(subject.system.polynomials),
-        free=free,
-        free_of=subject.free_of,
+        **subject.described,
         tangent_dimension=None if tangent is None else tangent + free,
         lower=found.lower + free,
         upper=found.upper + free,
@@ -202,13 +209,7 @@ def _in_general(subject: Subject, detail: str, options: dict[str, Any]) -> Mobil
     free = subject.freedoms
     curves = [c for c in components if c.dimension == 1] if detail == "curves" else []
     return MobilityReport(
-        space=subject.space,
-        gruebler_kutzbach=subject.counted,
-        formulation=subject.formulation,
-        variables=subject.system.n,
-        equations=len(subject.system.polynomials),
-        free=free,
-        free_of=subject.free_of,
+        **subject.described,
         tangent_dimension=None if known is None else known.corank + free,
         lower=free + (0 if known is None else known.dimension),
         upper=free + (subject.system.n if known is None else known.dimension),

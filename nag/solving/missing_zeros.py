@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.numerics.singular_point import Place, analyse
 from nag.solving.counted import Verdict, doubtful, verdict
 from nag.solving.isolated_zero import FinePoint, IsolatedZero
 from nag.solving.judged_ends import JudgedEnds, enlarged
@@ -24,8 +22,6 @@ MOST_PATHS = 2000
 MOST_LOST, NEAR = 16, 1e-6
 # Errors of known points, in those estimated, in which another zero may not lie.
 SAFETY = 1e3
-# Distance of zeros that are known to 100 digits, and are two.
-TWO = Fraction(1, 10**80)
 # Binary logarithm of a size at which a zero may look infinite to the least evidence: some 1e8.
 EXTREME = 26.0
 
@@ -81,30 +77,27 @@ def _at_lost_paths(
     lost = lost[~infinite.any(axis=1)][:MOST_LOST]
     known, errors = _known(problem, ends)
     evaluator = Evaluator.of(problem.equations, problem.system.n)
-    exact: list[list[Fraction]] = []
+    exact: list[IsolatedZero] = []
     found: list[IsolatedZero] = []
     replaced: set[int] = set()
     for x, accuracy in zip(begin.affine(paths.points[lost]), paths.accuracy[lost], strict=True):
         if not np.abs(x).max() < 2.0**EXTREME:
             continue
         end = analyse(problem.equations, x, min(NEAR, float(accuracy)), rng)
-        members: list[SingularEnd] = []
-        for zero in end.nearby if end.place is Place.CLUSTER else (end,):
-            digits = [Fraction(part) for pair in zero.digits for part in pair]
-            if zero.place is Place.ISOLATED and not any(_same(digits, e) for e in exact):
-                exact.append(digits)
+        members: list[IsolatedZero] = []
+        for each in end.nearby if end.place is Place.CLUSTER else (end,):
+            if each.place is not Place.ISOLATED:
+                continue
+            residual = float(evaluator.residuals(each.point[None]).max())
+            zero = IsolatedZero.of_end(each, residual, DIGITS)
+            if all(map(zero.is_apart_from, exact)):
+                exact.append(zero)
                 members.append(zero)
         apart = [np.abs(known - zero.point).max(axis=1, initial=0.0) for zero in members]
         near = {k for distance in apart for k in np.flatnonzero(distance <= errors).tolist()}
         # Which of the members of a cluster are known, doubles do not say.
         before = sum(ends.isolated[k].multiplicity for k in near)
         if sum(zero.multiplicity for zero in members) > before:
-            residuals = [float(evaluator.residuals(zero.point[None]).max()) for zero in members]
-            pairs = zip(members, residuals, strict=True)
-            found += [IsolatedZero.of_end(z, r, DIGITS) for z, r in pairs]
+            found += members
             replaced |= near
     return found, replaced
-
-
-def _same(x: list[Fraction], y: list[Fraction]) -> bool:
-    return all(abs(a - b) <= TWO for a, b in zip(x, y, strict=True))
