@@ -3,7 +3,8 @@
     python -m tests.local_dimension_of_cases [--changes COUNT] FILE ...
 
 It decomposes each case and prints wrong and undecided answers, and the longest processor time of
-a point. With ``--changes``, each point is judged in so many random exact coordinates too.
+a point. With ``--changes``, points are judged in so many random exact coordinates too: so many for
+each kind of component of a case (of one dimension, degree and multiplicity), its components in turn.
 """
 
 from __future__ import annotations
@@ -58,11 +59,12 @@ def main(files: list[str], changes: int) -> int:
         system = case.system or nag.model(case.mechanism).system
         seconds, lines = [0.0], []
         components = nag.decompose(case).components
+        kinds = [(c.dimension, c.degree, c.multiplicity) for c in components]
         for i, component in enumerate(components):
             begin = time.process_time()
             answers = [(judged(system, component), time.process_time() - begin)]
             if any(system.polynomials):
-                for seed in range(changes):
+                for seed in range(kinds[:i].count(kinds[i]), changes, kinds.count(kinds[i])):
                     answers.append(in_other_coordinates(system, component, seed))
             for seed, (found, spent) in enumerate(answers, -1):
                 seconds.append(spent)
