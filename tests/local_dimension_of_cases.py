@@ -62,11 +62,11 @@ def main(files: list[str], changes: int) -> int:
         kinds = [(c.dimension, c.degree, c.multiplicity) for c in components]
         for i, component in enumerate(components):
             begin = time.process_time()
-            answers = [(judged(system, component), time.process_time() - begin)]
+            answers = {-1: (judged(system, component), time.process_time() - begin)}
             if any(system.polynomials):
                 for seed in range(kinds[:i].count(kinds[i]), changes, kinds.count(kinds[i])):
-                    answers.append(in_other_coordinates(system, component, seed))
-            for seed, (found, spent) in enumerate(answers, -1):
+                    answers[seed] = in_other_coordinates(system, component, seed)
+            for seed, (found, spent) in answers.items():
                 seconds.append(spent)
                 text = verdict(found, component.dimension)
                 wrong, undecided = wrong + ("WRONG" in text), undecided + bool(text)
