@@ -4,7 +4,7 @@
 
 It decomposes each case and prints wrong and undecided answers, and the longest processor time of
 a point. With ``--changes``, points are judged in so many random exact coordinates too: so many for
-each kind of component of a case (of one dimension, degree and multiplicity), its components in turn.
+each kind of component of a case (of one dimension, degree, multiplicity), its components in turn.
 """
 
 from __future__ import annotations
