@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache
 from typing import Any
 
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
-
-# Systems whose monomials and coefficients are kept.
-MOST_KEPT = 64
 
 
 class BallValues:
@@ -77,11 +73,3 @@ class BallValues:
                     row[self._places[exponents]] = abs(value) if absolute else value
             self._matrices[key] = matrix(entries)
         return self._matrices[key]
-
-
-@lru_cache(maxsize=MOST_KEPT)
-def ball_values(
-    polynomials: tuple[Polynomial, ...], convert: Callable[[Number], Any]
-) -> BallValues:
-    """The same, kept for the systems that were asked for last."""
-    return BallValues(polynomials, convert)

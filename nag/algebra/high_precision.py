@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.ball_values import ball_values
+from nag.algebra.ball_values import BallValues
 from nag.algebra.number import Number, to_mpf
 from nag.algebra.polynomial import Polynomial
 
@@ -46,7 +46,7 @@ def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     from flint import arb
 
     sizes = [max(abs(x).mid(), arb(1)) for x in z]
-    values = ball_values((f,), _number)
+    values = BallValues((f,), _number)
     bound = abs(values.sizes_at(sizes)[0]).mid()
     return abs(_middle(values.at(z)[0])).mid() / bound if bound else arb(0)
 
@@ -102,7 +102,7 @@ def zero_near(
     import flint
     from flint import acb, arb
 
-    evaluate = ball_values(tuple(square), _number)
+    evaluate = BallValues(tuple(square), _number)
     with flint.ctx.workdps(digits):
         point = [acb(complex(x)) for x in z]
         rows = [[acb(complex(c)) for c in row] for row in slices]
