@@ -152,7 +152,7 @@ tracking.ends.corrector.FLOOR               1e-9    Coordinates that a start in 
                                                     know.
 tracking.ends.end_run.LOSING                1e-3    Rounding error times Newton's constant at which
                                                     an arithmetic gives up.
-tracking.ends.end_run.SAFE                  1e-6    The same at which a point is kept for the next
+tracking.ends.kept_points.SAFE              1e-6    The same at which a point is kept for the next
                                                     arithmetic to start from.
 tracking.ends.linear_algebra.GONE           1e-6    What a correction leaves of a coordinate that it
                                                     takes away: a zero along the whole path.
@@ -298,7 +298,7 @@ NEARLY_ORTHOGONAL; numerics.sharpening: ROUNDING, NEARLY; numerics.small_values:
 tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
 ENDGAME; tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE;
 tracking.ends.branch: LONGEST; tracking.ends.corrector:
-DOUBLES; tracking.ends.end_run: RESIDUAL, SECOND; tracking.ends.inclusion: TINY;
+DOUBLES; tracking.ends.inclusion: TINY; tracking.ends.kept_points: RESIDUAL, SECOND;
 tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
 tracking.numbers.complex_numbers: HALVED; tracking.numbers.double_double: EPSILON, SMALL;

@@ -14,7 +14,6 @@ from nag.machine_code.lanes import load, select_less, splat, store
 from nag.machine_code.records import Reals, Wholes
 from nag.tracking.ends.branch import (
     extrapolate,
-    keep_series,
     predict,
     reach,
     tail_at_end,
@@ -27,6 +26,7 @@ from nag.tracking.ends.evaluation import (
     incomplete_slots,
     right_side,
 )
+from nag.tracking.ends.kept_points import keep, steepest
 from nag.tracking.ends.lane_scalars import (
     BASE,
     CONTRACTION,
@@ -54,18 +54,13 @@ from nag.tracking.ends.linear_algebra import (
     substitute,
 )
 from nag.tracking.ends.records import Equations, Room
-from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double, quad_double
 from nag.tracking.numbers import double_double as number
 
 # How a path ended: it is lost where its rounding errors, or its steps, leave it nothing to go on.
 OPEN, REGULAR, LIMIT, LOST, TOO_LONG = range(5)
-# Largest product of the rounding error of a point and Newton's constant that is lost, and that
-# leaves a point safe enough to start from.
-LOSING, SAFE = 1e-3, 1e-6
-# Rounding errors of the residuals that the error of a point stands for, and second derivatives of
-# equations of the usual degrees, both in parts of their terms.
-RESIDUAL, SECOND = 8.0, 10.0
+# Largest product of the rounding error of a point and Newton's constant that is not lost.
+LOSING = 1e-3
 
 
 class Batch(NamedTuple):
@@ -79,7 +74,8 @@ class Batch(NamedTuple):
     end, or where the path is, at ``t``; ``safe, safe_t``: likewise the last point that is known
     well.
     ``limits``: of those that have one, see `extrapolate`, shape (count, N, 4, 2, words).
-    ``errors``: rounding errors of the coordinates, shape (count, N). ``curvature``: estimate of
+    ``errors``: rounding errors of the coordinates, shape (count, N); ``met``: 1 for those that have
+    exceeded them a thousandfold. ``curvature``: estimate of
     Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
     contraction of Newton's method after it; ``tail``: largest last term of a power series that is
     taken to converge. ``max_steps``: of each path, 0 for those
@@ -104,6 +100,7 @@ class Batch(NamedTuple):
     safe_t: Reals
     limits: Reals
     errors: Reals
+    met: Reals
     curvature: Reals
     max_steps: Wholes
     max_winding: int
@@ -131,6 +128,8 @@ def _fill(s, r, f, lane, path, b):
     f[8 * PATH + lane] = path
     f[8 * TRIED + lane] = 1e-2
     f[8 * CURVATURE + lane] = b.curvature[path]
+    for j in range(s.N):
+        r.met[8 * j + lane] = b.met[s.N * path + j]
     if b.tried[path] == 0:
         f[8 * MODE + lane] = FINISH
         _set_time(r, lane, b.t, path, True)
@@ -158,51 +157,6 @@ def _expand(s, r, order):
         block_sums(s, r, m)
 
 
-def _keep(s, r, f, order):
-    """Make the accepted points the bases of further steps."""
-    half = splat(0.5)
-    accepted = load(r.accepted, 0)
-    for j in range(s.N):
-        x = z.read(r.slots, j)
-        z.write(r.base, j, z.choose(half, accepted, x, z.read(r.base, j)))
-        size = z.magnitude(x)
-        store(r.base_sizes, j, select_less(half, accepted, size, load(r.base_sizes, j)))
-        weight, known = load(r.weights, j), load(r.base_weights, j)
-        weight = z.largest(weight, size)
-        store(r.base_weights, j, select_less(half, accepted, weight, known))
-        error, known = load(r.errors, j) * load(f, EXCESS), load(r.base_errors, j)
-        store(r.base_errors, j, select_less(half, accepted, error, known))
-    time = number.read(r.time, 0)
-    number.write(r.time, 0, number.choose(half, accepted, number.read(r.t, 0), time))
-    _keep_safe(s, r, f)
-    keep_series(s, r, order)
-
-
-def _steepest(f, lane):
-    """What Newton's constant may be, in a direction that corrections have not had."""
-    return SECOND * f[8 * KNOWN + lane] / (RESIDUAL * number.EPSILON)
-
-
-def _keep_safe(s, r, f):
-    """Keep the bases that are known so well that the next arithmetic may start from them.
-
-    Newton's constant is at most as large as the inverse Jacobian makes it, of which the error of
-    the point says how large it is; corrections that are rounding errors say nothing of it.
-    """
-    half = splat(0.5)
-    for lane in range(8):
-        curvature = max(f[8 * CURVATURE + lane], _steepest(f, lane), 1.0)
-        r.measures[lane] = 0.0
-        if r.accepted[lane] > 0.5 and f[8 * KNOWN + lane] * curvature <= SAFE:
-            r.measures[lane] = 1.0
-            f[8 * SAVED + lane] = 1.0
-    safe = load(r.measures, 0)
-    for j in range(s.N):
-        z.write(r.safe, j, z.choose(half, safe, z.read(r.base, j), z.read(r.safe, j)))
-    time = number.choose(half, safe, number.read(r.time, 0), number.read(r.safe_time, 0))
-    number.write(r.safe_time, 0, time)
-
-
 def _close(s, r, f, lane, b, outcome, data):
     """Results of a path, its point from ``data``; the lane becomes free."""
     path = int(f[8 * PATH + lane])
@@ -228,6 +182,7 @@ def _close(s, r, f, lane, b, outcome, data):
         if outcome == REGULAR:
             error = r.errors[8 * j + lane] * f[8 * EXCESS + lane]
         b.errors[s.N * path + j] = error
+        b.met[s.N * path + j] = r.met[8 * j + lane]
     if outcome == LIMIT:
         for k in range(4 * numbers):
             b.limits[4 * numbers * path + k] = r.limits[8 * k + lane]
@@ -284,7 +239,7 @@ def _advance(s, r, f, lane, b, best, winding):
     if f[8 * TAKEN + lane] >= b.max_steps[path] or f[8 * T + lane] < 1e-280:
         _close(s, r, f, lane, b, TOO_LONG, r.base)
         return
-    steep = max(curvature, _steepest(f, lane)) if b.close > 0 else curvature
+    steep = max(curvature, steepest(f, lane)) if b.close > 0 else curvature
     goal = min(b.accuracy, b.contraction / steep)
     h = reach(s, r, b.order, lane, goal)
     if converged_here:
@@ -362,7 +317,7 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
             _expand(s, r, b.order)
             for lane in range(8):
                 f[8 * EVALUATED + lane] += r.accepted[lane] * b.order
-            _keep(s, r, f, b.order)
+            keep(s, r, f, b.order)
             _best_winding(s, r, b)
             extrapolate(s, r, b.order, load(r.measures, 1))
             for lane in range(8):

@@ -41,6 +41,7 @@ class States:
     ``found``: regular ends; ``limits``: others, or where they are tried as regular ones first.
     ``straight``: 0 where Newton's method at t = 0 is of no use; ``regular``: where the first trial
     needs no proof; ``last``: the limits that were looked at last; ``most``: steps;
+    ``met``: 1 for coordinates that have exceeded their rounding errors;
     ``close``: whether other paths run beside these.
     """
 
@@ -59,6 +60,7 @@ class States:
     steps: np.ndarray
     digits: np.ndarray
     errors: np.ndarray
+    met: np.ndarray
     limits: dict[int, Limit]
     found: dict[int, np.ndarray]
     last: dict[int, Limit]
@@ -92,6 +94,7 @@ class States:
             np.ones(P, dtype=np.int64),
             np.zeros(P, dtype=bool),
             *whole,
+            np.zeros((P, N)),
             np.zeros((P, N)),
             {},
             {},

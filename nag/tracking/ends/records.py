@@ -77,7 +77,8 @@ class Room(NamedTuple):
     by order from 1 on; ``plain, logs``: the same rounded to doubles, coordinate by coordinate from
     order 0 on. ``weights, errors``: sizes in which corrections count, and rounding errors, of each
     coordinate at the point; ``base_sizes``: of the coordinates at the base, ``base_weights,
-    base_errors``: as above there. ``scalars``: see the kernel. ``measures``: of the last
+    base_errors``: as above there; ``met``: 1 for those that have exceeded their rounding errors.
+    ``scalars``: see the kernel. ``measures``: of the last
     correction. ``accepted``: 1 in the lanes whose step is accepted. ``limits``: see
     `nag.tracking.ends.branch.extrapolate`.
     """
@@ -111,6 +112,7 @@ class Room(NamedTuple):
     base_sizes: Reals
     base_weights: Reals
     base_errors: Reals
+    met: Reals
     scalars: Reals
     measures: Reals
     accepted: Reals
@@ -282,5 +284,5 @@ def room(homotopy: Homotopy, count: int, order: int) -> Room:
         2 * count * order * N,
         2 * count * order * N,
     ]
-    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 5, SCALARS, 4, 1, 8 * count * N]
+    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 6, SCALARS, 4, 1, 8 * count * N]
     return Room(*separate(aligned(sum(sizes)), sizes))

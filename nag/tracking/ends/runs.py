@@ -89,6 +89,7 @@ def _batch(
         states.safe_t[own].ravel(),
         np.zeros(count * N * 4 * 2 * words),
         np.zeros(count * N),
+        states.met[own].ravel(),
         states.curvature[own],
         np.where([path in states.limits for path in own.tolist()], 0, states.most[own]),
         MAX_WINDING,
@@ -111,6 +112,7 @@ def _keep(states: States, own: np.ndarray, batch: Batch) -> None:
     states.found |= {int(own[k]): points[k] for k in np.flatnonzero(regular)}
     states.where[own[~regular]] = points[~regular]
     states.errors[own] = batch.errors.reshape(count, -1)
+    states.met[own] = batch.met.reshape(count, -1)
     states.safe[own] = batch.safe.reshape(points.shape)
     states.safe_t[own] = batch.safe_t.reshape(count, -1)
     states.t[own], states.curvature[own] = batch.t.reshape(count, -1), batch.curvature

@@ -1,0 +1,70 @@
+"""The points that steps start from, and those that the next arithmetic may start from."""
+
+from __future__ import annotations
+
+from nag.machine_code.lanes import load, select_less, splat, store
+from nag.tracking.ends.branch import keep_series
+from nag.tracking.ends.lane_scalars import CURVATURE, EXCESS, KNOWN, SAVED
+from nag.tracking.numbers import complex_numbers as z
+from nag.tracking.numbers import double_double as number
+
+# Largest product of the rounding error of a point and Newton's constant that leaves it safe.
+SAFE = 1e-6
+# Rounding errors of the residuals that the error of a point stands for, and second derivatives of
+# equations of the usual degrees, both in parts of their terms.
+RESIDUAL, SECOND = 8.0, 10.0
+
+
+def keep(s, r, f, order):
+    """Make the accepted points the bases of further steps."""
+    half = splat(0.5)
+    accepted = load(r.accepted, 0)
+    for j in range(s.N):
+        x = z.read(r.slots, j)
+        z.write(r.base, j, z.choose(half, accepted, x, z.read(r.base, j)))
+        size = z.magnitude(x)
+        store(r.base_sizes, j, select_less(half, accepted, size, load(r.base_sizes, j)))
+        weight, known = load(r.weights, j), load(r.base_weights, j)
+        weight = z.largest(weight, size)
+        store(r.base_weights, j, select_less(half, accepted, weight, known))
+        error, known = load(r.errors, j) * load(f, EXCESS), load(r.base_errors, j)
+        store(r.base_errors, j, select_less(half, accepted, error, known))
+    time = number.read(r.time, 0)
+    number.write(r.time, 0, number.choose(half, accepted, number.read(r.t, 0), time))
+    _keep_safe(s, r, f)
+    keep_series(s, r, order)
+
+
+def steepest(f, lane):
+    """What Newton's constant may be, in a direction that corrections have not had."""
+    return SECOND * f[8 * KNOWN + lane] / (RESIDUAL * number.EPSILON)
+
+
+def _keep_safe(s, r, f):
+    """Keep the bases that are known so well that the next arithmetic may start from them.
+
+    Newton's constant is at most as large as the inverse Jacobian makes it, of which the error of
+    the point says how large it is; corrections that are rounding errors say nothing of it. Where
+    rounding errors are all that is left of a coordinate that was known, it is not that path's.
+    """
+    half = splat(0.5)
+    accepted = load(r.accepted, 0)
+    lost = splat(0.0)
+    for j in range(s.N):
+        error, met = splat(1e3) * load(r.base_errors, j), load(r.met, j)
+        known = select_less(error, load(r.base_sizes, j), splat(1.0), splat(0.0))
+        lost = z.largest(lost, met - known)
+        store(r.met, j, select_less(half, accepted, z.largest(met, known), met))
+    store(r.measures, 1, lost)
+    for lane in range(8):
+        curvature = max(f[8 * CURVATURE + lane], steepest(f, lane), 1.0)
+        r.measures[lane] = 0.0
+        well = f[8 * KNOWN + lane] * curvature <= SAFE and r.measures[8 + lane] < 0.5
+        if r.accepted[lane] > 0.5 and well:
+            r.measures[lane] = 1.0
+            f[8 * SAVED + lane] = 1.0
+    safe = load(r.measures, 0)
+    for j in range(s.N):
+        z.write(r.safe, j, z.choose(half, safe, z.read(r.base, j), z.read(r.safe, j)))
+    time = number.choose(half, safe, number.read(r.time, 0), number.read(r.safe_time, 0))
+    number.write(r.safe_time, 0, time)
