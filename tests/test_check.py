@@ -12,6 +12,7 @@ from linkages import four_bar
 
 from nag.check import bennett_geometry, joints, known_planar
 from nag.check import four_bar as four_bar_statements
+from nag.check.bennett_parameters import bennett_parameters
 from nag.check.four_way import Compared, four_ways
 from nag.check.identities import identity
 from nag.check.known import Known, PaperComponent, Parametrisation
@@ -25,7 +26,7 @@ from nag.check.mechanisms import (
 from nag.check.mechanisms import four_ways as mechanism_ways
 from nag.check.planar_mechanism import equal_sides
 from nag.check.statement import Kind, Statement, Verdict, statement
-from nag.check.subjects import BENNETT, SUBJECTS, recognised
+from nag.check.subjects import BENNETT, SUBJECTS, recognised, same_mechanism
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
@@ -202,6 +203,35 @@ def test_cases_of_other_mechanisms_are_not_taken_for_known_ones(tmp_path) -> Non
     renamed = tmp_path / "renamed.toml"
     renamed.write_text(text.replace("B2", "coupler").replace("J1", "hinge"), "utf-8")
     assert recognised(read_case(renamed), decomposed) is not None
+
+
+@pytest.mark.parametrize(
+    ("name", "m"),
+    [
+        ("bennett", "7/4, 5/6, 1/3"),
+        ("spatial/bennett-h-negative", "3, -1/2, -2/7"),
+        ("spatial/bennett-h-q5-zero", "2, 4/3, 1/3"),
+    ],
+)
+def test_bennetts_parameters_are_found_from_his_axes(name: str, m: str, tmp_path) -> None:
+    case = read_case(CASES / f"{name}.toml")
+    reference = case.mechanism
+    assert reference is not None
+    [found, *_] = [p for p in bennett_parameters(reference) if ", ".join(map(str, p)) == m]
+    assert same_mechanism(reference, known_bennett(found).mechanism)
+    text = (CASES / f"{name}.toml").read_text("utf-8").replace("[0, 0, 1]", "[0, 0, -2]")
+    turned = tmp_path / "turned.toml"
+    turned.write_text(text, "utf-8")
+    for one in (case, read_case(turned)):
+        known = recognised(one, decomposed)
+        assert known is not None and known.subject is SUBJECTS["bennett"]
+
+
+def test_a_cases_own_parameters_name_the_mechanism() -> None:
+    """Lemma 5.2: (-2, -2, -1/5) has the same points as (-2, 1/2, -5)."""
+    given = {"m0": "-2", "m1": "1/2", "m2": "-5"}
+    known = recognised(read_case(CASES / "bennett.toml", given), decomposed)
+    assert known is not None and "m = (-2, 1/2, -5)" in known.comparison[0].place
 
 
 def test_parameters_may_be_too_large_for_doubles() -> None:

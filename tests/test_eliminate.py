@@ -152,6 +152,13 @@ def test_essential_variables_are_found(name, tmp_path) -> None:
     assert (ideal.dimension, ideal.degree) == (1, 8) and len(onto) == 3
 
 
+def test_essential_variables_of_three_bars_are_those_of_the_paper(tmp_path) -> None:
+    """Their maps to b2 and b3 are of degree 3."""
+    content = eliminated(tmp_path, str(CASES / "triangle.toml"))
+    assert content["onto"] == ["a0", "a1", "a2", "a3", "b0", "b1"]
+    assert [m["variable"] for m in content["maps"]] == ["b2", "b3"]
+
+
 def test_essential_variables_by_polynomials_only(tmp_path) -> None:
     content = eliminated(tmp_path, str(CASES / "bricard-cube.toml"), "--polynomial")
     assert content["missing"] == [] and proofs_of(content) == {"substitution"}

@@ -243,3 +243,14 @@ def test_a_curve_of_equations_with_many_zeros_is_told_from_such_a_contact() -> N
     names = [f"x{i}" for i in range(12)] + ["y"]
     found = nag.local_dimension(nag.system(equations, names), [0] * 13)
     assert (found.tangent_dimension, found.lower) == (2, 1)
+
+
+@pytest.mark.parametrize("name", ["griewank-osborne", "cbms1", "cbms2", "kss-5", "mth191"])
+def test_points_of_cases_have_the_published_multiplicities(name: str, tmp_path) -> None:
+    target, path = tmp_path / "local.json", CASES / "benchmarks" / f"{name}.toml"
+    assert main(["local", str(path), "--quiet", "--json", str(target)]) == 0
+    [point] = json.loads(target.read_text())["points"]
+    [published] = [
+        c.multiplicity for c in nag.read_case(path).truth if c.multiplicity not in (1, None)
+    ]
+    assert (point["local_dimension"], point["multiplicity"]) == (0, published)

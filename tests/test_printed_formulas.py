@@ -13,7 +13,7 @@ from nag.check.loops import bennett_mechanism
 from nag.mechanism.axes import cross, dot
 from nag.mechanism.configuration import arithmetic_of, configuration
 from nag.mechanism.model import model
-from nag.mechanism.quaternion import multiply, norm_squared, rotate
+from nag.mechanism.quaternion import conjugate, multiply, norm_squared, rotate
 from nag.symbolic import bennett, bennett_geometry, bennett_special, bricard, revolute
 
 OWN = exact("7/4", "5/6", "1/3")
@@ -89,6 +89,33 @@ def test_the_components_of_equation_8_are_the_two_directions_of_the_axis():
     for z, zeros in ((same, 1), (opposite, 2)):
         assert revolute.component(u, z, zeros) == [0] * 5
         assert any(revolute.component(u, z, 3 - zeros)[:2])
+
+
+UNIT = (
+    exact("1/5", "2/5", "2/5", "4/5"),
+    exact("3/5", 0, 0, "4/5"),
+    exact(0, "2/3", "-1/3", "2/3"),
+)
+FRAMES = (exact(1, 0, 0, 0), exact(0, 1, 0, 0), exact(0, 0, 1, 0), *UNIT)
+
+
+@pytest.mark.parametrize("p", FRAMES)
+@pytest.mark.parametrize("s", FRAMES)
+def test_components_in_arbitrary_frames_are_the_two_directions_of_the_axis(p, s):
+    """Frames where lemmas 3.2 and 3.4 have no turn among them."""
+    eta, xi, axis = (rotate(p, exact(*e)) for e in np.eye(3, dtype=int).tolist())
+    chi = rotate(s, exact(0, 0, 1))
+    for a in UNIT:
+        back = conjugate(s)
+        same = multiply(multiply(a, multiply(p, UNIT[1])), back)
+        opposite = multiply(
+            multiply(a, multiply(p, exact(0, 1, 0, 0))), (s[0], *(-x for x in s[1:]))
+        )
+        assert rotate(same, chi) == rotate(a, axis)
+        assert rotate(opposite, chi) == tuple(-x for x in rotate(a, axis))
+        for b, zeros in ((same, 1), (opposite, 2)):
+            assert not any(revolute.component_in_frames(eta, xi, chi, a, b, zeros))
+            assert any(revolute.component_in_frames(eta, xi, chi, a, b, 3 - zeros)[:2])
 
 
 def bennetts_curve(m, t):

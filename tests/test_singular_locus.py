@@ -84,6 +84,32 @@ def test_a_component_is_cut_by_the_equations_of_its_linear_hull() -> None:
         assert Evaluator.of(system.polynomials, 3).residuals(component.points).max() < 1e-14
 
 
+def test_a_multiple_component_is_judged_by_equations_of_its_own() -> None:
+    """A nodal cubic that is double in the system."""
+    found = nag.decompose(
+        [
+            "z*(x + y + 1) + w*(x - 3)",
+            "z^2 + w*z*x",
+            "w^2 + z*w + z^2*(y - 4)",
+            "y^2 - x^3 - x^2 + z*x + w*y",
+        ]
+    )
+    i = next(i for i, c in enumerate(found.components) if c.multiplicity > 1)
+    locus = singular_locus(found)
+    assert locus.complete and i in locus.examined
+    [node] = locus.sets
+    assert node.multiplicities == {i: 2}
+    assert np.abs(node.points).max() < 1e-12
+
+
+def test_no_component_of_two_rhombi_between_fixed_bars_is_singular_itself() -> None:
+    """Two of the six are multiple."""
+    _, locus = locus_of("gonzalez")
+    assert locus.complete and locus.smooth == locus.proved == tuple(range(6))
+    assert all(one.intersection and not one.essential for one in locus.sets)
+    assert len(locus.sets) == 4
+
+
 @pytest.mark.parametrize("name", ["bricard-variety", "bennett-variety"])
 def test_varieties_of_single_loops_are_smooth(name: str) -> None:
     _, locus = locus_of(name)

@@ -22,15 +22,10 @@ def _under_the_root(m0: Any, m2: Any, cos: Any) -> Any:
     return (m1**2 + m2**2) * (m2**2 * (1 - cos**2) + cos**2)
 
 
-def point(m0: Any, m2: Any, cos: Any, sin: Any, root6: Any) -> tuple[Any, ...]:
-    """The parametrisation that begins with a_0 = (m_0^2 - 1) cos t/(m_0^2 + 1)."""
-    m1 = bennett_special.first_parameter(m0)
-    return (m0**2 - 1) / (m0**2 + 1) * cos, sin, -m1 * m2 * sin / root6, m2 * cos / root6
-
-
 def _at_the_point(formula: Any) -> list[str]:
     def residuals(cos: Any, m0: Any, m2: Any, root6: Any, sin: Any) -> Residuals:
-        return formula((m0, m2), *point(m0, m2, cos, sin, root6))
+        m = (m0, m2)
+        return formula(m, *bennett_special.parametrisation(m, cos, sin, root6))
 
     return surviving("cos m0 m2", residuals, ROOTS)
 

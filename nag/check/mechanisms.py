@@ -16,7 +16,6 @@ from nag.algebra.groebner import Ideal, cleared, ideal
 from nag.algebra.rational_function import FunctionField
 from nag.algebra.system import PolynomialSystem
 from nag.check.bennett_special import ROOTS as SPECIAL_ROOTS
-from nag.check.bennett_special import point as special_point
 from nag.check.four_way import RESIDUAL, WAYS, Decompose, digits, evaluator
 from nag.check.identities import labelled, surviving
 from nag.check.known import Parametrisation, parameter_text
@@ -82,7 +81,7 @@ def known_bennett(m: Sequence[Fraction]) -> KnownMechanism:
         return bennett.essential_to_all(m, *essential)
 
     def point_without_q5(cos: Any, root6: Any, sin: Any) -> Bodies:
-        essential = special_point(*outer, cos, sin, root6)
+        essential = bennett_special.parametrisation(outer, cos, sin, root6)
         return bennett_special.essential_to_all(outer, *essential)
 
     def generators(bodies: Bodies) -> list[Any]:

@@ -22,7 +22,7 @@ from nag.mechanism.quaternion import (
     norm_squared,
     scale,
 )
-from nag.symbolic import rotation
+from nag.symbolic import revolute, rotation
 
 ONE = "a0 a1 a2 a3"
 TWO = "a0 a1 a2 a3 b0 b1 b2 b3"
@@ -163,8 +163,7 @@ def eigenplane() -> Verdict:
         v, y, w, (s, t) = x[:3], x[3:6], x[6:10], x[10:]
         # L + |v||y| takes any vector into the eigenplane.
         a = add(apply(_L(v, y), w), scale(w, s * t))
-        first = (s * t - dot(v, y)) * a[0] + dot(a[1:], cross(y, v))
-        second = dot([t * p - s * q for p, q in zip(v, y, strict=True)], a[1:])
+        first, second = revolute.eigenplane(v, y, a, (s, t))
         return {"first": first, "second": second}
 
     roots = (

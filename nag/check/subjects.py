@@ -29,12 +29,13 @@ from nag.check import (
     slider_crank,
     triangle,
 )
+from nag.check.bennett_parameters import bennett_parameters
 from nag.check.four_way import Decompose, as_polynomial
 from nag.check.known import Known, parameter_text
 from nag.check.mechanisms import KnownMechanism
 from nag.check.planar_mechanism import equal_sides
 from nag.check.statement import Statement
-from nag.mechanism.axes import cross, dot, vanishes
+from nag.mechanism.axes import cross, vanishes
 from nag.mechanism.graph import Mechanism
 
 if TYPE_CHECKING:
@@ -181,7 +182,7 @@ def _named(family: SystemFamily, given: Parameters) -> Known:
 def recognised(case: Case, decompose: Decompose) -> Recognised | None:
     """What the papers know of a case, found by its equations or joints, never by its name."""
     if case.mechanism is not None:
-        for subject, known in _mechanisms(case):
+        for subject, known in _mechanisms(case, case.mechanism):
             if same_mechanism(case.mechanism, known.mechanism):
                 return Recognised(SUBJECTS[subject], mechanisms.four_ways(known, decompose))
         return _planar(case.mechanism, decompose)
@@ -205,16 +206,21 @@ def _planar(mechanism: Mechanism, decompose: Decompose) -> Recognised | None:
     return Recognised(SUBJECTS["four-bar"], ways)
 
 
-def _mechanisms(case: Case) -> Sequence[tuple[str, KnownMechanism]]:
+def _mechanisms(case: Case, mechanism: Mechanism) -> Sequence[tuple[str, KnownMechanism]]:
     found = [("bricard", mechanisms.known_bricard())]
-    m = [case.parameters.get(k) for k in ("m0", "m1", "m2")]
-    if known_space.in_omega(m):
-        found.append(("bennett", mechanisms.known_bennett(tuple(m))))
+    # Lemma 5.2: several m have the same points. A case's own are preferred.
+    own = tuple(case.parameters.get(k) for k in ("m0", "m1", "m2"))
+    for m in sorted(bennett_parameters(mechanism), key=lambda m: m != own):
+        if known_space.in_omega(m):
+            found.append(("bennett", mechanisms.known_bennett(m)))
     return found
 
 
 def same_mechanism(left: Mechanism, right: Mechanism) -> bool:
-    """Whether they have the same axes between the same bodies, in the same order."""
+    """Whether they have the same axes between the same bodies, in the same order.
+
+    The direction in which a case gives an axis does not matter.
+    """
     if len(left.joints) != len(right.joints):
         return False
     names = {left.ground: right.ground}
@@ -224,7 +230,7 @@ def same_mechanism(left: Mechanism, right: Mechanism) -> bool:
                 return False
         if a.type != b.type or a.point != b.point:
             return False
-        if not vanishes(cross(a.axis, b.axis)) or not dot(a.axis, b.axis) > 0:
+        if not vanishes(cross(a.axis, b.axis)):
             return False
     return len(set(names.values())) == len(names)
 

@@ -2,27 +2,36 @@
 
 Where linear equations hold on one component and not on all, they say more of it than the system
 does: fewer variables are left, and in these it is often cut as a smooth complete intersection.
+
+A component that is multiple in a system gets equations that it is simple in as well: those of its
+own ideal, up to its degree, which cut it transversally at its smooth points.
+
+Reference:
+    Mumford, Varieties defined by quadratic equations, 1970 (theorem 1).
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.interpolation.point_cloud import Ambient, Cloud
 from nag.interpolation.precise_samples import SourceError, source_of_component
 from nag.interpolation.vanishing import InterpolationError, next_degree, start
-from nag.witness.fibres import Tracker
+from nag.witness.cutting import Equations
+from nag.witness.fibres import Tracker, cut_fibres
 from nag.witness.witness import WitnessSet
 
 
 def within_hull(
     system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
 ) -> tuple[PolynomialSystem, WitnessSet]:
-    """A reduced component with the equations of its linear hull beside those of a system.
+    """A component with the equations of its linear hull beside those of a system.
 
     They are interpolated from random points of it, and recognised in 100 digits or more.
 
@@ -30,17 +39,45 @@ def within_hull(
         system: the equations that ``component`` was found from.
 
     Returns:
-        ``system`` and ``component`` as they are where the hull has no further rational equations.
+        ``system`` and ``component`` as they are where the hull has no further rational equations;
+        with a multiplicity of one, wherever it is simple in the equations that are returned.
     """
-    if component.dimension == 0 or component.multiplicity != 1:
+    if component.dimension == 0:
         return system, component
+    component = simple_in(system, component)
     try:
         source = source_of_component(system, component)
         cloud = Cloud(source, Ambient.itself(system), rng, tracker)
-        linear = next_degree(cloud, start(range(system.n))).basis
+        known = next_degree(cloud, start(range(system.n)))
+        own = _beside(known.basis, system)
+        if component.multiplicity == 1 and Reduction.of(own).n == Reduction.of(system).n:
+            return system, component
+        found = simple_in(own, component)
+        while found.multiplicity != 1 and known.degree < component.degree:
+            known = next_degree(cloud, known)
+            own = _beside(known.generators, system)
+            found = simple_in(own, component)
     except (SourceError, InterpolationError):
         return system, component
-    own = replace(system, polynomials=tuple(dict.fromkeys((*linear, *system.polynomials))))
-    if Reduction.of(own).n == Reduction.of(system).n:
+    if found.multiplicity != 1:
         return system, component
-    return own, replace(component, system=own, fibres=())
+    return own, replace(found, system=own, fibres=())
+
+
+def simple_in(system: PolynomialSystem, component: WitnessSet) -> WitnessSet:
+    """The component with a multiplicity of one, if a system is regular at its witness points."""
+    if component.multiplicity == 1 or component.dimension == 0:
+        return component
+    fibres = cut_fibres(
+        component.points,
+        component.accuracy,
+        Equations(system.polynomials, system.n),
+        component.slice.rows,
+        np.random.default_rng(0),
+        False,
+    )
+    return component if fibres is None else replace(component, multiplicity=1, fibres=())
+
+
+def _beside(found: Sequence[Polynomial], system: PolynomialSystem) -> PolynomialSystem:
+    return replace(system, polynomials=tuple(dict.fromkeys((*found, *system.polynomials))))

@@ -20,7 +20,7 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.intersection import intersect_components
-from nag.decomposition.linear_hull import within_hull
+from nag.decomposition.linear_hull import simple_in, within_hull
 from nag.decomposition.rank_drop import SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
@@ -126,7 +126,7 @@ class _Search:
     def on_component(self, i: int) -> None:
         """Points of a component where the rank of its own equations drops."""
         (system, component), name = self.own[i], f"component {i + 1}"
-        if component.multiplicity != 1 and system is self.whole.system:
+        if component.multiplicity != 1:
             self.notes.append(f"{name} is not reduced; its own singular points are not known")
             return
         try:
@@ -219,7 +219,7 @@ def _own_equations(
         for system, c in zip(systems, whole.components, strict=True)
     ]
     if comb(len(found), 2) > MOST_PAIRS:
-        return found
+        return [(system, simple_in(system, c)) for system, c in found]
     return [within_hull(system, c, rng, tracker) for system, c in found]
 
 
@@ -263,7 +263,9 @@ def _judged(
     for i, component in enumerate(whole.components):
         if _outside_hull(search.own[i][0], x, error):
             continue
-        m = _multiplicity(whole.system, component, x, error, rng, tracker)
+        # A multiple component is simple in equations of its own.
+        own = search.own[i] if component.multiplicity != 1 else (whole.system, component)
+        m = _multiplicity(*own, x, error, rng, tracker)
         if m is None:
             search.notes.append(f"the multiplicity of component {i + 1} at a point is not known")
         elif m:

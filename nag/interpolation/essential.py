@@ -26,9 +26,8 @@ from nag.interpolation.vanishing import (
 )
 from nag.numerics.rational_relations import Echelon, TooFewDigitsError
 
-# Largest degree of a numerator that is looked at, and while essential variables are chosen.
+# Largest degree of a numerator that is looked at.
 MOST_DEGREE = 4
-CHOOSING_DEGREE = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +161,7 @@ def essential_variables(cloud: Cloud, polynomial: bool = False) -> tuple[int, ..
 
     Linear combinations of earlier variables are left out first, then polynomials in the remaining
     ones, then rational functions of them, the simplest first. Maps are looked at up to a numerator
-    of degree `CHOOSING_DEGREE`, so a choice of fewer variables may exist.
+    of degree `MOST_DEGREE`, so a choice of fewer variables may exist.
 
     Args:
         polynomial: whether rational functions are no reason to leave a variable out.
@@ -184,7 +183,7 @@ def _complexity(cloud: Cloud, chosen: Sequence[int], variable: int, polynomial: 
     if not rest or cloud.image_dimension(rest) < cloud.source.dimension:
         return inf
     try:
-        found = maps(cloud, start(rest), [variable], CHOOSING_DEGREE, polynomial)
+        found = maps(cloud, start(rest), [variable], MOST_DEGREE, polynomial)
     except InterpolationError:
         return inf
     if not found:

@@ -45,3 +45,10 @@ def essential_to_all(
     b = (t0 * a0 * c0, t1 * a0 * c0, t2 * a0 * c2 + u2, t4 * a0 * c2 + u3)
     c = (c0, m2 * (m0**2 - 1) / (2 * m0) * c0, c2, 2 * m0 / (m2 * (m0**2 - 1)) * c2)
     return [a, b, c]
+
+
+def parametrisation(m: Sequence[Any], cos: Any, sin: Any, root6: Any) -> tuple[Any, ...]:
+    """The one that begins with a_0 = (m_0^2 - 1) cos t/(m_0^2 + 1): a0, a3, c0, c2."""
+    m0, m2 = m
+    m1 = first_parameter(m0)
+    return (m0**2 - 1) / (m0**2 + 1) * cos, sin, -m1 * m2 * sin / root6, m2 * cos / root6

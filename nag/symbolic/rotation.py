@@ -29,3 +29,15 @@ def rotate_back(a: Sequence[Any], v: Sequence[Any]) -> tuple[Any, ...]:
 def inner(u: Sequence[Any], v: Sequence[Any]) -> Any:
     """<u, v>."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def turned_frame(alpha: Sequence[Any], a: Sequence[Any]) -> tuple[Any, ...]:
+    """K~(alpha)^T a of T25 (1) and (9), with R(turned_frame(alpha, a)) = R(a) R(alpha)."""
+    p, q, r, s = alpha
+    a0, a1, a2, a3 = a
+    return (
+        p * a0 - q * a1 - r * a2 - s * a3,
+        q * a0 + p * a1 + s * a2 - r * a3,
+        r * a0 - s * a1 + p * a2 + q * a3,
+        s * a0 + r * a1 - q * a2 + p * a3,
+    )
