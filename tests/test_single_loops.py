@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from linkages import CASES, kinds
+from linkages import CASES, exact, kinds
 
 from nag.decomposition import decompose
 from nag.files.cases import read_case
 from nag.mechanism.coordinates import euler_decomposition
+from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.model import model
 
 # Those that Euler parameters decompose within two seconds. Tables are in
@@ -28,6 +29,19 @@ def test_half_angles_and_euler_parameters_agree(name: str) -> None:
     joint, euler = model(mechanism, "H"), model(mechanism, "E")
     _, carried = euler_decomposition(joint, decompose(joint.system))
     assert kinds(carried) == kinds(decompose(euler.system, symmetries=euler.symmetries))
+
+
+def test_a_component_is_carried_over_by_a_point_that_is_not_far_away() -> None:
+    """With seed 0 the first witness point has a slide of 209, too large to be sharpened there."""
+    joints = (
+        Joint("U", "universal", ("B0", "B1"), exact(0, -1, -1), exact(1, 2, 2), exact(1, 0, 0)),
+        Joint("C", "cylindrical", ("B1", "B2"), exact(0, -2, 1), exact(1, 1, 0)),
+        Joint("S", "spherical", ("B2", "B0"), exact(3, 3, 3)),
+    )
+    joint = model(Mechanism("B0", joints), "H")
+    for seed in range(3):
+        _, carried = euler_decomposition(joint, decompose(joint.system, seed=seed))
+        assert kinds(carried) == {(1, 32, 1): 1}
 
 
 def test_a_folding_sarrus_linkage_moves_in_one_and_in_two_ways_at_once() -> None:

@@ -11,12 +11,17 @@ from typing import Any
 
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
+from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.dh import DHLoop
 from nag.mechanism.dh_euler import table_alternatives, table_model
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model
-from nag.mechanism.path_estimates import estimated_paths
+from nag.mechanism.parts_coordinates import coordinates_of_parts
+from nag.mechanism.parts_decomposition import decompose_parts
+from nag.mechanism.path_estimates import fewest_estimated_paths
 from nag.witness.witness import Decomposition
+
+Parts = Mechanism | DHLoop | AssemblyModel
 
 # Systems whose estimated number of paths is larger are not tracked.
 MOST_PATHS = 200_000
@@ -28,7 +33,7 @@ class Formulated:
 
     Attributes:
         case: name of the case file.
-        formulation: its name, or "unreduced".
+        formulation: its name, or "unreduced"; of parts that are not assembled, the coordinates.
         taken: whether it is the one that is chosen.
         variables, equations: of its system.
         bezout: product of the degrees of as many equations as there are variables, the lowest.
@@ -82,12 +87,20 @@ def measure_table(name: str, loop: DHLoop, patience: float) -> list[Formulated]:
     ]
 
 
+def measure_parts(name: str, parts: AssemblyModel, patience: float) -> list[Formulated]:
+    """A linkage or a framework in all its coordinates, each given ``patience`` seconds."""
+    return [
+        _measured(name, each.formulation, each.taken, each.system, parts, patience)
+        for each in coordinates_of_parts(parts)
+    ]
+
+
 def _measured(
     name: str,
     formulation: str,
     taken: bool,
     system: PolynomialSystem,
-    mechanism: Mechanism | DHLoop,
+    mechanism: Parts,
     patience: float,
 ) -> Formulated:
     degrees = sorted(f.degree for f in system.polynomials)[: system.n]
@@ -98,7 +111,7 @@ def _measured(
         system.n,
         len(system.polynomials),
         prod(degrees),
-        estimated_paths(system),
+        fewest_estimated_paths(system),
     )
     if row.estimate > MOST_PATHS:
         return row
@@ -109,7 +122,7 @@ def _measured(
     return replace(row, paths=paths, seconds=seconds, components=components, complete=complete)
 
 
-def _in_time(mechanism: Mechanism | DHLoop, formulation: str, patience: float) -> Any:
+def _in_time(mechanism: Parts, formulation: str, patience: float) -> Any:
     """What `_decomposed` gives, in a process of its own, which is ended when time is over."""
     context = multiprocessing.get_context("spawn")
     receiving, sending = context.Pipe(False)
@@ -125,17 +138,19 @@ def _in_time(mechanism: Mechanism | DHLoop, formulation: str, patience: float) -
         process.join()
 
 
-def _send(sending: Any, mechanism: Mechanism | DHLoop, formulation: str) -> None:
+def _send(sending: Any, mechanism: Parts, formulation: str) -> None:
     sending.send(_decomposed(mechanism, formulation))
 
 
 def _decomposed(
-    mechanism: Mechanism | DHLoop, formulation: str
+    mechanism: Parts, formulation: str
 ) -> tuple[float, int, tuple[tuple[int, int, int], ...], bool]:
     best = float("inf")
     for warm in (False, True):
         begin = time.process_time()
-        if isinstance(mechanism, DHLoop):
+        if not isinstance(mechanism, Mechanism | DHLoop):
+            answer = _of_parts(mechanism, formulation)
+        elif isinstance(mechanism, DHLoop):
             table = table_model(mechanism, formulation)
             answer = decompose(table.system, symmetries=table.symmetries)
         elif formulation == "unreduced":
@@ -148,6 +163,13 @@ def _decomposed(
             best = time.process_time() - begin
             break
     return best, answer.paths.tracked, _kinds(answer), answer.complete
+
+
+def _of_parts(parts: AssemblyModel, coordinates: str) -> Decomposition:
+    each = next(c for c in coordinates_of_parts(parts) if c.formulation == coordinates)
+    if each.taken:
+        return decompose_parts(parts, symmetries=parts.symmetries)
+    return decompose(each.parts.system, symmetries=each.parts.symmetries)
 
 
 def _kinds(answer: Decomposition) -> tuple[tuple[int, int, int], ...]:

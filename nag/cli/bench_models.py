@@ -41,7 +41,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: if a case cannot be read, or the table cannot be written.
     """
-    from nag.bench.models import measure_models, measure_table
+    from nag.bench.models import measure_models, measure_parts, measure_table
     from nag.bench.table import models_table
     from nag.files.cases import CaseError, read_case
     from nag.files.dh_case import is_table
@@ -54,14 +54,16 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             case = read_case(path)
         except CaseError as error:
             raise UsageError(str(error)) from None
-        if case.mechanism is None and not is_table(case):
+        if case.mechanism is None and case.assembly is None:
             if options.case:
-                raise UsageError(f"{path}: is no assembled mechanism and no table; name such")
+                raise UsageError(f"{path}: is a polynomial system; name a mechanism")
             continue
         if not options.quiet:
             print(f"{path.stem} ...", file=sys.stderr, flush=True)
         try:
-            if case.mechanism is None:
+            if case.mechanism is None and not is_table(case):
+                rows += measure_parts(path.stem, case.assembly, options.patience)
+            elif case.mechanism is None:
                 rows += measure_table(path.stem, case.assembly.loop, options.patience)
             else:
                 rows += measure_models(path.stem, case.mechanism, options.patience)

@@ -6,7 +6,7 @@ loops find the other points on the slice, and the trace says when these are all.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,6 +25,23 @@ from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 # Relative error of a point that Newton's method could not sharpen.
 ROUGH = 1e-7
+
+
+def best_lifted(
+    component: WitnessSet, lift: Callable[[np.ndarray], Sequence[complex] | np.ndarray]
+) -> np.ndarray:
+    """Of a component's witness points, the one that is smallest in other coordinates.
+
+    Each of them leads to the whole component, but one that is large there, where a norm nearly
+    vanishes or a slide goes far, is known to fewer digits.
+
+    Args:
+        component: in its own coordinates.
+        lift: from a point to its other coordinates.
+    """
+    lifted = [np.array(lift(x), dtype=complex) for x in component.points]
+    sizes = [float(np.abs(point).max(initial=0.0)) for point in lifted]
+    return lifted[int(np.argmin(np.nan_to_num(sizes, nan=np.inf)))]
 
 
 def components_through_points(

@@ -1,8 +1,8 @@
 """A decomposition in joint coordinates, carried over to Euler parameters.
 
 One configuration has as many points in Euler parameters as there are sign changes of them, so that
-a component in half-angles is an orbit of components there, each a covering of it. One witness point
-is lifted; loops and the trace find the witness points of the component through it.
+a component in half-angles is an orbit of components there, each a covering of it. The witness
+point that is smallest there leads on; loops and the trace find those of the component through it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.given_points import components_through_points
+from nag.decomposition.given_points import best_lifted, components_through_points
 from nag.mechanism.model import Model, model
 from nag.mechanism.rods import RodModel
 from nag.witness.witness import Decomposition, Status
@@ -39,8 +39,7 @@ def euler_decomposition(
     spins = source.form.spins if isinstance(source.form, RodModel) else 0
     starts = []
     for component in decomposition.components:
-        lifted = source.lift(component.points[0])
-        point = np.array(target.project(lifted), dtype=complex)
+        point = best_lifted(component, lambda x: target.project(source.lift(x)))
         starts.append((component.dimension + spins, point))
     return target, carried_over(decomposition, target.system, target.symmetries, starts, threads)
 

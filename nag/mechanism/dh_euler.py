@@ -16,12 +16,11 @@ from fractions import Fraction
 from string import ascii_lowercase
 from typing import Any
 
-import numpy as np
-
 from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition.given_points import best_lifted
 from nag.mechanism.configuration import arithmetic_of, as_entries
 from nag.mechanism.coordinates import carried_over
 from nag.mechanism.dh import REAL, DHError, DHLoop, DHModel, dh_model, opened
@@ -177,6 +176,6 @@ def euler_closings(
     target = dh_euler_model(source.loop)
     starts = []
     for component in closings.components:
-        point = target.of_half_angles(source, component.points[0])
-        starts.append((component.dimension, np.array(point, dtype=complex)))
+        point = best_lifted(component, lambda x: target.of_half_angles(source, x))
+        starts.append((component.dimension, point))
     return target, carried_over(closings, target.system, target.symmetries, starts, threads)

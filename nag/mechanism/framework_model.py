@@ -24,7 +24,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.mechanism.axes import cross, difference, dot
 from nag.mechanism.framework import Framework, FrameworkError, Place
 from nag.mechanism.isotropic import conjugates, isotropic_system
-from nag.mechanism.path_estimates import estimated_paths
+from nag.mechanism.path_estimates import fewest_estimated_paths
 
 # Imaginary parts of real realisations, relative to the size of the point.
 REAL = 1e-8
@@ -76,7 +76,7 @@ class FrameworkModel:
     @property
     def paths(self) -> int:
         """Estimated number of paths that equation by equation are tracked at most."""
-        return min(estimated_paths(s) for s in (self.system, replace(self.system, groups=())))
+        return fewest_estimated_paths(self.system)
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real realisation, to within rounding."""
@@ -180,6 +180,18 @@ def in_isotropic_coordinates(made: FrameworkModel) -> FrameworkModel | None:
     """
     other = _by_places(made.framework)
     return None if other is None else replace(made, smaller=other)
+
+
+def in_each_coordinates(model: FrameworkModel) -> tuple[FrameworkModel, ...]:
+    """The same framework in isotropic coordinates z, where they will do, (z, w) and (x, y).
+
+    In space in its own coordinates only.
+    """
+    framework = model.framework
+    if framework.dimension == 3:
+        return (model,)
+    each = (_by_places(framework), _by_pairs(framework), cartesian_model(framework))
+    return tuple(replace(m, smaller=None, instead=None) for m in each if m is not None)
 
 
 def _plane_model(framework: Framework) -> FrameworkModel:

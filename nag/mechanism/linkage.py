@@ -136,7 +136,7 @@ class LinkageModel:
         loops = f"{self.loops} loop{'' if self.loops == 1 else 's'}"
         text = (
             f"planar linkage of {len(self.linkage.links)} links and {loops}, given by its links' "
-            "shapes; one pair (c, s) for each moving link"
+            "shapes; one pair (c, s) for each moving link: plates are rational in these"
         )
         if self.free:
             text += f"; cut off, turning freely: links {', '.join(self.free)}"

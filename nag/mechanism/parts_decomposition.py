@@ -16,7 +16,7 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.components import decompose
-from nag.decomposition.given_points import components_through_points
+from nag.decomposition.given_points import best_lifted, components_through_points
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.isotropic import conjugates
@@ -68,7 +68,7 @@ def _carried(
     if symmetries:
         tracker, rng = Tracker(settings, threads), np.random.default_rng([seed, 17])
         chosen = _one_of_each_pair(parts, found, rng, tracker)
-    starts = [(c.dimension, _in_the_plane(parts, c.points[0])) for c in chosen]
+    starts = [(c.dimension, best_lifted(c, lambda z: _in_the_plane(parts, z))) for c in chosen]
     answer = components_through_points(
         parts.system,
         starts,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import prod
 
 from nag.algebra.system import PolynomialSystem
@@ -36,6 +37,11 @@ def estimated_paths(system: PolynomialSystem) -> int:
         else:
             total += prod(f.degree for f in first)
     return total
+
+
+def fewest_estimated_paths(system: PolynomialSystem) -> int:
+    """The same with the system's groups of variables or without, whichever are fewer."""
+    return min(estimated_paths(s) for s in (system, replace(system, groups=())))
 
 
 def intersection_number(degrees: Sequence[Sequence[int]], dimensions: Sequence[int]) -> int:

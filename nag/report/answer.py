@@ -14,7 +14,7 @@ from nag.files.dh_case import is_table
 from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
 from nag.report.assemblies import assembly_rows, parts_rows
-from nag.report.formulations import alternative_lines, joint_lines, table_lines
+from nag.report.formulations import alternative_lines, joint_lines, parts_lines, table_lines
 from nag.report.table import (
     component_table,
     labelled,
@@ -162,4 +162,6 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
         lines += [printable(name), "  " + ", ".join(f"{v} = {number_text(x)}" for v, x in values)]
     if model is not None:
         return lines + joint_lines(model) + alternative_lines(model)
-    return lines + table_lines(case.assembly) if is_table(case) else lines
+    if case.assembly is None:
+        return lines
+    return lines + (table_lines if is_table(case) else parts_lines)(case.assembly)

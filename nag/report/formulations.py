@@ -10,15 +10,20 @@ from nag.mechanism.joint_types import JOINT_TYPES
 from nag.report.table import align, printable
 
 if TYPE_CHECKING:
+    from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.dh import DHModel
     from nag.mechanism.dh_euler import DHEulerModel
     from nag.mechanism.formulations import Alternative
     from nag.mechanism.model import Model
+    from nag.mechanism.parts_coordinates import PartsCoordinates
 
 
 def joint_lines(model: Model) -> list[str]:
     """The types of the joints and the prime components of their constraints."""
-    kinds = dict.fromkeys(j.type for j in model.mechanism.joints)
+    return _component_lines(list(dict.fromkeys(j.type for j in model.mechanism.joints)))
+
+
+def _component_lines(kinds: Sequence[str]) -> list[str]:
     rows = [["joints", "freedoms", "constraints", "modes", "components", "dimension", "degree"]]
     for kind in kinds:
         known = JOINT_TYPES[kind]
@@ -42,25 +47,39 @@ def alternative_lines(model: Model) -> list[str]:
 
 
 def table_lines(table: DHModel | DHEulerModel) -> list[str]:
-    """The same of a table by Denavit and Hartenberg."""
+    """Joints and formulations of a table by Denavit and Hartenberg."""
     from nag.mechanism.dh_euler import table_alternatives
 
-    return _formulation_lines(table_alternatives(table.loop), table.formulation, [])
+    return _component_lines(["revolute"]) + _formulation_lines(
+        table_alternatives(table.loop), table.formulation, []
+    )
+
+
+def parts_lines(parts: AssemblyModel) -> list[str]:
+    """The coordinates of a linkage's or a framework's parts with their numbers."""
+    from nag.mechanism.parts_coordinates import coordinates_of_parts
+
+    each = coordinates_of_parts(parts)
+    taken = next(c.formulation for c in each if c.taken)
+    return _formulation_lines(each, taken, [], "coordinates")
 
 
 def _formulation_lines(
-    covered: Sequence[Alternative], taken: str, others: Sequence[Sequence[str]]
+    covered: Sequence[Alternative | PartsCoordinates],
+    taken: str,
+    others: Sequence[Sequence[str]],
+    what: str = "formulation",
 ) -> list[str]:
-    rows = [["formulation", "variables", "equations", "Bezout", "groups' bound", "paths", ""]]
+    rows = [[what, "variables", "equations", "Bezout", "groups' bound", "paths", ""]]
     rows += [list(row) for row in others]
     rows += [[*alternative_row(a), "taken" if a.formulation == taken else ""] for a in covered]
     return [
-        "formulations; paths: at most so many, equation by equation",
+        f"{what.removesuffix('s')}s; paths: at most so many, equation by equation",
         *(f"  {line}" for line in align(rows, (0, 6))),
     ]
 
 
-def alternative_row(each: Alternative) -> list[str]:
+def alternative_row(each: Alternative | PartsCoordinates) -> list[str]:
     """Formulation, variables, equations, Bezout's number, the groups' bound, paths."""
     system = each.system
     numbers = (system.n, len(system.polynomials), each.bezout, each.bound, each.paths)
