@@ -94,7 +94,7 @@ def _atlas(right: int, undecided: int, wrong: int) -> Atlas:
 
 def test_an_atlas_reads_back_equal() -> None:
     atlas = _atlas(1, 2, 3)
-    assert read_atlas(json.dumps(document(atlas))) == atlas
+    assert read_atlas(json.loads(json.dumps(document(atlas)))) == atlas
 
 
 def test_a_step_back_is_told_and_the_same_share_is_not() -> None:

@@ -12,9 +12,10 @@ import pytest
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench import peer_points
+from nag.bench.chart_data import document, read_charts
 from nag.bench.reference import Reference, ReferenceError, compared, compared_in_balls
 from nag.bench.sharpening import sharpening
-from nag.bench.speed_accuracy import Subject, chart_of, document, ratios, read_charts
+from nag.bench.speed_accuracy import Subject, chart_of, ratios
 from nag.bench.whole_paths import WholePaths, tracked_in
 from nag.cli import main
 from nag.files.cases import read_case

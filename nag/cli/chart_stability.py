@@ -78,13 +78,12 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
 def _read(path: str) -> Atlas:
     from nag.bench.atlas.stability import read_atlas
+    from nag.files.json_values import ExportError, read_file
 
     try:
-        return read_atlas(Path(path).read_text("utf-8"))
-    except OSError as error:
-        raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:
-        raise UsageError(f"{path}: {error}") from None
+        return read_file(path, read_atlas)
+    except ExportError as error:
+        raise UsageError(str(error)) from None
 
 
 def _run(options: argparse.Namespace) -> Atlas:
