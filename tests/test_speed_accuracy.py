@@ -108,6 +108,16 @@ def test_a_chart_reads_back_and_is_compared() -> None:
     assert ratios(again)[1][:2] == ["roots", "100%"]
 
 
+@pytest.mark.parametrize("key", ["seconds", "largest", "name", "evaluations"])
+def test_damaged_data_are_refused_in_one_line(key: str, tmp_path: Path, capsys) -> None:
+    content = json.loads(KEPT.read_text())
+    content["charts"][0]["curves"][0]["points"][0][key] = [0]
+    target = tmp_path / "charts.json"
+    target.write_text(json.dumps(content))
+    assert main(["chart", "speed-accuracy", "--data", str(target)]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
 def test_a_number_of_solutions_that_is_not_known_to_be_so_is_no_reference() -> None:
     with pytest.raises(ReferenceError):
         chart_of(Subject("roots", SYSTEM, False, ((0, 1, 5),)), seeds=1, peers=False)

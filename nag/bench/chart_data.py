@@ -23,6 +23,7 @@ from nag.files.json_values import (
 
 FORMAT = "nag-speed-accuracy"
 VERSION = 2
+ERRORS = ("seconds", "largest", "median")
 
 
 def document(charts: Sequence[Chart]) -> dict[str, Any]:
@@ -63,9 +64,7 @@ def _chart(value: Any, place: str) -> Chart:
     sharpened = as_table(entry(table, "sharpened", place), f"{place}.sharpened")
     steps = {
         name: tuple(
-            Sharpened(
-                **_fields(p, f"{place}.sharpened", ("steps",), ("seconds", "largest", "median"))
-            )
+            Sharpened(**_fields(p, f"{place}.sharpened", ("steps",), ERRORS))
             for p in as_list(points, f"{place}.sharpened")
         )
         for name, points in sharpened.items()
@@ -87,8 +86,9 @@ def _curve(value: Any, place: str) -> Curve:
 
 
 def _point(value: Any, place: str) -> Point:
-    doubles = ("seconds", "share", "largest", "median")
-    numbers = _fields(value, place, ("evaluations", "false"), doubles)
+    numbers = _fields(value, place, ("evaluations", "false"), ("share", *ERRORS))
+    if not numbers["seconds"] > 0:
+        raise wrong(f"{place}.seconds", "more than 0")
     return Point(**_texts(as_table(value, place), place, ("name",)), **numbers)
 
 
