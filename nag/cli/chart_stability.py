@@ -87,7 +87,8 @@ def _read(path: str) -> Atlas:
 
 
 def _run(options: argparse.Namespace) -> Atlas:
-    from nag.bench.atlas.families import CASES, FAMILIES
+    from nag.bench.atlas.families import FAMILIES
+    from nag.bench.atlas.moved import CASES, GROUPS
     from nag.bench.atlas.stability import run_atlas
 
     names = {f.name for f in FAMILIES}
@@ -95,8 +96,10 @@ def _run(options: argparse.Namespace) -> Atlas:
         if name not in names:
             raise UsageError(f"--family: {name}: there are {', '.join(sorted(names))}")
     families = [f for f in FAMILIES if not options.family or f.name in options.family]
-    if any(f.name == "moved" for f in families) and not CASES.is_dir():
-        raise UsageError(f"the family 'moved' needs the folder {CASES}; run it where that is")
+    moved = [f.name for f in families if f.name in GROUPS]
+    if moved and not CASES.is_dir():
+        text = f"the family {moved[0]!r} needs the folder {CASES}; run it where that is"
+        raise UsageError(text)
 
     def progress(row: Row) -> None:
         if not options.quiet:
