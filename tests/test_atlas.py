@@ -94,7 +94,29 @@ def _atlas(right: int, undecided: int, wrong: int) -> Atlas:
 
 def test_an_atlas_reads_back_equal() -> None:
     atlas = _atlas(1, 2, 3)
-    assert read_atlas(json.dumps(document(atlas))) == atlas
+    assert read_atlas(json.loads(json.dumps(document(atlas)))) == atlas
+
+
+@pytest.mark.parametrize(
+    ("place", "value"),
+    [
+        (("rows", 0, "cells", 0, "right"), "many"),
+        (("rows", 0, "cells", 0, "value"), 2.5),
+        (("rows", 0, "cells"), []),
+        (("rows", 0), 1),
+        (("limit",), "long"),
+    ],
+)
+def test_a_damaged_atlas_is_refused_in_one_line(place, value, tmp_path: Path, capsys) -> None:
+    content = json.loads(json.dumps(document(_atlas(1, 2, 3))))
+    part = content
+    for key in place[:-1]:
+        part = part[key]
+    part[place[-1]] = value
+    target = tmp_path / "atlas.json"
+    target.write_text(json.dumps(content))
+    assert main(["chart", "stability", "--data", str(target)]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
 
 
 def test_a_step_back_is_told_and_the_same_share_is_not() -> None:

@@ -12,9 +12,10 @@ import pytest
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench import peer_points
+from nag.bench.chart_data import document, read_charts
 from nag.bench.reference import Reference, ReferenceError, compared, compared_in_balls
 from nag.bench.sharpening import sharpening
-from nag.bench.speed_accuracy import Subject, chart_of, document, ratios, read_charts
+from nag.bench.speed_accuracy import Subject, chart_of, ratios
 from nag.bench.whole_paths import WholePaths, tracked_in
 from nag.cli import main
 from nag.files.cases import read_case
@@ -105,6 +106,16 @@ def test_a_chart_reads_back_and_is_compared() -> None:
     again = read_charts(json.loads(json.dumps(document([chart]))))
     assert document(again) == document([chart])
     assert ratios(again)[1][:2] == ["roots", "100%"]
+
+
+@pytest.mark.parametrize("key", ["seconds", "largest", "name", "evaluations"])
+def test_damaged_data_are_refused_in_one_line(key: str, tmp_path: Path, capsys) -> None:
+    content = json.loads(KEPT.read_text())
+    content["charts"][0]["curves"][0]["points"][0][key] = [0]
+    target = tmp_path / "charts.json"
+    target.write_text(json.dumps(content))
+    assert main(["chart", "speed-accuracy", "--data", str(target)]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
 
 
 def test_a_number_of_solutions_that_is_not_known_to_be_so_is_no_reference() -> None:

@@ -21,8 +21,6 @@ from nag.tracking.evaluations import counted
 from nag.tracking.settings import NAMED, Settings
 from nag.witness.witness import Decomposition
 
-FORMAT = "nag-speed-accuracy"
-VERSION = 2
 ORDERS = (3, 4, 6, 8)
 TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
 DIGITS = (16, 32, 64)
@@ -309,52 +307,6 @@ def _peer(program: str, system: PolynomialSystem, reference: Reference) -> Curve
         return Curve("peer", program, (), answer.remark)
     found = compared(reference, answer.points)
     return Curve("peer", program, (Point(program, answer.seconds, 0, **asdict(found)),))
-
-
-def document(charts: Sequence[Chart]) -> dict[str, Any]:
-    """Charts as a JSON object."""
-    return {"format": FORMAT, "version": VERSION, "charts": [_plain(asdict(c)) for c in charts]}
-
-
-def _plain(value: Any) -> Any:
-    """Numbers to four digits, those that are not finite as None."""
-    if isinstance(value, dict):
-        return {k: _plain(v) for k, v in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(v) for v in value]
-    if isinstance(value, float):
-        return float(f"{value:.4g}") if np.isfinite(value) else None
-    return value
-
-
-def read_charts(value: Any) -> list[Chart]:
-    """The charts that a document holds.
-
-    Raises:
-        ValueError: if it holds none.
-    """
-    try:
-        if value["format"] != FORMAT or value["version"] != VERSION:
-            raise ValueError(f'is not of the format "{FORMAT}", version {VERSION}')
-        return [_chart(chart) for chart in value["charts"]]
-    except (KeyError, TypeError, AttributeError) as error:
-        raise ValueError(f"is not a document of charts: {error}") from None
-
-
-def _chart(value: dict[str, Any]) -> Chart:
-    curves = tuple(
-        Curve(**{**c, "points": tuple(Point(**_numbers(p)) for p in c["points"])})
-        for c in value["curves"]
-    )
-    sharpened = {
-        k: tuple(Sharpened(**_numbers(p)) for p in points)
-        for k, points in value["sharpened"].items()
-    }
-    return Chart(**{**value, "curves": curves, "sharpened": sharpened})
-
-
-def _numbers(value: dict[str, Any]) -> dict[str, Any]:
-    return {k: float("nan") if v is None else v for k, v in value.items()}
 
 
 def ratios(charts: Sequence[Chart], accuracy: float = 1e-12) -> list[list[str]]:

@@ -67,7 +67,8 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     check_targets(options)
     charts = _read(options.data) if options.data is not None else _run(options)
 
-    from nag.bench.speed_accuracy import document, ratios
+    from nag.bench.chart_data import document
+    from nag.bench.speed_accuracy import ratios
     from nag.bench.speed_accuracy_picture import draw_all, draw_case
     from nag.report.table import align
 
@@ -92,14 +93,13 @@ def _default(chart: Chart) -> list:
 
 
 def _read(path: str) -> list[Chart]:
-    from nag.bench.speed_accuracy import read_charts
+    from nag.bench.chart_data import read_charts
+    from nag.files.json_values import ExportError, read_file
 
     try:
-        return read_charts(json.loads(Path(path).read_text("utf-8")))
-    except OSError as error:
-        raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:
-        raise UsageError(f"{path}: {error}") from None
+        return read_file(path, read_charts)
+    except ExportError as error:
+        raise UsageError(str(error)) from None
 
 
 def _run(options: argparse.Namespace) -> list[Chart]:

@@ -78,17 +78,17 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
 def _read(path: str) -> Atlas:
     from nag.bench.atlas.stability import read_atlas
+    from nag.files.json_values import ExportError, read_file
 
     try:
-        return read_atlas(Path(path).read_text("utf-8"))
-    except OSError as error:
-        raise UsageError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:
-        raise UsageError(f"{path}: {error}") from None
+        return read_file(path, read_atlas)
+    except ExportError as error:
+        raise UsageError(str(error)) from None
 
 
 def _run(options: argparse.Namespace) -> Atlas:
-    from nag.bench.atlas.families import CASES, FAMILIES
+    from nag.bench.atlas.families import FAMILIES
+    from nag.bench.atlas.moved import CASES, GROUPS
     from nag.bench.atlas.stability import run_atlas
 
     names = {f.name for f in FAMILIES}
@@ -96,8 +96,10 @@ def _run(options: argparse.Namespace) -> Atlas:
         if name not in names:
             raise UsageError(f"--family: {name}: there are {', '.join(sorted(names))}")
     families = [f for f in FAMILIES if not options.family or f.name in options.family]
-    if any(f.name == "moved" for f in families) and not CASES.is_dir():
-        raise UsageError(f"the family 'moved' needs the folder {CASES}; run it where that is")
+    moved = [f.name for f in families if f.name in GROUPS]
+    if moved and not CASES.is_dir():
+        text = f"the family {moved[0]!r} needs the folder {CASES}; run it where that is"
+        raise UsageError(text)
 
     def progress(row: Row) -> None:
         if not options.quiet:

@@ -248,6 +248,8 @@ def _component(value: Any, system: PolynomialSystem, cuts: Sequence[Cut], place:
     points = get("points", as_matrix, system.n)
     if len(a) != len(b) or get("dimension", as_count) != len(b):
         raise wrong(f"{place}.dimension", "the number of rows of the slice's A and b")
+    if not (np.isfinite(a).all() and np.isfinite(b).all() and a.any(axis=1).all()):
+        raise wrong(f"{place}.slice", "of equations with finite coefficients, not all of them 0")
     if get("degree", as_count) != len(points):
         raise wrong(f"{place}.degree", "the number of points")
     status = get("status", as_text)

@@ -59,6 +59,12 @@ def as_texts(value: Any, place: str) -> list[str]:
     return [as_text(v, f"{place}[{i}]") for i, v in enumerate(as_list(value, place))]
 
 
+def as_integer(value: Any, place: str) -> int:
+    if not isinstance(value, int) or isinstance(value, bool):
+        raise wrong(place, "an integer")
+    return value
+
+
 def as_count(value: Any, place: str, least: int = 0) -> int:
     if not isinstance(value, int) or isinstance(value, bool) or value < least:
         raise wrong(place, f"an integer, {least} or more")

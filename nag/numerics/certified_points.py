@@ -187,22 +187,27 @@ def _overdetermined(
 
 def distinct_simple(groups: Sequence[CertifiedPoints]) -> int:
     """Number of simple zeros of points of one system that are proved, and proved distinct."""
-    parts = [(g, g.having(Proof.SIMPLE)) for g in groups]
+    boxes = joined_boxes(groups, Proof.SIMPLE)
+    same, unknown = overlaps(boxes)
+    return len(boxes.centres) - len({j for _, j in [*same, *unknown]})
+
+
+def joined_boxes(groups: Sequence[CertifiedPoints], *proofs: Proof) -> Boxes:
+    """The boxes of all points with one of these proofs, group by group."""
+    parts = [(g, g.having(*proofs)) for g in groups]
     fine, start = {}, 0
     for g, chosen in parts:
         fine |= {
             start + k: g.boxes.fine[i] for k, i in enumerate(chosen.tolist()) if i in g.boxes.fine
         }
         start += len(chosen)
-    boxes = Boxes(
+    return Boxes(
         np.concatenate([g.boxes.centres[i] for g, i in parts]),
         np.concatenate([g.boxes.outer[i] for g, i in parts]),
         np.concatenate([g.boxes.inner[i] for g, i in parts]),
         np.concatenate([g.boxes.proved[i] for g, i in parts]),
         fine,
     )
-    same, unknown = overlaps(boxes)
-    return start - len({j for _, j in [*same, *unknown]})
 
 
 def zero_digits(

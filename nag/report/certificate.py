@@ -35,7 +35,9 @@ def solution_rows(certificate: SolutionsCertificate, seconds: float) -> Rows:
     text = f"{real} proved real, {complex_} proved not real"
     open_ = int(proved.sum()) - real - complex_
     rows.append(("reality", text + (f", {open_} open" if open_ else "")))
-    rows += _distinct_rows(certificate.same, certificate.unknown)
+    rows += _pairs_rows("solutions", "the same zero", certificate.same, certificate.unknown) or [
+        ("distinct", "proved zeros are proved to be distinct")
+    ]
     for what, count in certificate.contradicted.items():
         text = f"{count} of the solutions that are said to be {what} are proved not to be"
         rows.append(("refuted", text))
@@ -56,15 +58,16 @@ def solution_rows(certificate: SolutionsCertificate, seconds: float) -> Rows:
 
 def _excluded_rows(certificate: SolutionsCertificate) -> Rows:
     """What is proved of the zeros where something vanishes that must not."""
-    left_out, proved = certificate.excluded, int(certificate.excluded.boxes.proved.sum())
-    if not proved:
+    left_out = certificate.excluded
+    chosen = left_out.boxes.proved & ~certificate.solutions_left_out
+    if not chosen.any():
         return []
     system = certificate.result.system
     equations = [f for f in system.polynomials if f]
-    digits = zero_digits(system.nonzero, equations, left_out)[left_out.boxes.proved].min()
+    digits = zero_digits(system.nonzero, equations, left_out)[chosen].min()
     text = (
-        f"{proved} more zeros of the equations are proved, where something that must not vanish "
-        f"does to {digits:.0f} digits"
+        f"{chosen.sum()} more zeros of the equations are proved, where something that must not "
+        f"vanish does to {digits:.0f} digits"
     )
     return [("excluded", text)]
 
@@ -77,6 +80,10 @@ def decomposition_rows(certificate: DecompositionCertificate, seconds: float) ->
     together = [c for c in certificate.components if not c.distinct]
     if together:
         rows.append(("doubt", f"points of {len(together)} components were not told apart"))
+    if certificate.multiple:
+        text = f"{len(certificate.multiple)} components that are said to be multiple are not"
+        rows.append(("refuted", text))
+    rows += _pairs_rows("components", "the same", certificate.same, certificate.unknown)
     for dimension, bound in sorted(certificate.bounds.items(), reverse=True):
         if bound:
             text = (
@@ -162,17 +169,19 @@ def _least_digits(groups: Iterable[CertifiedPoints], proof: Proof) -> str:
     return f"{least:.0f}" if np.isfinite(least) else "all"
 
 
-def _distinct_rows(same: tuple[tuple[int, int], ...], unknown: tuple[tuple[int, int], ...]) -> Rows:
+def _pairs_rows(
+    what: str, one: str, same: tuple[tuple[int, int], ...], unknown: tuple[tuple[int, int], ...]
+) -> Rows:
     rows = []
     for label, pairs, text in (
-        ("repeated", same, "are the same zero"),
+        ("repeated", same, f"are {one}"),
         ("doubt", unknown, "were not told apart"),
     ):
         if pairs:
             i, j = pairs[0]
             more = f", and {len(pairs) - 1} more pairs" if len(pairs) > 1 else ""
-            rows.append((label, f"solutions {i + 1} and {j + 1} {text}{more}"))
-    return rows or [("distinct", "proved zeros are proved to be distinct")]
+            rows.append((label, f"{what} {i + 1} and {j + 1} {text}{more}"))
+    return rows
 
 
 def _cost(groups: list[CertifiedPoints], seconds: float) -> tuple[str, str]:

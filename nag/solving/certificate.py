@@ -36,7 +36,9 @@ class SolutionsCertificate:
         same, unknown: pairs of indices with the same zero, and of which that is not known; all
             other pairs of proved zeros are proved distinct.
         nonzero: which solutions are proved to be no zeros of `PolynomialSystem.nonzero`, ``(k,)``.
-        excluded: what is proved of the solutions that were left out, as far as they are known.
+        excluded: what is proved of the solutions that were left out, as far as they are known;
+            solutions_left_out: which of these are proved to be solutions, as nothing that must not
+            vanish does so there.
         bound: no system of these monomials has more isolated zeros, or None for a system of more
             equations than unknowns; bound_name: which number that is.
     """
@@ -49,6 +51,7 @@ class SolutionsCertificate:
     unknown: tuple[tuple[int, int], ...]
     nonzero: np.ndarray
     excluded: CertifiedPoints
+    solutions_left_out: np.ndarray
     bound: int | None
     bound_name: str
 
@@ -80,18 +83,24 @@ class SolutionsCertificate:
             "not real": ~said_real & self.real,
             "multiple": ~said_simple & simple,
             "simple": said_simple & singular,
+            "excluded": self.solutions_left_out,
         }
         return {what: int(false.sum()) for what, false in found.items() if false.any()}
 
     @property
     def all_proved(self) -> bool:
-        """Whether something is proved of each solution and nothing against it, and all differ."""
+        """Whether each is proved a solution, as is said of it, and all differ."""
+        return self._borne_out and bool(self.nonzero.all())
+
+    @property
+    def _borne_out(self) -> bool:
+        """Whether each point is next to a zero of the equations of its own, as is said of it."""
         return Proof.NONE not in self.points.proofs and self.distinct and not self.contradicted
 
     @property
     def complete(self) -> bool:
         """Whether it is proved that the equations have no other isolated zeros."""
-        return self.bound is not None and self.zeros == self.bound and self.all_proved
+        return self.bound is not None and self.zeros == self.bound and self._borne_out
 
 
 def certify_solutions(result: SolveResult) -> SolutionsCertificate:
@@ -110,6 +119,7 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
     real, not_real = real_zeros(points.boxes)
     real |= points.real
     bound, name = bound_of_zeros(system)
+    excluded = proved(result.excluded_solutions)
     return SolutionsCertificate(
         result=result,
         points=points,
@@ -118,7 +128,8 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         same=tuple(same),
         unknown=tuple(unknown),
         nonzero=_nonzero(system.nonzero, points),
-        excluded=proved(result.excluded_solutions),
+        excluded=excluded,
+        solutions_left_out=_nonzero(system.nonzero, excluded),
         bound=bound,
         bound_name=name,
     )

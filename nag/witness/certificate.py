@@ -26,6 +26,7 @@ from nag.numerics.certified_points import (
     Proof,
     certify_points,
     distinct_simple,
+    joined_boxes,
 )
 from nag.numerics.discs import DiscPolynomials, Discs
 from nag.witness.expansion import image
@@ -66,6 +67,8 @@ class DecompositionCertificate:
     Attributes:
         decomposition: the components.
         components: what is proved of each.
+        same, unknown: pairs of indices of components that are proved to be the same one, and of
+            which points were not told apart.
         bounds: by dimension, a number that the sum of the degrees of the components of that
             dimension is proved not to be below.
         most: the sum of the degrees of all components is at most this.
@@ -73,13 +76,28 @@ class DecompositionCertificate:
 
     decomposition: Decomposition
     components: tuple[ComponentCertificate, ...]
+    same: tuple[tuple[int, int], ...]
+    unknown: tuple[tuple[int, int], ...]
     bounds: dict[int, int]
     most: int
 
     @property
     def all_proved(self) -> bool:
-        """Whether something is proved of each point of each component."""
-        return all(c.all_proved for c in self.components)
+        """Whether something is proved of each point of each component and nothing against one."""
+        good = not self.same and not self.unknown and not self.multiple
+        return good and all(c.all_proved for c in self.components)
+
+    @property
+    def multiple(self) -> tuple[int, ...]:
+        """Indices of components that are said to be multiple and are proved not to be.
+
+        A simple zero of all equations on the slice lies on a reduced component.
+        """
+        return tuple(
+            i
+            for i, c in enumerate(self.components)
+            if c.component.multiplicity > 1 and Proof.SIMPLE in c.points.proofs
+        )
 
     @property
     def complete(self) -> bool:
@@ -109,7 +127,30 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
         if signature is not None:
             bounds[dimension] += max(map(distinct_simple, slices.values()))
     most = prod(f.degree for f in equations)
-    return DecompositionCertificate(decomposition, tuple(certificates), bounds, most)
+    repeated = _repeated(certificates)
+    return DecompositionCertificate(decomposition, tuple(certificates), *repeated, bounds, most)
+
+
+def _repeated(
+    certificates: Sequence[ComponentCertificate],
+) -> tuple[tuple[tuple[int, int], ...], ...]:
+    """Pairs of components with a zero in common that lies on one only, and perhaps with one."""
+    same, unknown = set(), set()
+    slices: dict[bytes, list[int]] = {}
+    for i, c in enumerate(certificates):
+        slices.setdefault(c.component.slice.rows.tobytes(), []).append(i)
+    for members in slices.values():
+        # A singular zero on a slice may lie on two components, an isolated one is one itself.
+        isolated = not certificates[members[0]].component.dimension
+        proofs = [Proof.SIMPLE, Proof.PART]
+        proofs += [Proof.DEFLATED, Proof.EXACT] if isolated else []
+        groups = [certificates[i].points for i in members]
+        owners = [i for i, g in zip(members, groups, strict=True) for _ in g.having(*proofs)]
+        for pairs, found in zip(
+            (same, unknown), overlaps(joined_boxes(groups, *proofs)), strict=True
+        ):
+            pairs |= {(owners[i], owners[j]) for i, j in found if owners[i] != owners[j]}
+    return tuple(sorted(same)), tuple(sorted(unknown))
 
 
 def _proved(equations: Sequence[Polynomial], component: WitnessSet, cut: Slice) -> CertifiedPoints:

@@ -4,22 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas import curves, linkages, points
-from nag.bench.atlas.general_position import Coordinates, mixed
+from nag.bench.atlas.moved import GROUPS, moved_case
 from nag.bench.atlas.points import Problem
-from nag.files.cases import Case, read_case
 
 Make = Callable[[Any, np.random.Generator], Problem]
 
-CASES = Path("cases")
 DIGITS = (2, 4, 8, 12, 16, 20, 30)
 
 
@@ -42,26 +37,6 @@ class Family:
     method: str = "solve"
 
 
-def moved_case(name: str, rng: np.random.Generator) -> Problem:
-    """A polynomial system of `CASES` in other coordinates, its equations mixed."""
-    case = _case(name)
-    assert case.system is not None
-    system = case.system
-    coordinates = Coordinates.random(system.n, rng)
-    moved = [coordinates.of(f) for f in system.polynomials]
-    # With more equations than unknowns, mixing would make all of them long.
-    equations = mixed(moved, rng) if len(moved) <= system.n else tuple(moved)
-    truth = points.points()
-    for item in case.truth:
-        truth[item.dimension, item.degree, item.multiplicity] += item.count
-    return Problem(PolynomialSystem(system.variables, equations), truth)
-
-
-@cache
-def _case(name: str) -> Case:
-    return read_case(CASES / f"{name}.toml")
-
-
 def _two(make: Make, *first: int) -> Make:
     """A family of several knobs as one of its last."""
     return lambda value, rng: make((*first, value), rng)
@@ -77,6 +52,11 @@ def _plain_polynomial(k: int, rng: np.random.Generator) -> Problem:
     x, y = Polynomial.variables(2)
     terms = {(j, 0): int(rng.integers(1, 10)) * (-1) ** int(rng.integers(2)) for j in range(k + 1)}
     return Problem(points.plain(Polynomial(2, terms), y - x**2 - 1), points.points((1, k)))
+
+
+def _moved_text(name: str) -> str:
+    _, dash, kind = name.partition("-")
+    return "cases in other coordinates" + (f": {kind}" if dash else "")
 
 
 FAMILIES: tuple[Family, ...] = (
@@ -187,13 +167,8 @@ FAMILIES: tuple[Family, ...] = (
         "lengths", "a parallelogram's lengths at 10^k", "k",
         linkages.parallelogram, (1, 2, 4, 6, 8, -2, -4, -8), "decompose",
     ),
-    Family(
-        "moved", "cases in other coordinates", "case", moved_case,
-        (
-            "slider-crank", "rhombus", "four-bar", "literature/whitney-umbrella",
-            "literature/plane-line-point", "literature/sphere-and-cubic",
-            "literature/cyclic-4",
-        ),
-        "decompose",
+    *(
+        Family(name, _moved_text(name), "case", moved_case, values, "decompose")
+        for name, values in GROUPS.items()
     ),
 )  # fmt: skip

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from statistics import median
@@ -13,10 +12,23 @@ import numpy as np
 from nag.bench.atlas.families import FAMILIES, Family
 from nag.bench.timed_runs import timed_runs
 from nag.bench.verdicts import Answer, answered, described, verdict
+from nag.files.json_values import (
+    as_count,
+    as_document,
+    as_double,
+    as_integer,
+    as_list,
+    as_table,
+    as_text,
+    as_texts,
+    entry,
+    wrong,
+)
 
 FORMAT = "nag-stability"
 VERSION = 1
 SEEDS, LIMIT = 20, 10.0
+COUNTS = ("right", "undecided", "slow", "wrong")
 
 
 @dataclass(frozen=True)
@@ -140,7 +152,7 @@ def _row(family: Family, runs: Sequence[Any]) -> Row:
 
 
 def _cell(family: Family, value: Any, runs: Sequence[Any]) -> Cell:
-    counts = dict.fromkeys(("right", "undecided", "slow", "wrong"), 0)
+    counts = dict.fromkeys(COUNTS, 0)
     remarks: dict[str, str] = {}
     for run in sorted(runs, key=lambda r: r.task.seed):
         problem = family.make(value, np.random.default_rng([run.task.seed, 20]))
@@ -161,23 +173,44 @@ def document(atlas: Atlas) -> dict[str, Any]:
     return head | {"seeds": atlas.seeds, "limit": atlas.limit, "rows": rows}
 
 
-def read_atlas(text: str) -> Atlas:
-    """The atlas that a document, as text, holds.
+def read_atlas(value: Any) -> Atlas:
+    """The atlas that a document holds.
 
     Raises:
-        ValueError: if it holds none.
+        ExportError: if it holds none.
     """
-    value = json.loads(text)
-    try:
-        if value["format"] != FORMAT or value["version"] != VERSION:
-            raise ValueError(f'is not of the format "{FORMAT}", version {VERSION}')
-        rows = []
-        for row in value["rows"]:
-            cells = tuple(Cell(**{**c, "remarks": tuple(c["remarks"])}) for c in row["cells"])
-            rows.append(Row(**{**row, "cells": cells}))
-        return Atlas(value["settings"], int(value["seeds"]), float(value["limit"]), tuple(rows))
-    except (KeyError, TypeError, AttributeError) as error:
-        raise ValueError(f"is not an atlas: {error}") from None
+    table = as_document(value, FORMAT, VERSION)
+    settings = as_text(entry(table, "settings", "the file"), "settings")
+    seeds = as_count(entry(table, "seeds", "the file"), "seeds", 1)
+    limit = as_double(entry(table, "limit", "the file"), "limit")
+    rows = as_list(entry(table, "rows", "the file"), "rows")
+    return Atlas(
+        settings, seeds, limit, tuple(_read_row(r, f"rows[{i}]") for i, r in enumerate(rows))
+    )
+
+
+def _read_row(value: Any, place: str) -> Row:
+    table = as_table(value, place)
+    texts = [as_text(entry(table, k, place), f"{place}.{k}") for k in ("name", "text", "knob")]
+    method = as_text(entry(table, "method", place), f"{place}.method")
+    cells = as_list(entry(table, "cells", place), f"{place}.cells")
+    if not cells:
+        raise wrong(f"{place}.cells", "a list that is not empty")
+    read = (_read_cell(c, f"{place}.cells[{i}]") for i, c in enumerate(cells))
+    return Row(*texts, method, tuple(read))
+
+
+def _read_cell(value: Any, place: str) -> Cell:
+    table = as_table(value, place)
+    knob = entry(table, "value", place)
+    if not isinstance(knob, str):
+        knob = as_integer(knob, f"{place}.value")
+    counts = [as_count(entry(table, k, place), f"{place}.{k}") for k in COUNTS]
+    if not sum(counts):
+        raise wrong(place, "the counts of at least one answer")
+    seconds = as_double(entry(table, "seconds", place), f"{place}.seconds")
+    remarks = as_texts(entry(table, "remarks", place), f"{place}.remarks")
+    return Cell(knob, *counts, seconds, tuple(remarks))
 
 
 def changes(now: Atlas, before: Atlas) -> Iterator[str]:
@@ -207,9 +240,7 @@ def table(atlas: Atlas) -> list[list[str]]:
     """Families as rows of cells: counts, and where answers begin to be undecided."""
     lines = [["family", "answers", "right", "undecided", "slow", "wrong", "undecided from"]]
     for row in atlas.rows:
-        sums = [
-            sum(getattr(c, k) for c in row.cells) for k in ("right", "undecided", "slow", "wrong")
-        ]
+        sums = [sum(getattr(c, k) for c in row.cells) for k in COUNTS]
         first = next((str(c.value) for c in row.cells if c.undecided + c.slow), "-")
         lines.append([row.name, str(sum(sums)), *map(str, sums), first])
     return lines

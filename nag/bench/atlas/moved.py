@@ -1,0 +1,103 @@
+"""Cases that ship, in other coordinates: their answers must not change."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas.general_position import Coordinates, mixed
+from nag.bench.atlas.points import Problem, points
+from nag.bench.zero_set import Components
+from nag.files.cases import read_case
+from nag.mechanism.model import model
+
+CASES = Path("cases")
+
+# Those that take two seconds of processor time or less in coordinates in which they are dense.
+GROUPS: dict[str, tuple[str, ...]] = {
+    "moved": (
+        "slider-crank", "rhombus", "four-bar", "literature/whitney-umbrella",
+        "literature/plane-line-point", "literature/sphere-and-cubic", "literature/cyclic-4",
+        "triangle",
+    ),
+    "moved-papers": (
+        "bennett", "bricard-cube", "planar-four-bar", "four-bar-free", "rhombus-free",
+        "bennett-variety", "bricard-variety", "graph-curve",
+    ),
+    "moved-curves": (
+        "literature/arcs", "literature/double-parabola", "literature/double-parabola-reversed",
+        "literature/sphere-curve-lines-point", "literature/twisted-cubic",
+        "literature/twisted-cubic-affine",
+    ),
+    "moved-ideals": (
+        "literature/cuspidal-edge", "literature/double-plane-and-line",
+        "literature/embedded-point", "literature/whitney-umbrella-singular",
+        "literature/adjacent-minors-2x4", "literature/adjacent-minors-2x6",
+        "literature/adjacent-minors-3x3",
+    ),
+    "moved-frameworks": (
+        "planar/assur-triad", "planar/braced-square", "planar/henneberg-6", "planar/k33",
+        "planar/peaucellier", "planar/three-prism", "planar/double-parallelogram",
+    ),
+    "moved-planar": (
+        "planar/four-bar-folding", "planar/four-bar-kite", "planar/four-bar-parallelogram",
+        "planar/four-bar-rhombus", "planar/four-bar", "planar/slider-crank-equal",
+        "planar/elliptic-trammel", "planar/oldham",
+    ),
+    "moved-loops": (
+        "spatial/bennett-isogram-equilateral", "spatial/bennett", "spatial/goldberg-5r",
+        "spatial/goldberg-5r-difference", "spatial/myard-5r", "spatial/general-6r",
+        "spatial/assembled-4r", "spatial/assembled-5r",
+    ),
+    "moved-spatial": (
+        "spatial/griffis-duffy", "spatial/octahedron", "spatial/planar-four-bar",
+        "spatial/stewart-gough", "spatial/bennett-h-negative", "spatial/bennett-h-q5-zero",
+        "spatial/delassus-rprp", "spatial/rssr",
+    ),
+    "moved-spherical": (
+        "spherical/five-bar", "spherical/flat-foldable-vertex",
+        "spherical/four-bar-equal-opposite", "spherical/four-bar-equal",
+        "spherical/four-bar-kite", "spherical/four-bar", "spherical/hooke-joint",
+        "spherical/watt-six-bar",
+    ),
+    "moved-shaky": (
+        "shaky/four-bar-flat", "shaky/triangle-stretched", "shaky/two-bars-in-line",
+        "shaky/prism-concurrent", "shaky/k33-on-conic",
+    ),
+    "moved-benchmarks": (
+        "benchmarks/cbms1", "benchmarks/cbms2", "benchmarks/griewank-osborne",
+        "benchmarks/katsura-6", "benchmarks/kss-5", "benchmarks/mth191", "benchmarks/noon-5",
+        "benchmarks/planar-3-rpr",
+    ),
+    "moved-hard": (
+        "benchmarks/stewart-gough", "benchmarks/inverse-6r", "hard/tangents1",
+    ),
+}  # fmt: skip
+
+
+def moved_case(name: str, rng: np.random.Generator) -> Problem:
+    """The system of one of `CASES` in other coordinates, its equations mixed."""
+    system, truth = _case(name)
+    coordinates = Coordinates.random(system.n, rng)
+    moved = [coordinates.of(f) for f in system.polynomials]
+    # With more equations than unknowns, mixing would make all of them long.
+    equations = mixed(moved, rng) if len(moved) <= system.n else tuple(moved)
+    nonzero = tuple(coordinates.of(g) for g in system.nonzero)
+    return Problem(PolynomialSystem(system.variables, equations, nonzero), truth)
+
+
+def _case(name: str) -> tuple[PolynomialSystem, Components]:
+    """The system of a case, for a mechanism that of the fewest paths, and what is known of it."""
+    case = read_case(CASES / f"{name}.toml")
+    system, formulation = case.system, None
+    if case.mechanism is not None:
+        made = model(case.mechanism)
+        system, formulation = made.system, made.formulation
+    assert system is not None
+    truth = points()
+    for item in case.truth:
+        if item.formulation in (None, formulation):
+            truth[item.dimension, item.degree, item.multiplicity] += item.count
+    return system, truth
