@@ -25,18 +25,15 @@ from nag.algebra.polynomial import Polynomial
 from nag.decomposition.final_checks import MOST_MULTIDEGREES, checked_witness_set
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
+from nag.decomposition.roots import BITS, ball, points_at_roots, points_in_balls
 from nag.decomposition.splitting import Class
-from nag.witness.close_points import Fine, close_pairs, in_words
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import ExactPoints, of_balls
-from nag.witness.fibres import Fibre, Tracker
-from nag.witness.points import Points
+from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
-# Bits of the arithmetic and of the roots behind the point, and digits to which sums of second
-# derivatives must vanish.
-BITS, TOLERANCE, EVIDENCE = 400, 300, 60
+# Digits to which sums of second derivatives must vanish.
+EVIDENCE = 60
 # Sets of points that are looked at for those whose sum is linear.
 MOST_CHOICES = 20_000
 
@@ -102,8 +99,7 @@ def _components(
     if any(key == p for g in reduction.reduced.nonzero for p, _ in factored(g)):
         return []
     multidegree = _multidegree(reduction, rng)
-    fibre = Fibre(Cut(reduction.n, 0, (f,)), len(rows), line.points, line.close)
-    points = replace(Points.of([fibre], rows), known=line.exact)
+    points = points_in_balls(Cut(reduction.n, 0, (f,)), rows, line.balls)
     # Without groups: what these are asked for is known from the equation.
     plain = replace(reduction, system=replace(reduction.system, groups=()))
     result = []
@@ -143,39 +139,15 @@ class _Line:
             restricted = flint.acb_poly([])
             powers = [_powers(image, f.degree) for image in images]
             for exponents, c in f.terms.items():
-                term = flint.acb_poly([_ball(c)])
+                term = flint.acb_poly([ball(c)])
                 for own, k in zip(powers, exponents, strict=True):
                     if k:
                         term *= own[k]
                 restricted += term
-            try:
-                roots = restricted.roots(tol=flint.arb(2) ** -TOLERANCE)
-            except ValueError:
-                return None
-            if len(roots) != f.degree:
-                return None
-            balls = [[image(root) for image in images] for root in roots]
+            balls = points_at_roots(restricted, f.degree, images)
+        if balls is None:
+            return None
         return cls(f, A[-1].conj(), [image[1] for image in images], balls)
-
-    @property
-    def points(self) -> np.ndarray:
-        return np.array([[complex(c) for c in ball] for ball in self.balls])
-
-    @property
-    def exact(self) -> ExactPoints:
-        import flint
-
-        with flint.ctx.workprec(BITS):
-            return of_balls(self.balls)
-
-    @property
-    def close(self) -> dict[int, Fine]:
-        """More digits of the points that are close to others; how close, the points tell."""
-        import flint
-
-        pairs = close_pairs(self.points)
-        with flint.ctx.workprec(BITS):
-            return {i: in_words(self.balls[i], 1.0) for pair in pairs for i in pair}
 
     def classes(self, count: int) -> list[list[int]] | None:
         """The points of each of ``count`` conjugate factors; None if that is not seen."""
@@ -254,18 +226,12 @@ def _powers(image: Any, degree: int) -> list[Any]:
     return result
 
 
-def _ball(c: Fraction) -> Any:
-    import flint
-
-    return flint.acb(flint.arb(c.numerator) / c.denominator)
-
-
 def _value(f: Polynomial, x: Sequence[Any]) -> Any:
     import flint
 
     total = flint.acb(0)
     for exponents, c in f.terms.items():
-        term = _ball(c)
+        term = ball(c)
         for value, k in zip(x, exponents, strict=True):
             if k:
                 term *= value**k
