@@ -20,6 +20,9 @@ from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, Status
 
+# Points of curves of higher degree lie so far out that their powers leave the range of doubles.
+MOST_DEGREE = 20
+
 
 def decompose_rational_curve(
     reduction: Reduction, rng: np.random.Generator, tracker: Tracker, scheme: bool
@@ -31,7 +34,7 @@ def decompose_rational_curve(
         scheme: whether its multiplicity in the scheme of the equations is wanted.
 
     Returns:
-        None where the zero set is none that the equations give in this way.
+        None where the equations do not give it in this way, or its degree is too high.
     """
     import flint
 
@@ -42,8 +45,10 @@ def decompose_rational_curve(
     graph = eliminate_linear(reduced)
     if graph.system.n != 1 or graph.system.polynomials or not all(graph.system.nonzero):
         return None
-    rows = random_rows(rng, n, n, NEARER)[:1]
     degree = max(image.degree for image in graph.images)
+    if degree > MOST_DEGREE:
+        return None
+    rows = random_rows(rng, n, n, NEARER)[:1]
     with flint.ctx.workprec(BITS):
         images = [
             flint.acb_poly([ball(f.terms.get((k,), 0)) for k in range(f.degree + 1)])
