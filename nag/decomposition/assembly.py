@@ -102,7 +102,7 @@ def assembled(
         here = []
         for orbit in found.orbits:
             own = orbit.representative
-            fibres, _ = found.points.fibres(own.indices)
+            fibres = [fibre for fibre, _ in found.points.fibres(own.indices)]
             if known.embedded:
                 inside, spent = _on_larger_set(fibres[0], pieces, points, rng, tracker)
                 counts += spent

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations_with_replacement, permutations, repeat
+from itertools import combinations_with_replacement, permutations
 
 import numpy as np
 
@@ -122,11 +122,9 @@ def checked_witness_set(
     """
     rows, d, counts = points.rows, points.dimension, PathCounts()
     reduced, frame, groups = reduction.equations, reduction.frame, reduction.system.groups
-    chosen, order = points.fibres(found.indices)
-    first = chosen[0].points[0], chosen[0].fine.get(0)
-    sizes = np.cumsum([len(fibre) for fibre in chosen])[:-1]
-    exact = [points.exact.only(own) for own in np.split(order, sizes)]
-    sharp = [in_order(sharpened(*each)) for each in zip(chosen, repeat(rows), exact)]
+    by_cuts = points.fibres(found.indices)
+    first = by_cuts[0][0].points[0], by_cuts[0][0].fine.get(0)
+    sharp = [in_order(sharpened(f, rows, points.exact.only(own))) for f, own in by_cuts]
     chosen = [each.fibre for each in sharp]
     y = np.vstack([fibre.x for fibre in chosen])
     lifted, cut = _in_original(sharp, rows, reduction)
