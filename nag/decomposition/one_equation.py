@@ -25,7 +25,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.decomposition.final_checks import MOST_MULTIDEGREES, checked_witness_set
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.roots import BITS, ball, points_at_roots, points_in_balls
+from nag.decomposition.roots import BITS, ball, line, points_in_balls, zeros_on
 from nag.decomposition.splitting import Class
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Tracker
@@ -69,11 +69,11 @@ def decompose_one_equation(
         return None
     n = reduction.n
     rows = random_rows(rng, n, n, NEARER)[: n - 1]
-    line = _Line.of(f, rows)
-    classes = None if line is None else line.classes(count)
-    if line is None or classes is None:
+    cut_out = _Line.of(f, rows)
+    classes = None if cut_out is None else cut_out.classes(count)
+    if cut_out is None or classes is None:
         return None
-    components = _components(reduction, line, rows, classes, rng, tracker, scheme)
+    components = _components(reduction, cut_out, rows, classes, rng, tracker, scheme)
     return Decomposition(
         system=reduction.system,
         components=tuple(components),
@@ -87,7 +87,7 @@ def decompose_one_equation(
 
 def _components(
     reduction: Reduction,
-    line: _Line,
+    cut_out: _Line,
     rows: np.ndarray,
     classes: Sequence[Sequence[int]],
     rng: np.random.Generator,
@@ -99,7 +99,7 @@ def _components(
     if any(key == p for g in reduction.reduced.nonzero for p, _ in factored(g)):
         return []
     multidegree = _multidegree(reduction, rng)
-    points = points_in_balls(Cut(reduction.n, 0, (f,)), rows, line.balls)
+    points = points_in_balls(Cut(reduction.n, 0, (f,)), rows, cut_out.balls)
     # Without groups: what these are asked for is known from the equation.
     plain = replace(reduction, system=replace(reduction.system, groups=()))
     result = []
@@ -130,24 +130,11 @@ class _Line:
     @classmethod
     def of(cls, f: Polynomial, rows: np.ndarray) -> _Line | None:
         """None where the roots cannot be told apart, or are not as many as the degree."""
-        import flint
-
-        A = rows[:, 1:]
-        direction = np.linalg.svd(A)[2][-1].conj()
-        with flint.ctx.workprec(BITS):
-            images = _parametrised(rows, direction)
-            restricted = flint.acb_poly([])
-            powers = [_powers(image, f.degree) for image in images]
-            for exponents, c in f.terms.items():
-                term = flint.acb_poly([ball(c)])
-                for own, k in zip(powers, exponents, strict=True):
-                    if k:
-                        term *= own[k]
-                restricted += term
-            balls = points_at_roots(restricted, f.degree, images)
+        images = line(rows)
+        balls = zeros_on(f, images)
         if balls is None:
             return None
-        return cls(f, A[-1].conj(), [image[1] for image in images], balls)
+        return cls(f, rows[-1, 1:].conj(), [image[1] for image in images], balls)
 
     def classes(self, count: int) -> list[list[int]] | None:
         """The points of each of ``count`` conjugate factors; None if that is not seen."""
@@ -202,28 +189,6 @@ class _Line:
                 size = sum(float(abs(term).mid()) for term in terms)
                 result.append((sum(terms, flint.acb(0)), size))
         return result
-
-
-def _parametrised(rows: np.ndarray, direction: np.ndarray) -> list[Any]:
-    """The coordinates on the line that the rows define, in a parameter along the direction.
-
-    The line is that of the rows themselves: points that are close need all digits of it.
-    """
-    import flint
-
-    n = len(direction)
-    whole = np.vstack([rows[:, 1:], direction.conj()])
-    inverse = flint.acb_mat(n, n, [complex(c) for c in whole.ravel()]).inv()
-    right = flint.acb_mat(n, 2, [c for row in rows[:, 0] for c in (complex(-row), 0)] + [0, 1])
-    points = inverse * right
-    return [flint.acb_poly([points[i, 0], points[i, 1]]) for i in range(n)]
-
-
-def _powers(image: Any, degree: int) -> list[Any]:
-    result = [image**0]
-    for _ in range(degree):
-        result.append(result[-1] * image)
-    return result
 
 
 def _value(f: Polynomial, x: Sequence[Any]) -> Any:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nag.algebra.elimination import eliminate_linear
+from nag.algebra.elimination import eliminate_linear, linear_variables
 from nag.decomposition.final_checks import checked_witness_set
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
@@ -41,6 +41,8 @@ def decompose_rational_curve(
     reduced, n = reduction.reduced, reduction.n
     exact = all(f.exact for f in (*reduced.polynomials, *reduced.nonzero))
     if not exact or n < 3 or len(reduced.polynomials) != n - 1:
+        return None
+    if not any(map(linear_variables, reduced.polynomials)):
         return None
     graph = eliminate_linear(reduced)
     if graph.system.n != 1 or graph.system.polynomials or not all(graph.system.nonzero):

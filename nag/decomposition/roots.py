@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.polynomial import Polynomial
 from nag.witness.close_points import close_pairs, in_words
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import of_balls
@@ -24,6 +25,45 @@ def ball(c: Fraction) -> Any:
     import flint
 
     return flint.acb(flint.arb(c.numerator) / c.denominator)
+
+
+def line(rows: np.ndarray) -> list[Any]:
+    """The coordinates on the line of n - 1 slices, in a parameter along it: ``acb_poly``.
+
+    The line is that of the rows themselves: points that are close need all digits of it.
+    """
+    import flint
+
+    A = rows[:, 1:]
+    n, direction = A.shape[1], np.linalg.svd(A)[2][-1]
+    with flint.ctx.workprec(BITS):
+        whole = flint.acb_mat(n, n, [complex(c) for c in np.vstack([A, direction]).ravel()])
+        right = [c for row in rows[:, 0] for c in (complex(-row), 0)] + [0, 1]
+        points = whole.inv() * flint.acb_mat(n, 2, right)
+        return [flint.acb_poly([points[i, 0], points[i, 1]]) for i in range(n)]
+
+
+def zeros_on(f: Polynomial, images: Sequence[Any]) -> list[list[Any]] | None:
+    """The zeros of f, with rational coefficients, on a line, as many as its degree.
+
+    Args:
+        images: the coordinates on the line.
+
+    Returns:
+        As `points_at_roots`.
+    """
+    import flint
+
+    with flint.ctx.workprec(BITS):
+        powers = [[image**k for k in range(f.degree_in([i]) + 1)] for i, image in enumerate(images)]
+        restricted = flint.acb_poly([])
+        for exponents, c in f.terms.items():
+            term = flint.acb_poly([ball(c)])
+            for own, k in zip(powers, exponents, strict=True):
+                if k:
+                    term *= own[k]
+            restricted += term
+        return points_at_roots(restricted, f.degree, images)
 
 
 def points_at_roots(f: Any, degree: int, images: Sequence[Any]) -> list[list[Any]] | None:
