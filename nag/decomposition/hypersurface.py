@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.roots import line, zeros_on
+from nag.decomposition.roots import line, points_in_balls, zeros_on
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.track import track
@@ -124,9 +124,10 @@ def _on_line(f: Polynomial, rows: np.ndarray) -> Moved | None:
     balls = zeros_on(f, line(rows))
     if balls is None:
         return None
-    points = np.array([[complex(c) for c in point] for point in balls])
-    all_of_them = np.ones(len(points), dtype=bool)
-    return Moved(points, all_of_them, all_of_them, ~all_of_them, np.full(len(points), ROUNDED))
+    points = points_in_balls(Cut(f.n, 0, (f,)), rows, balls)
+    found = np.ones(len(points), dtype=bool)
+    accuracy = np.full(len(points), ROUNDED)
+    return Moved(points.x, found, found, ~found, accuracy, fine=points.fine)
 
 
 def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:

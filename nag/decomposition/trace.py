@@ -15,7 +15,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import FEWEST, exact_points
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.points import Points
 from nag.witness.slices import padded, unit_complex
@@ -61,14 +61,15 @@ class Differences:
 class Trace:
     """A parallel motion of a slice, one step to each side, and how points follow it.
 
-    Both sides are one slice with a further unknown u, which is 1 or -1: ``L(x) + shift u = 0``.
+    All are one slice with a further unknown u, which is 0, 1 or -1: ``L(x) + shift u = 0``.
 
     Attributes:
         shift: the step.
         gamma: random constant of the homotopy.
         evidence: digits to which sums must vanish to be linear.
-        ends: for each point that was tracked, by index, its two ends.
+        ends: for each point that was tracked, by index, itself and its two ends.
         known: second differences of points, by index.
+        exact: the points in the fewest digits that are of use, by index.
     """
 
     shift: complex
@@ -76,13 +77,14 @@ class Trace:
     evidence: int
     ends: Mapping[int, Fibre]
     known: Mapping[int, Differences]
+    exact: Mapping[int, ExactPoints]
 
     @classmethod
     def of(cls, points: Points, evidence: int, rng: np.random.Generator) -> Trace:
         """A motion as far as the points are large."""
         sizes = np.linalg.norm(points.x, axis=1)
         shift = complex(unit_complex(rng)) * float(np.median(sizes)) if len(sizes) else 1.0
-        return cls(shift or 1.0, complex(unit_complex(rng)), evidence, {}, {})
+        return cls(shift or 1.0, complex(unit_complex(rng)), evidence, {}, {}, {})
 
     def carried(
         self, points: Points, indices: Iterable[int], tracker: Tracker
@@ -93,41 +95,49 @@ class Trace:
         if not new:
             return self, counts
         for fibre, own in points.fibres(new):
-            starts = _doubled(fibre)
-            target = self._sides(points.rows, starts.cut)
+            starts = _numbered(fibre, (1.0, -1.0))
+            target = self._slices(points.rows, starts.cut)
             source = padded(points.rows, target.shape[1])
             there = move(starts, source, target, self.gamma, tracker)
             counts += there.counts.judged_elsewhere
             if not there.regular.all():
                 return None, counts
+            middle = _numbered(fibre, (0.0,))
             for k, i in enumerate(own.tolist()):
-                ends[i] = there.fibre(starts.cut, fibre.dimension, [2 * k, 2 * k + 1])
+                sides = there.fibre(starts.cut, fibre.dimension, [2 * k, 2 * k + 1])
+                ends[i] = _joined([middle.only(np.arange(len(own)) == k), sides])
         return replace(self, ends=ends)._found(points, new, DIGITS[0]), counts
 
-    def _sides(self, rows: np.ndarray, cut: Cut) -> np.ndarray:
-        """The two slices as one, for a cut with the further unknown."""
+    def _slices(self, rows: np.ndarray, cut: Cut) -> np.ndarray:
+        """All slices as one, for a cut with the further unknown."""
         target = padded(rows, 1 + cut.n + cut.aux)
         target[-1, -1] = self.shift
         return target
 
     def _found(self, points: Points, indices: Sequence[int], digits: int) -> Trace:
         """Second differences of some points, found in so many digits."""
-        known = dict(self.known)
-        for fibre, own in points.fibres(indices):
-            if digits == FEWEST:
-                middle = points.exact.only(own)
-            else:
-                middle = exact_points(fibre, points.rows, digits)
-            both = _joined([self.ends[i] for i in own.tolist()])
-            sides = exact_points(both, self._sides(points.rows, both.cut), digits)
-            total = sides.values[::2] + sides.values[1::2] - 2 * middle.values
-            radii = sides.radii[::2] + sides.radii[1::2] + 2 * middle.radii
-            moved = np.abs(both.x - np.repeat(fibre.x, 2, axis=0)).max(axis=1, initial=0.0)
-            motions = np.maximum(moved[::2], moved[1::2])
+        known, exact = dict(self.known), dict(self.exact)
+        for _, own in points.fibres(indices):
+            ends = _joined([self.ends[i] for i in own.tolist()])
+            found = exact_points(ends, self._slices(points.rows, ends.cut), digits)
+            x, sides = found.values[::3], (found.values[1::3], found.values[2::3])
+            total = sides[0] + sides[1] - 2 * x
+            radii = 2 * found.radii[::3] + found.radii[1::3] + found.radii[2::3]
+            motions = [np.abs(ends.x[k::3] - ends.x[::3]).max(axis=1, initial=0.0) for k in (1, 2)]
+            motion = np.maximum(*motions)
             for k, i in enumerate(own.tolist()):
-                radius, motion = float(radii[k]), float(motions[k])
-                known[i] = Differences(total[k], middle.bits, radius, motion, digits)
-        return replace(self, known=known)
+                known[i] = Differences(
+                    total[k], found.bits, float(radii[k]), float(motion[k]), digits
+                )
+                if digits == FEWEST:
+                    exact[i] = found.only([3 * k])
+        return replace(self, known=known, exact=exact)
+
+    def sharper(self, points: Points) -> Points:
+        """The points with the digits that were found, if all of them were carried."""
+        if not len(points) or set(self.exact) != set(range(len(points))):
+            return points
+        return replace(points, known=together([self.exact[i] for i in range(len(points))]))
 
     def linear(self, points: Points, indices: Sequence[int]) -> tuple[bool | None, Trace]:
         """Whether the trace of points that were carried is linear; None if digits do not say.
@@ -206,18 +216,21 @@ class Trace:
         return sorted(small.tolist(), key=lambda bits: (bits.bit_count(), bits))
 
 
-def _doubled(fibre: Fibre) -> Fibre:
-    """Each point of a fibre twice, with a further unknown that is 1 and -1."""
-    u = np.tile([1.0, -1.0], len(fibre))
-    points = np.column_stack([np.repeat(fibre.points, 2, axis=0), u])
-    fine = {2 * i + j: z.with_last((1.0, -1.0)[j]) for i, z in fibre.fine.items() for j in (0, 1)}
-    return Fibre(fibre.cut.doubled, fibre.dimension, points, fine)
+def _numbered(fibre: Fibre, numbers: Sequence[float]) -> Fibre:
+    """Each point of a fibre once for each number, with that as a further unknown."""
+    several, m = np.repeat(fibre.points, len(numbers), axis=0), len(numbers)
+    points = np.column_stack([several, np.tile(numbers, len(fibre))])
+    fine = {m * i + j: z.with_last(u) for i, z in fibre.fine.items() for j, u in enumerate(numbers)}
+    return Fibre(fibre.cut.numbered, fibre.dimension, points, fine)
 
 
-def _joined(pairs: Sequence[Fibre]) -> Fibre:
-    """Pairs of points in one fibre."""
-    fine = {2 * k + j: each for k, pair in enumerate(pairs) for j, each in pair.fine.items()}
-    return replace(pairs[0], points=np.vstack([pair.points for pair in pairs]), fine=fine)
+def _joined(parts: Sequence[Fibre]) -> Fibre:
+    """Points of several fibres of one cut in one."""
+    fine, first = {}, 0
+    for part in parts:
+        fine |= {first + i: each for i, each in part.fine.items()}
+        first += len(part)
+    return replace(parts[0], points=np.vstack([part.points for part in parts]), fine=fine)
 
 
 def _float(value: int, bits: int) -> float:

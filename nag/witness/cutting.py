@@ -96,12 +96,12 @@ class Cut:
         return Cut(self.n, self.aux, tuple(Polynomial(total, own) for own in terms))
 
     @cached_property
-    def doubled(self) -> Cut:
-        """The cut with one unknown more, the last, which is 1 or -1."""
+    def numbered(self) -> Cut:
+        """The cut with one unknown more, the last, which is 0, 1 or -1."""
         total = self.n + self.aux + 1
         u = Polynomial.variable(total, total - 1)
         rows = [f.with_variables(total, range(total - 1)) for f in self.polynomials]
-        return Cut(self.n, self.aux + 1, (*rows, u * u - 1), self.levels)
+        return Cut(self.n, self.aux + 1, (*rows, u**3 - u), self.levels)
 
     @property
     def deflated(self) -> bool:

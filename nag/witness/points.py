@@ -19,7 +19,7 @@ from nag.witness.close_points import (
     zero_from,
 )
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import FEWEST, ExactPoints, exact_points
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
 from nag.witness.fibres import STEEPER, Fibre, Tracker, move
 from nag.witness.witness import PathCounts
 
@@ -125,15 +125,8 @@ class Points:
             return self.known
         fibres = self.fibres(range(len(self)))
         parts = [exact_points(fibre, self.rows, FEWEST) for fibre, _ in fibres]
-        if len(parts) == 1:
-            return parts[0]
         order = np.concatenate([own for _, own in fibres])
-        arrays = ("values", "radii", "balls")
-        values, radii, balls = (
-            np.concatenate([getattr(part, name) for part in parts])[np.argsort(order)]
-            for name in arrays
-        )
-        return ExactPoints(values, parts[0].bits, radii, balls)
+        return together(parts).only(np.argsort(order))
 
     def with_point(self, cut: Cut, z: np.ndarray, fine: Fine | None = None) -> Points:
         """One point more, at the end."""
