@@ -107,21 +107,5 @@ def system_at(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) 
     return flint.acb_mat(N, 1, values), flint.acb_mat(N, N, jacobian)
 
 
-def values_at(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) -> Any:
-    """The values alone."""
-    values: list[Any] = []
-    for row in terms.rows:
-        value = flint.acb(0)
-        for factors, c, _ in row:
-            if c == 0:
-                continue
-            for j, k in factors:
-                c = c * (x[j] if k == 1 else x[j] ** k)
-            value += c
-        values.append(value)
-    values += _on_patches(flint, patches, x)
-    return flint.acb_mat(len(values), 1, values)
-
-
 def _on_patches(flint: Any, patches: list[list[Any]], x: list[Any]) -> list[Any]:
     return [sum(map(mul, patch, x), flint.acb(-1)) for patch in patches]
