@@ -22,7 +22,7 @@ import numpy as np
 from nag.algebra.absolute_factors import most_absolute_factors
 from nag.algebra.factoring import factored
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.final_checks import MOST_MULTIDEGREES, checked_witness_set
+from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, ball, line, points_in_balls, zeros_on
@@ -103,8 +103,10 @@ def _components(
     # Without groups: what these are asked for is known from the equation.
     plain = replace(reduction, system=replace(reduction.system, groups=()))
     result = []
-    for own in classes:
-        found, _ = checked_witness_set(Class(np.array(own)), points, plain, rng, tracker, scheme)
+    whole = [Class(np.array(own)) for own in classes]
+    examined = Examined.of(points, whole, plain, rng)
+    for own in whole:
+        found, _ = checked_witness_set(own, examined, rng, tracker, scheme)
         if multidegree is not None:
             found = replace(found, multidegree=multidegree // len(classes))
         result.append(found)

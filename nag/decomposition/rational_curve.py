@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from nag.algebra.elimination import eliminate_linear, linear_variables
-from nag.decomposition.final_checks import checked_witness_set
+from nag.decomposition.final_checks import Examined, checked_witness_set
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, ball, points_at_roots, points_in_balls
@@ -63,7 +63,8 @@ def decompose_rational_curve(
         return None
     points = points_in_balls(Cut(n, 0, reduced.polynomials), rows, balls)
     whole = Class(np.arange(degree))
-    found, counts = checked_witness_set(whole, points, reduction, rng, tracker, scheme)
+    examined = Examined.of(points, [whole], reduction, rng)
+    found, counts = checked_witness_set(whole, examined, rng, tracker, scheme)
     return Decomposition(
         system=reduction.system,
         components=(found,),
