@@ -11,7 +11,7 @@ from systems import system
 
 from nag.algebra.evaluation import Evaluator
 from nag.decomposition.components import decompose
-from nag.decomposition.final_checks import checked_witness_set
+from nag.decomposition.final_checks import Examined, checked_witness_set
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class, split
 from nag.decomposition.trace import EVIDENCE, Trace
@@ -104,7 +104,9 @@ def checked(points: np.ndarray, reduction: Reduction, reason: str = "") -> Witne
     """What the final checks say of points of the cubic as a component."""
     own = Points.of([Fibre(fibre(CUBIC, ROWS[0]).cut, 1, points)], ROWS)
     found = Class(np.arange(len(points)), reason)
-    return checked_witness_set(found, own, reduction, np.random.default_rng(0), TRACKER)[0]
+    rng = np.random.default_rng(0)
+    examined = Examined.of(own, [found], reduction, rng)
+    return checked_witness_set(found, examined, rng, TRACKER)[0]
 
 
 POINTS = points_on(curve(CUBIC), ROWS[0])

@@ -5,7 +5,8 @@ Read in this order: `components` (the whole); `several_equations` (what needs pa
 `splitting` on `monodromy` and `trace`, `orbits` (the same up to symmetry); `final_checks` and
 `assembly`, which put the answer together.
 `discovery` and `given_points` (on `common_slices`) and `intersection` begin elsewhere and end
-alike. `branch_components` with `branch_component` follows what exact factoring decides.
+alike. `branch_components` with `branch_component` follows what exact factoring decides;
+`one_equation` and `rational_curve` on `roots` need no paths.
 
 What decides, beside the errors of points, stands in `nag.thresholds`.
 

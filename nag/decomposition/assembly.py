@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.decomposition.final_checks import checked_witness_set
+from nag.decomposition.final_checks import Examined, checked_witness_set
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.trace import digits_of_evidence
@@ -100,17 +100,17 @@ def assembled(
         counts += found.counts
         notes += [f"dimension {d}: {note}" for note in found.notes]
         here = []
+        classes = [orbit.representative for orbit in found.orbits]
+        examined = Examined.of(found.points, classes, reduction, rng)
         for orbit in found.orbits:
             own = orbit.representative
-            fibres, _ = found.points.fibres(own.indices)
+            fibres = [fibre for fibre, _ in found.points.fibres(own.indices)]
             if known.embedded:
                 inside, spent = _on_larger_set(fibres[0], pieces, points, rng, tracker)
                 counts += spent
                 if inside:
                     continue
-            component, spent = checked_witness_set(
-                own, found.points, reduction, rng, tracker, known.scheme
-            )
+            component, spent = checked_witness_set(own, examined, rng, tracker, known.scheme)
             counts += spent
             size = 1 + len(orbit.carriers)
             component = replace(component, orbit=size, images=orbit.carriers)

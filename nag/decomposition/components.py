@@ -12,6 +12,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_components import decompose_apart
 from nag.decomposition.independent_parts import decompose_parts
 from nag.decomposition.one_equation import decompose_one_equation
+from nag.decomposition.rational_curve import decompose_rational_curve
 from nag.decomposition.reduction import Reduction
 from nag.witness.fibres import Progress, Tracker
 from nag.witness.witness import Decomposition
@@ -32,10 +33,11 @@ def decompose(
     equations factor over the rationals, the parts that the system falls into are decomposed
     apart; zeros of polynomials in one variable, and of two equations in two, are isolated exactly
     where they are few. Otherwise linear equations are solved exactly first. One equation that is
-    left is factored over the complex numbers, exactly and without paths; several are intersected
-    one by one. Where doubts are left and only points were found, the equations are solved all at
-    once. Nothing is tried again: what is left open is said to be. The same seed gives the same
-    answer, byte for byte, whatever the number of threads.
+    left is factored over the complex numbers, and a curve that polynomials in one variable give is
+    taken as it is, exactly and without paths; other equations are intersected one by one. Where
+    doubts are left and only points were found, the equations are solved all at once. Nothing is
+    tried again: what is left open is said to be. The same seed gives the same answer, byte for
+    byte, whatever the number of threads.
 
     Args:
         system: the equations; components on which a polynomial of ``system.nonzero`` vanishes
@@ -79,6 +81,7 @@ def _decompose_whole(
     rng = np.random.default_rng([seed, 3])
     moving = any(not g.is_identity for g in symmetries)
     exact = decompose_one_equation(reduction, rng, tracker, scheme, one=moving)
+    exact = exact or decompose_rational_curve(reduction, rng, tracker, scheme)
     if exact is not None:
         return replace(exact, seed=seed)
     # Paths take longer to load than most of what needs none takes altogether.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations_with_replacement, permutations, repeat
+from dataclasses import dataclass
+from itertools import combinations_with_replacement, permutations
 
 import numpy as np
 
@@ -82,22 +83,76 @@ def _coranks(
     return result
 
 
-def _in_original(
-    chosen: Sequence[Sharp], rows: np.ndarray, reduction: Reduction
-) -> tuple[list[Sharp], Slice]:
-    """Points in the original coordinates, and their slice.
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """Points with the same cut, to rounding, and what is checked of each.
 
-    A slice of scaled coordinates is rounded on its way to the original ones, and the points on it
-    are found anew; where points are close to each other, it is taken over exactly.
+    Attributes:
+        own: their indices among all points.
+        sharp: in the coordinates in which equations are solved.
+        lifted: in the original ones.
     """
-    frame, close = reduction.frame, any(each.fibre.fine for each in chosen)
-    cut = frame.slice(rows, orthonormal=not close)
-    lifted = [_lifted(each.fibre, reduction) for each in chosen]
-    if (frame.scales != 1).any():
-        return [sharpened(fibre, cut.rows) for fibre in lifted], cut
-    radii = [framed(frame, each.fibre.x, each.radii) for each in chosen]
-    whole = zip(lifted, radii, chosen, strict=True)
-    return [Sharp(fibre, r, each.digits) for fibre, r, each in whole], cut
+
+    own: np.ndarray
+    sharp: Sharp
+    lifted: Sharp
+    coranks: np.ndarray
+    residuals: np.ndarray
+
+    def only(self, indices: Sequence[int]) -> _Part:
+        """Those that have one of these indices, in an order that does not depend on them."""
+        places = np.flatnonzero(np.isin(self.own, indices))
+        places = places[in_order(self.sharp.fibre.points[places])]
+        return _Part(
+            self.own[places],
+            self.sharp.only(places),
+            self.lifted.only(places),
+            self.coranks[places],
+            self.residuals[places],
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Examined:
+    """Points on one slice, examined together before they are reported as those of components.
+
+    Attributes:
+        rows: the slice, in the coordinates in which equations are solved; cut: in the original.
+    """
+
+    reduction: Reduction
+    rows: np.ndarray
+    cut: Slice
+    parts: tuple[_Part, ...]
+
+    @classmethod
+    def of(
+        cls,
+        points: Points,
+        classes: Sequence[Class],
+        reduction: Reduction,
+        rng: np.random.Generator,
+    ) -> Examined:
+        """The points of some classes.
+
+        A slice of scaled coordinates is rounded on its way to the original ones, and the points on
+        it are found anew; where points are close to each other, it is taken over exactly.
+        """
+        rows, frame = points.rows, reduction.frame
+        by_cuts = points.fibres(np.concatenate([each.indices for each in classes]))
+        close = any(fibre.fine for fibre, _ in by_cuts)
+        cut, parts = frame.slice(rows, orthonormal=not close), []
+        for fibre, own in by_cuts:
+            sharp = sharpened(fibre, rows, points.exact.only(own))
+            lifted = _lifted(sharp.fibre, reduction)
+            if (frame.scales != 1).any():
+                there = sharpened(lifted, cut.rows)
+            else:
+                there = Sharp(lifted, framed(frame, sharp.fibre.x, sharp.radii), sharp.digits)
+            coranks = np.array(_coranks(reduction.equations, rows, sharp.fibre, rng))
+            residuals = reduction.original.residuals(there.fibre.x).max(axis=1, initial=0.0)
+            parts.append(_Part(own, sharp, there, coranks, residuals))
+        return cls(reduction, rows, cut, tuple(parts))
 
 
 def _lifted(fibre: Fibre, reduction: Reduction) -> Fibre:
@@ -109,8 +164,7 @@ def _lifted(fibre: Fibre, reduction: Reduction) -> Fibre:
 
 def checked_witness_set(
     found: Class,
-    points: Points,
-    reduction: Reduction,
+    examined: Examined,
     rng: np.random.Generator,
     tracker: Tracker,
     scheme: bool = True,
@@ -120,19 +174,16 @@ def checked_witness_set(
     Without ``scheme`` the set need not be a component of the scheme of the equations; then its
     multiplicity is 1 if it is a reduced one, and 0, not known, otherwise.
     """
-    rows, d, counts = points.rows, points.dimension, PathCounts()
-    reduced, frame, groups = reduction.equations, reduction.frame, reduction.system.groups
-    chosen, order = points.fibres(found.indices)
-    first = chosen[0].points[0], chosen[0].fine.get(0)
-    sizes = np.cumsum([len(fibre) for fibre in chosen])[:-1]
-    exact = [points.exact.only(own) for own in np.split(order, sizes)]
-    sharp = [in_order(sharpened(*each)) for each in zip(chosen, repeat(rows), exact)]
-    chosen = [each.fibre for each in sharp]
+    reduction, rows, counts = examined.reduction, examined.rows, PathCounts()
+    d, reduced, groups = len(rows), reduction.equations, reduction.system.groups
+    parts = [
+        part for part in (each.only(found.indices) for each in examined.parts) if len(part.own)
+    ]
+    chosen, lifted = [part.sharp.fibre for part in parts], [part.lifted for part in parts]
     y = np.vstack([fibre.x for fibre in chosen])
-    lifted, cut = _in_original(sharp, rows, reduction)
-    x = np.vstack([each.fibre.x for each in lifted])
-    residual = float(reduction.original.residuals(x).max(initial=0.0))
-    coranks = [k for fibre in chosen for k in _coranks(reduced, rows, fibre, rng)]
+    residual = float(max(part.residuals.max(initial=0.0) for part in parts))
+    coranks = [int(k) for part in parts for k in part.coranks]
+    first = chosen[0].points[0], chosen[0].fine.get(0)
     reasons = [found.reason] if found.reason else []
     if residual > ON:
         reasons.append("a point does not satisfy all equations")
@@ -150,11 +201,11 @@ def checked_witness_set(
         reasons.append("its multiplicity was not found")
     multidegree = None
     if groups:
-        multidegree, counts = _multidegree(chosen, rows, groups, frame, rng, tracker)
+        multidegree, counts = _multidegree(chosen, rows, groups, reduction.frame, rng, tracker)
     return (
         WitnessSet(
-            slice=cut,
-            points=x,
+            slice=examined.cut,
+            points=np.vstack([each.fibre.x for each in lifted]),
             multiplicity=multiple,
             status=Status.UNDECIDED if reasons else Status.IRREDUCIBLE,
             residual=residual,

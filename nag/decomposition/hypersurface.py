@@ -14,9 +14,10 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
+from nag.decomposition.roots import line, points_in_balls, zeros_on
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.track import ended, track
+from nag.tracking.track import track
 from nag.witness.close_points import with_roots
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, leading_power
@@ -36,9 +37,9 @@ from nag.witness.witness import PathCounts
 # Slices to which points may have to be moved to get to another flag.
 # Offsets of the flags tried later, as part of those of the first: slices nearer to the origin.
 NEARER = 0.3
-# Errors of roots of a polynomial in one variable, from where Newton's method finds them.
-ROUGH = 1e-8
-# Roots of a polynomial of higher degree are rarely found in doubles, and not soon.
+# Error of points that are known to many digits.
+ROUNDED = 1e-15
+# Roots of a polynomial of higher degree are not found soon.
 MOST_ROOTS = 64
 
 
@@ -89,8 +90,8 @@ def intersect(
         return _intersect_close(fibre, f, flag, gamma, tracker)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     n, total = cut.n, cut.n + cut.aux
-    if not cut.polynomials and len(fibre) == 1 and degree <= MOST_ROOTS:
-        found = _on_line(n, f, flag[: d - 1], fibre.points[0])
+    if not cut.polynomials and len(fibre) == 1 and f.exact and degree <= MOST_ROOTS:
+        found = _on_line(f, flag[: d - 1])
         if found is not None:
             return found
     f = f * (1 / leading_power(f))
@@ -115,23 +116,18 @@ def intersect(
     return moved(paths, keep=total)
 
 
-def _on_line(n: int, f: Polynomial, rows: np.ndarray, point: np.ndarray) -> Moved | None:
-    """The zeros of f on the line of the slices ``rows`` through a point, without paths.
+def _on_line(f: Polynomial, rows: np.ndarray) -> Moved | None:
+    """The zeros of f on the line of the slices ``rows``, without paths.
 
-    They are roots of a polynomial in one variable. None unless each is proved, and regular, and
-    they are as many as the degree of f.
+    None where they cannot be told apart, or are not as many as the degree of f.
     """
-    degree, direction = f.degree, np.linalg.svd(rows[:, 1:])[2][-1].conj()
-    unity = np.exp(2j * np.pi * np.arange(degree + 1) / (degree + 1))
-    values = Evaluator.of([f], n).values(point + unity[:, None] * direction)[:, 0]
-    if not np.isfinite(values).all():
+    balls = zeros_on(f, line(rows))
+    if balls is None:
         return None
-    roots = np.roots(np.fft.fft(values)[::-1])
-    if len(roots) < degree:
-        return None
-    homotopy = Homotopy(compile_rows([f], n=n), rows)
-    paths = ended(homotopy, homogeneous(point + roots[:, None] * direction), ROUGH)
-    return None if paths is None else replace(moved(paths), counts=PathCounts())
+    points = points_in_balls(Cut(f.n, 0, (f,)), rows, balls)
+    found = np.ones(len(points), dtype=bool)
+    accuracy = np.full(len(points), ROUNDED)
+    return Moved(points.x, found, found, ~found, accuracy, fine=points.fine)
 
 
 def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:

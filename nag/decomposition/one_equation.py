@@ -22,21 +22,18 @@ import numpy as np
 from nag.algebra.absolute_factors import most_absolute_factors
 from nag.algebra.factoring import factored
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.final_checks import MOST_MULTIDEGREES, checked_witness_set
+from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
+from nag.decomposition.roots import BITS, ball, line, points_in_balls, zeros_on
 from nag.decomposition.splitting import Class
-from nag.witness.close_points import Fine, close_pairs, in_words
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import ExactPoints, of_balls
-from nag.witness.fibres import Fibre, Tracker
-from nag.witness.points import Points
+from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
-# Bits of the arithmetic and of the roots behind the point, and digits to which sums of second
-# derivatives must vanish.
-BITS, TOLERANCE, EVIDENCE = 400, 300, 60
+# Digits to which sums of second derivatives must vanish.
+EVIDENCE = 60
 # Sets of points that are looked at for those whose sum is linear.
 MOST_CHOICES = 20_000
 
@@ -72,11 +69,11 @@ def decompose_one_equation(
         return None
     n = reduction.n
     rows = random_rows(rng, n, n, NEARER)[: n - 1]
-    line = _Line.of(f, rows)
-    classes = None if line is None else line.classes(count)
-    if line is None or classes is None:
+    cut_out = _Line.of(f, rows)
+    classes = None if cut_out is None else cut_out.classes(count)
+    if cut_out is None or classes is None:
         return None
-    components = _components(reduction, line, rows, classes, rng, tracker, scheme)
+    components = _components(reduction, cut_out, rows, classes, rng, tracker, scheme)
     return Decomposition(
         system=reduction.system,
         components=tuple(components),
@@ -90,7 +87,7 @@ def decompose_one_equation(
 
 def _components(
     reduction: Reduction,
-    line: _Line,
+    cut_out: _Line,
     rows: np.ndarray,
     classes: Sequence[Sequence[int]],
     rng: np.random.Generator,
@@ -102,13 +99,14 @@ def _components(
     if any(key == p for g in reduction.reduced.nonzero for p, _ in factored(g)):
         return []
     multidegree = _multidegree(reduction, rng)
-    fibre = Fibre(Cut(reduction.n, 0, (f,)), len(rows), line.points, line.close)
-    points = replace(Points.of([fibre], rows), known=line.exact)
+    points = points_in_balls(Cut(reduction.n, 0, (f,)), rows, cut_out.balls)
     # Without groups: what these are asked for is known from the equation.
     plain = replace(reduction, system=replace(reduction.system, groups=()))
     result = []
-    for own in classes:
-        found, _ = checked_witness_set(Class(np.array(own)), points, plain, rng, tracker, scheme)
+    whole = [Class(np.array(own)) for own in classes]
+    examined = Examined.of(points, whole, plain, rng)
+    for own in whole:
+        found, _ = checked_witness_set(own, examined, rng, tracker, scheme)
         if multidegree is not None:
             found = replace(found, multidegree=multidegree // len(classes))
         result.append(found)
@@ -134,48 +132,11 @@ class _Line:
     @classmethod
     def of(cls, f: Polynomial, rows: np.ndarray) -> _Line | None:
         """None where the roots cannot be told apart, or are not as many as the degree."""
-        import flint
-
-        A = rows[:, 1:]
-        direction = np.linalg.svd(A)[2][-1].conj()
-        with flint.ctx.workprec(BITS):
-            images = _parametrised(rows, direction)
-            restricted = flint.acb_poly([])
-            powers = [_powers(image, f.degree) for image in images]
-            for exponents, c in f.terms.items():
-                term = flint.acb_poly([_ball(c)])
-                for own, k in zip(powers, exponents, strict=True):
-                    if k:
-                        term *= own[k]
-                restricted += term
-            try:
-                roots = restricted.roots(tol=flint.arb(2) ** -TOLERANCE)
-            except ValueError:
-                return None
-            if len(roots) != f.degree:
-                return None
-            balls = [[image(root) for image in images] for root in roots]
-        return cls(f, A[-1].conj(), [image[1] for image in images], balls)
-
-    @property
-    def points(self) -> np.ndarray:
-        return np.array([[complex(c) for c in ball] for ball in self.balls])
-
-    @property
-    def exact(self) -> ExactPoints:
-        import flint
-
-        with flint.ctx.workprec(BITS):
-            return of_balls(self.balls)
-
-    @property
-    def close(self) -> dict[int, Fine]:
-        """More digits of the points that are close to others; how close, the points tell."""
-        import flint
-
-        pairs = close_pairs(self.points)
-        with flint.ctx.workprec(BITS):
-            return {i: in_words(self.balls[i], 1.0) for pair in pairs for i in pair}
+        images = line(rows)
+        balls = zeros_on(f, images)
+        if balls is None:
+            return None
+        return cls(f, rows[-1, 1:].conj(), [image[1] for image in images], balls)
 
     def classes(self, count: int) -> list[list[int]] | None:
         """The points of each of ``count`` conjugate factors; None if that is not seen."""
@@ -232,40 +193,12 @@ class _Line:
         return result
 
 
-def _parametrised(rows: np.ndarray, direction: np.ndarray) -> list[Any]:
-    """The coordinates on the line that the rows define, in a parameter along the direction.
-
-    The line is that of the rows themselves: points that are close need all digits of it.
-    """
-    import flint
-
-    n = len(direction)
-    whole = np.vstack([rows[:, 1:], direction.conj()])
-    inverse = flint.acb_mat(n, n, [complex(c) for c in whole.ravel()]).inv()
-    right = flint.acb_mat(n, 2, [c for row in rows[:, 0] for c in (complex(-row), 0)] + [0, 1])
-    points = inverse * right
-    return [flint.acb_poly([points[i, 0], points[i, 1]]) for i in range(n)]
-
-
-def _powers(image: Any, degree: int) -> list[Any]:
-    result = [image**0]
-    for _ in range(degree):
-        result.append(result[-1] * image)
-    return result
-
-
-def _ball(c: Fraction) -> Any:
-    import flint
-
-    return flint.acb(flint.arb(c.numerator) / c.denominator)
-
-
 def _value(f: Polynomial, x: Sequence[Any]) -> Any:
     import flint
 
     total = flint.acb(0)
     for exponents, c in f.terms.items():
-        term = _ball(c)
+        term = ball(c)
         for value, k in zip(x, exponents, strict=True):
             if k:
                 term *= value**k

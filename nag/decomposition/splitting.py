@@ -103,14 +103,14 @@ def split(
         evidence: digits to which a trace must be linear.
     """
     total = len(points)
-    known = np.arange(total)
+    labels = np.arange(total)
     if points.dimension == 0:
         classes = tuple(Class(np.array([i])) for i in range(total))
-        return Split(points, known, classes, PathCounts())
+        return Split(points, labels, classes, PathCounts())
     orbits = np.arange(total)
     for permutation in permutations:
         join(orbits, list(enumerate(permutation)), ())
-    state = _State(points, known, permutations, orbits, None, {}, PathCounts())
+    state = _State(points, labels, permutations, orbits, None, {}, PathCounts())
     idle = 0
     for _ in range(MOST_LOOPS):
         open_points = state.open_points()
@@ -130,7 +130,8 @@ def split(
         if not len(open_points):
             break
         idle = 0 if _looped(state, open_points, rng, tracker) else idle + 1
-    return Split(state.points, state.labels, tuple(_classes(state)), state.counts)
+    known = state.points if state.trace is None else state.trace.sharper(state.points)
+    return Split(known, state.labels, tuple(_classes(state)), state.counts)
 
 
 def join(labels: np.ndarray, pairs: Sequence[tuple[int, int]], permutations: Sequence) -> None:

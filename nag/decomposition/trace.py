@@ -14,11 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.witness.close_points import Fine
-from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, fixed
-from nag.witness.fibres import Fibre, Tracker
-from nag.witness.points import Points, moved_points
-from nag.witness.slices import unit_complex
+from nag.witness.cutting import Cut
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
+from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.points import Points
+from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import PathCounts
 
 # Digits to which a trace must be linear, beside the points' motion: so many, and one more for each
@@ -28,8 +28,6 @@ EVIDENCE, ROUND_NUMBERS = 18, 6
 BEYOND = 4
 # Points get twice the digits so often, from those of double-double on.
 DIGITS = (FEWEST, 60, 120, 240)
-# Bits behind the point of an offset of a slice, beyond those of the points.
-SMALLEST = 60
 # Subsets of more classes than this are not searched; those are looked at more closely whose sums
 # are so small beside their terms in doubles.
 MOST_CLASSES, SMALL = 12, 1e-9
@@ -60,112 +58,86 @@ class Differences:
 
 
 @dataclass(frozen=True, eq=False)
-class End:
-    """Where a point came to: with added unknowns, and in more digits where others are close."""
-
-    z: np.ndarray
-    fine: Fine | None
-
-
-@dataclass(frozen=True, eq=False)
 class Trace:
     """A parallel motion of a slice, one step to each side, and how points follow it.
 
+    All are one slice with a further unknown u, which is 0, 1 or -1: ``L(x) + shift u = 0``.
+
     Attributes:
-        sides: the two slices.
-        gammas: random constants of the homotopies to them.
+        shift: the step.
+        gamma: random constant of the homotopy.
         evidence: digits to which sums must vanish to be linear.
-        ends: for each point that was tracked, by index, its two ends.
+        ends: for each point that was tracked, by index, itself and its two ends.
         known: second differences of points, by index.
+        exact: the points in the fewest digits that are of use, by index.
     """
 
-    sides: tuple[np.ndarray, np.ndarray]
-    gammas: tuple[complex, complex]
+    shift: complex
+    gamma: complex
     evidence: int
-    ends: Mapping[int, tuple[End, End]]
+    ends: Mapping[int, Fibre]
     known: Mapping[int, Differences]
+    exact: Mapping[int, ExactPoints]
 
     @classmethod
     def of(cls, points: Points, evidence: int, rng: np.random.Generator) -> Trace:
         """A motion as far as the points are large."""
         sizes = np.linalg.norm(points.x, axis=1)
         shift = complex(unit_complex(rng)) * float(np.median(sizes)) if len(sizes) else 1.0
-        sides = []
-        for sign in (1, -1):
-            target = points.rows.copy()
-            target[-1, 0] += sign * (shift or 1.0)
-            sides.append(target)
-        gammas = complex(unit_complex(rng)), complex(unit_complex(rng))
-        return cls((sides[0], sides[1]), gammas, evidence, {}, {})
+        return cls(shift or 1.0, complex(unit_complex(rng)), evidence, {}, {}, {})
 
     def carried(
         self, points: Points, indices: Iterable[int], tracker: Tracker
     ) -> tuple[Trace | None, PathCounts]:
         """The trace of these points as well; None if a path failed."""
         new = sorted(set(map(int, indices)) - set(self.ends))
-        counts = PathCounts()
+        counts, ends = PathCounts(), dict(self.ends)
         if not new:
             return self, counts
-        both = []
-        for target, gamma in zip(self.sides, self.gammas, strict=True):
-            there, origins, spent = moved_points(points, new, target, gamma, tracker)
-            counts += spent
-            if len(origins) < len(new):
+        for fibre, own in points.fibres(new):
+            starts = _numbered(fibre, (1.0, -1.0))
+            target = self._slices(points.rows, starts.cut)
+            source = padded(points.rows, target.shape[1])
+            there = move(starts, source, target, self.gamma, tracker)
+            counts += there.counts.judged_elsewhere
+            if not there.regular.all():
                 return None, counts
-            ends = zip(origins.tolist(), there.z, strict=True)
-            both.append({i: End(z, there.fine.get(k)) for k, (i, z) in enumerate(ends)})
-        ends = {**self.ends, **{i: (both[0][i], both[1][i]) for i in new}}
+            middle = _numbered(fibre, (0.0,))
+            for k, i in enumerate(own.tolist()):
+                sides = there.fibre(starts.cut, fibre.dimension, [2 * k, 2 * k + 1])
+                ends[i] = _joined([middle.only(np.arange(len(own)) == k), sides])
         return replace(self, ends=ends)._found(points, new, DIGITS[0]), counts
+
+    def _slices(self, rows: np.ndarray, cut: Cut) -> np.ndarray:
+        """All slices as one, for a cut with the further unknown."""
+        target = padded(rows, 1 + cut.n + cut.aux)
+        target[-1, -1] = self.shift
+        return target
 
     def _found(self, points: Points, indices: Sequence[int], digits: int) -> Trace:
         """Second differences of some points, found in so many digits."""
-        known = dict(self.known)
-        fibres, order = points.fibres(indices)
-        first = 0
-        for fibre in fibres:
-            own, first = order[first : first + len(fibre)], first + len(fibre)
-            if digits == FEWEST:
-                middle = points.exact.only(own)
-            else:
-                middle = exact_points(fibre, points.rows, digits)
-            sides = [
-                exact_points(self._side(fibre, own, k), target, digits)
-                for k, target in enumerate(self.sides)
-            ]
-            total = self._differences(points.rows, middle, sides)
-            radii = sides[0].radii + sides[1].radii + 2 * middle.radii
-            n = points.n
-            for k, i in enumerate(own):
-                moved = [
-                    np.abs(self.ends[i][j].z[:n] - fibre.x[k]).max(initial=0.0) for j in (0, 1)
-                ]
-                known[int(i)] = Differences(
-                    total[k], middle.bits, float(radii[k]), float(max(moved)), digits
+        known, exact = dict(self.known), dict(self.exact)
+        for _, own in points.fibres(indices):
+            ends = _joined([self.ends[i] for i in own.tolist()])
+            found = exact_points(ends, self._slices(points.rows, ends.cut), digits)
+            x, sides = found.values[::3], (found.values[1::3], found.values[2::3])
+            total = sides[0] + sides[1] - 2 * x
+            radii = 2 * found.radii[::3] + found.radii[1::3] + found.radii[2::3]
+            motions = [np.abs(ends.x[k::3] - ends.x[::3]).max(axis=1, initial=0.0) for k in (1, 2)]
+            motion = np.maximum(*motions)
+            for k, i in enumerate(own.tolist()):
+                known[i] = Differences(
+                    total[k], found.bits, float(radii[k]), float(motion[k]), digits
                 )
-        return replace(self, known=known)
+                if digits == FEWEST:
+                    exact[i] = found.only([3 * k])
+        return replace(self, known=known, exact=exact)
 
-    def _side(self, fibre: Fibre, own: Sequence[int], k: int) -> Fibre:
-        """The points of a fibre, of these indices, on one of the two slices."""
-        ends = [self.ends[int(i)][k] for i in own]
-        fine = {j: end.fine for j, end in enumerate(ends) if end.fine is not None}
-        return replace(fibre, points=np.array([end.z for end in ends]), fine=fine)
-
-    def _differences(
-        self, rows: np.ndarray, middle: ExactPoints, sides: Sequence[ExactPoints]
-    ) -> np.ndarray:
-        """``(x1 - x) s2 - (x2 - x) s1`` for the exact steps s of the slices, over their size.
-
-        Rounded offsets of slices are not quite symmetric; a linear trace does not mind.
-        """
-        n, bits = middle.values.shape[1] // 2, middle.bits
-        x = [side.values - middle.values for side in sides]
-        offsets = np.array([[rows[-1, 0], *(target[-1, 0] for target in self.sides)]])
-        c = fixed(offsets, bits + SMALLEST)[0]
-        (a1, a2), (b1, b2) = ([c[k + 1] - c[k], c[k + 2] - c[k]] for k in (0, 3))
-        real = x[0][:, :n] * a2 - x[0][:, n:] * b2 - x[1][:, :n] * a1 + x[1][:, n:] * b1
-        imag = x[0][:, :n] * b2 + x[0][:, n:] * a2 - x[1][:, :n] * b1 - x[1][:, n:] * a1
-        size = max(map(abs, (a1, b1)))
-        return np.concatenate([real, imag], axis=1) // size
+    def sharper(self, points: Points) -> Points:
+        """The points with the digits that were found, if all of them were carried."""
+        if not len(points) or set(self.exact) != set(range(len(points))):
+            return points
+        return replace(points, known=together([self.exact[i] for i in range(len(points))]))
 
     def linear(self, points: Points, indices: Sequence[int]) -> tuple[bool | None, Trace]:
         """Whether the trace of points that were carried is linear; None if digits do not say.
@@ -242,6 +214,23 @@ class Trace:
         bound = SMALL * (among @ np.abs(size).max(axis=1)) + 4 * error
         small = chosen[np.abs(among @ size).max(axis=1) <= bound]
         return sorted(small.tolist(), key=lambda bits: (bits.bit_count(), bits))
+
+
+def _numbered(fibre: Fibre, numbers: Sequence[float]) -> Fibre:
+    """Each point of a fibre once for each number, with that as a further unknown."""
+    several, m = np.repeat(fibre.points, len(numbers), axis=0), len(numbers)
+    points = np.column_stack([several, np.tile(numbers, len(fibre))])
+    fine = {m * i + j: z.with_last(u) for i, z in fibre.fine.items() for j, u in enumerate(numbers)}
+    return Fibre(fibre.cut.numbered, fibre.dimension, points, fine)
+
+
+def _joined(parts: Sequence[Fibre]) -> Fibre:
+    """Points of several fibres of one cut in one."""
+    fine, first = {}, 0
+    for part in parts:
+        fine |= {first + i: each for i, each in part.fine.items()}
+        first += len(part)
+    return replace(parts[0], points=np.vstack([part.points for part in parts]), fine=fine)
 
 
 def _float(value: int, bits: int) -> float:

@@ -139,23 +139,6 @@ class StraightRun:
     reason: np.ndarray
 
 
-def ended(homotopy: Homotopy, points: np.ndarray, error: float) -> Paths | None:
-    """Zeros at t = 0 as paths that ended there, from points near them.
-
-    Args:
-        points: shape ``(P, N)``.
-        error: about how far they are from the zeros, relative to them.
-
-    Returns:
-        None unless each is proved to be near a finite regular zero, of its own.
-    """
-    P, points = len(points), homotopy.normalized(points)
-    none = np.zeros(P, dtype=np.int64)
-    raw = StraightRun(points, points, np.zeros(P), np.full(P, error), none, none)
-    paths, _ = _judged(homotopy, raw)
-    return paths if paths.simple.all() and not len(collisions(homotopy, paths)) else None
-
-
 def _attempt(
     homotopy: Homotopy,
     starts: np.ndarray,

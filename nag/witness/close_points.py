@@ -54,6 +54,12 @@ class Fine:
         """The first coordinates only."""
         return Fine(self.words[:count], self.curvature)
 
+    def with_last(self, value: float) -> Fine:
+        """With one coordinate more."""
+        last = np.zeros((1, 2, WORDS))
+        last[0, 0, 0] = value
+        return Fine(np.concatenate([self.words, last]), self.curvature)
+
     @property
     def rounded(self) -> np.ndarray:
         """The point in doubles."""

@@ -95,6 +95,14 @@ class Cut:
         terms = [scaled_terms(f, self.powers) for f in self.polynomials]
         return Cut(self.n, self.aux, tuple(Polynomial(total, own) for own in terms))
 
+    @cached_property
+    def numbered(self) -> Cut:
+        """The cut with one unknown more, the last, which is 0, 1 or -1."""
+        total = self.n + self.aux + 1
+        u = Polynomial.variable(total, total - 1)
+        rows = [f.with_variables(total, range(total - 1)) for f in self.polynomials]
+        return Cut(self.n, self.aux + 1, (*rows, u**3 - u), self.levels)
+
     @property
     def deflated(self) -> bool:
         """Whether its polynomials are those of a deflation, not some of the system's."""

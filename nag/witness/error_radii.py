@@ -47,6 +47,12 @@ class Sharp:
         sizes = 1 + np.linalg.norm(self.fibre.x, axis=1)
         return np.linalg.norm(self.radii, axis=1) / sizes
 
+    def only(self, places: np.ndarray) -> Sharp:
+        """Some of the points."""
+        fine = chosen(self.fibre.fine, places)
+        fibre = replace(self.fibre, points=self.fibre.points[places], fine=fine)
+        return Sharp(fibre, self.radii[places], self.digits[places])
+
 
 def sharpened(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) -> Sharp:
     """The regular points of a fibre on the slice ``rows``, to rounding.
@@ -74,15 +80,11 @@ def sharpened(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) 
     return Sharp(fibre, radii, digits)
 
 
-def in_order(found: Sharp) -> Sharp:
-    """Points in an order that does not depend on how they were found."""
-    points = found.fibre.points
+def in_order(points: np.ndarray) -> np.ndarray:
+    """Places of points, shape ``(P, n)``, in an order that does not depend on their own."""
     if not points.shape[1]:
-        return found
-    order = np.lexsort((points.imag[:, 0], points.real[:, 0]))
-    fine = chosen(found.fibre.fine, order)
-    fibre = replace(found.fibre, points=points[order], fine=fine)
-    return Sharp(fibre, found.radii[order], found.digits[order])
+        return np.arange(len(points))
+    return np.lexsort((points.imag[:, 0], points.real[:, 0]))
 
 
 def error_radii(fibre: Fibre, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

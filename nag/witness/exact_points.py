@@ -56,6 +56,15 @@ class ExactPoints:
         )
 
 
+def together(parts: Sequence[ExactPoints]) -> ExactPoints:
+    """Points of the same unit, one part after the other."""
+    values, radii, balls = (
+        np.concatenate([getattr(part, name) for part in parts])
+        for name in ("values", "radii", "balls")
+    )
+    return ExactPoints(values, parts[0].bits, radii, balls)
+
+
 def of_balls(points: Sequence[Sequence[Any]]) -> ExactPoints:
     """Points from balls (FLINT's ``acb``) that hold their coordinates, in the fewest digits."""
     bits = bits_of(FEWEST)

@@ -127,7 +127,7 @@ def witness_at(
     fibres = component_fibres(system, component)
     evaluator = Evaluator.of(system.polynomials, system.n)
     there = arrival(fibres, rows, goal, rng, Tracker(settings, threads))
-    found = [in_order(each) for each in there.sharp]
+    found = [each.only(in_order(each.fibre.points)) for each in there.sharp]
     points = np.vstack([each.fibre.x for each in found])
     residual = float(evaluator.residuals(points).max(initial=0.0))
     if len(points) < component.degree or not np.isfinite(there.accuracy) or residual >= ON:

@@ -19,7 +19,7 @@ from nag.witness.close_points import (
     zero_from,
 )
 from nag.witness.cutting import Cut
-from nag.witness.exact_points import FEWEST, ExactPoints, exact_points
+from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
 from nag.witness.fibres import STEEPER, Fibre, Tracker, move
 from nag.witness.witness import PathCounts
 
@@ -106,34 +106,27 @@ class Points:
         """The points without added unknowns, shape ``(P, n)``."""
         return np.array([z[: self.n] for z in self.z]).reshape(len(self), self.n)
 
-    def fibres(self, indices: Sequence[int]) -> tuple[list[Fibre], np.ndarray]:
-        """The points of given indices by their cuts, and the indices in that order."""
-        found, order = [], []
+    def fibres(self, indices: Sequence[int]) -> list[tuple[Fibre, np.ndarray]]:
+        """The points of given indices by their cuts, with the indices of those of each."""
+        found = []
         which = np.array(self.which, dtype=int)
         indices = np.asarray(indices, dtype=int)
         for k, cut in enumerate(self.cuts):
             own = indices[which[indices] == k]
             if len(own):
                 points = np.array([self.z[i] for i in own])
-                found.append(Fibre(cut, self.dimension, points, chosen(self.fine, own)))
-                order.append(own)
-        return found, np.concatenate(order) if order else np.zeros(0, dtype=int)
+                found.append((Fibre(cut, self.dimension, points, chosen(self.fine, own)), own))
+        return found
 
     @cached_property
     def exact(self) -> ExactPoints:
         """All points in the fewest digits that are of use, in their order."""
         if self.known is not None:
             return self.known
-        fibres, order = self.fibres(range(len(self)))
-        parts = [exact_points(fibre, self.rows, FEWEST) for fibre in fibres]
-        if len(parts) == 1:
-            return parts[0]
-        arrays = ("values", "radii", "balls")
-        values, radii, balls = (
-            np.concatenate([getattr(part, name) for part in parts])[np.argsort(order)]
-            for name in arrays
-        )
-        return ExactPoints(values, parts[0].bits, radii, balls)
+        fibres = self.fibres(range(len(self)))
+        parts = [exact_points(fibre, self.rows, FEWEST) for fibre, _ in fibres]
+        order = np.concatenate([own for _, own in fibres])
+        return together(parts).only(np.argsort(order))
 
     def with_point(self, cut: Cut, z: np.ndarray, fine: Fine | None = None) -> Points:
         """One point more, at the end."""
@@ -147,7 +140,7 @@ def with_fine(fibres: Sequence[Fibre], rows: np.ndarray) -> list[Fibre]:
     if not close_pairs(np.vstack([fibre.x for fibre in fibres])):
         return list(fibres)
     points = Points.of(fibres, rows)
-    return points.fibres(range(len(points)))[0]
+    return [fibre for fibre, _ in points.fibres(range(len(points)))]
 
 
 def moved_points(
@@ -159,11 +152,8 @@ def moved_points(
     out.
     """
     counts = PathCounts()
-    fibres, order = points.fibres(indices)
     found: dict[int, tuple[np.ndarray, Fine | None]] = {}
-    first = 0
-    for fibre in fibres:
-        own, first = order[first : first + len(fibre)], first + len(fibre)
+    for fibre, own in points.fibres(indices):
         there = move(fibre, points.rows, target, gamma, tracker)
         counts += there.counts.judged_elsewhere
         for k in np.flatnonzero(there.regular).tolist():

@@ -12,20 +12,16 @@ from typing import Any
 
 import numpy as np
 
-from nag.tracking.ends.inclusion import patches_through, system_at, values_at
+from nag.tracking.ends.inclusion import patches_through, system_at
 from nag.tracking.ends.terms import Terms, doubles, number
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.projective import ROUNDING
 
-BITS, ROUGHLY = 700, 280
-# Coordinates of size one that are zero; Newton's method has arrived where its step is as small.
+BITS = 700
+# Coordinates of size one that are zero; Newton's method has arrived before a step as small.
 ZERO = 1e-150
 MOST_STEPS = 12
-# Steps from a point in doubles after which another Jacobian saves more steps than it costs.
-AGAIN = 2
-# How often the digits of an inverse in doubles are doubled for that.
-DOUBLINGS = 2
 # Errors of coordinates of size one in two words.
 DOUBLE_DOUBLE = 2.0**-104
 
@@ -41,7 +37,7 @@ def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) ->
     import flint
 
     with flint.ctx.workprec(BITS):
-        return _zero(flint, terms, [number(c) for c in centre], coordinates, MOST_STEPS) is not None
+        return _zero(flint, terms, [number(c) for c in centre], coordinates) is not None
 
 
 def regular_paths(
@@ -59,7 +55,7 @@ def regular_paths(
     with flint.ctx.workprec(BITS):
         for i, point in enumerate(points.tolist()):
             start = [flint.acb(z) for z in point]
-            zero = _zero(flint, terms, start, homotopy.infinity, AGAIN)
+            zero = _zero(flint, terms, start, homotopy.infinity)
             if zero is not None:
                 centre = np.array([doubles(z, 2) for z in zero])
                 # Numbers as small would leave the range of doubles.
@@ -81,50 +77,21 @@ def regular_paths(
     )
 
 
-def _zero(
-    flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int], again: int
-) -> list[Any] | None:
-    """The zero near a point, if one of the coordinates vanishes there.
-
-    By Newton's method with the first point's Jacobian, as it is near enough for that, and after
-    ``again`` steps with that of the point reached.
-    """
-    patches, inverse = patches_through(flint, terms, x), None
+def _zero(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) -> list[Any] | None:
+    """The zero near a point, by Newton's method, if one of the coordinates vanishes there."""
+    patches, last = patches_through(flint, terms, x), 1.0
     size = max(abs(complex(z.mid())) for z in x)
-    for k in range(MOST_STEPS):
-        if k in (0, again):
-            values, jacobian = system_at(flint, terms, patches, x)
-            inverse = _inverse(flint, jacobian.mid(), inverse, again < MOST_STEPS)
-            if inverse is None:
-                return None
-        else:
-            values = values_at(flint, terms, patches, x)
-        step = (inverse * values.mid()).mid().entries()
+    for _ in range(MOST_STEPS):
+        values, jacobian = system_at(flint, terms, patches, x)
+        try:
+            step = jacobian.solve(values, algorithm="approx").entries()
+        except ZeroDivisionError:
+            return None
         x = [(z - change).mid() for z, change in zip(x, step, strict=True)]
-        if max(abs(complex(change)) for change in step) < ZERO * size:
+        length = max(abs(complex(change)) for change in step) / size
+        # The quotient of two steps is squared from one to the next.
+        if length < last and length * (length / last) ** 2 < ZERO:
             vanishes = any(abs(complex(x[j])) < ZERO * size for j in coordinates)
             return x if vanishes else None
+        last = length
     return None
-
-
-def _inverse(flint: Any, matrix: Any, near: Any, rough: bool) -> Any:
-    """The inverse of a matrix, or of one near it, in the digits that the point has.
-
-    Args:
-        near: an inverse in doubles, or None.
-        rough: whether doubles will do.
-    """
-    N = matrix.nrows()
-    with flint.ctx.workprec(ROUGHLY):
-        if near is not None:
-            twice = flint.acb_mat(N, N, [2 * (i == j) for i in range(N) for j in range(N)])
-            for _ in range(DOUBLINGS):
-                near = (near * (twice - matrix * near)).mid()
-            return near
-        try:
-            if not rough:
-                return matrix.inv().mid()
-            entries = np.array([complex(z) for z in matrix.entries()]).reshape(N, N)
-            return flint.acb_mat(N, N, np.linalg.inv(entries).ravel().tolist())
-        except (ZeroDivisionError, np.linalg.LinAlgError):
-            return None

@@ -80,10 +80,10 @@ def patches_through(flint: Any, terms: Terms, x: list[Any]) -> list[list[Any]]:
 
 def system_at(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) -> tuple[Any, Any]:
     """Values and Jacobian of the rows at t = 0 and of the patches."""
-    N = terms.homotopy.N
+    N, linear = terms.homotopy.N, len(terms.homotopy.rows)
     values: list[Any] = []
     jacobian: list[Any] = []
-    for row in terms.rows:
+    for row in terms.rows[:linear]:
         value = flint.acb(0)
         slopes = [flint.acb(0)] * N
         for factors, c, _ in row:
@@ -101,27 +101,11 @@ def system_at(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) 
                 before = before * powers[i]
         values.append(value)
         jacobian += slopes
+    for row in terms.rows[linear:]:
+        slopes = [c for _, c, _ in row]
+        values.append(sum(map(mul, slopes, x), flint.acb(0)))
+        jacobian += slopes
     for patch in patches:
+        values.append(sum(map(mul, patch, x), flint.acb(-1)))
         jacobian += patch
-    values += _on_patches(flint, patches, x)
     return flint.acb_mat(N, 1, values), flint.acb_mat(N, N, jacobian)
-
-
-def values_at(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) -> Any:
-    """The values alone."""
-    values: list[Any] = []
-    for row in terms.rows:
-        value = flint.acb(0)
-        for factors, c, _ in row:
-            if c == 0:
-                continue
-            for j, k in factors:
-                c = c * (x[j] if k == 1 else x[j] ** k)
-            value += c
-        values.append(value)
-    values += _on_patches(flint, patches, x)
-    return flint.acb_mat(len(values), 1, values)
-
-
-def _on_patches(flint: Any, patches: list[list[Any]], x: list[Any]) -> list[Any]:
-    return [sum(map(mul, patch, x), flint.acb(-1)) for patch in patches]
