@@ -39,7 +39,7 @@ def followed(polynomials: list[Polynomial], settings: Settings | None = None) ->
     homotopy, starts = homotopy_of(polynomials)
     reached = np.zeros(len(starts), dtype=bool)
     ones = np.ones(len(starts))
-    unfinished = Unfinished(starts, reached, reached, starts, ones)
+    unfinished = Unfinished(starts, reached, reached, starts, ones, starts)
     return follow(homotopy, unfinished, settings or Settings())
 
 
@@ -99,10 +99,23 @@ def test_paths_that_were_lost_on_the_way_may_take_more_steps_than_an_end() -> No
     start, end = (float(cube((0, Fraction(y)))) ** (1 / 3) for y in ("19/20", "-1/20"))
     starts = homotopy.normalized(np.array([[1, 1e3 * start, 0.95]]))
     no = np.zeros(1, dtype=bool)
-    paths = follow(homotopy, Unfinished(starts, no, no, starts, np.ones(1)), Settings())
+    paths = follow(homotopy, Unfinished(starts, no, no, starts, np.ones(1), starts), Settings())
     assert paths.status[0] == PathStatus.REGULAR
     assert paths.steps[0] > 300
     assert abs(paths.points[0, 1] / paths.points[0, 0] - 1e3 * end) < 1e-9 * end
+
+
+def test_paths_go_on_from_their_starts_where_doubles_left_no_point_of_them() -> None:
+    (x,) = Polynomial.variables(1)
+    homotopy, starts = homotopy_of([x**3 - 2])
+    no = np.zeros(3, dtype=bool)
+    # Far from all zeros at t = 1/10, where Newton's method overshoots.
+    lost = homotopy.normalized(np.tile([1, 1e-4], (3, 1)))
+    unfinished = Unfinished(lost, no, no, lost, np.full(3, 0.1), starts)
+    paths = follow(homotopy, unfinished, Settings())
+    assert (paths.status == PathStatus.REGULAR).all()
+    expected = followed([x**3 - 2]).points
+    assert np.allclose(paths.points[:, 1] / paths.points[:, 0], expected[:, 1] / expected[:, 0])
 
 
 def test_zeros_that_are_not_regular_are_not_proved() -> None:

@@ -162,7 +162,7 @@ def _attempt(
             infinite, ends = _infinite(homotopy, paths, doubtful[regular[doubtful]])
             paths, doubtful = merged(paths, ends, infinite), np.setdiff1d(doubtful, infinite)
             if len(doubtful):
-                more = _followed(homotopy, raw, regular, doubtful, settings, threads)
+                more = _followed(homotopy, starts, raw, regular, doubtful, settings, threads)
                 if not endgame:
                     more = without(more, more.where(PathStatus.SINGULAR))
                 paths = merged(paths, more, doubtful)
@@ -179,6 +179,7 @@ def _infinite(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> tuple[np.
 
 def _followed(
     homotopy: Homotopy,
+    starts: np.ndarray,
     raw: StraightRun,
     regular: np.ndarray,
     doubtful: np.ndarray,
@@ -195,6 +196,7 @@ def _followed(
         regular[doubtful],
         raw.safe[doubtful],
         raw.safe_t[doubtful],
+        starts[doubtful],
     )
     return follow(homotopy, unfinished, settings, threads)
 

@@ -42,7 +42,8 @@ class States:
     ``straight``: 0 where Newton's method at t = 0 is of no use; ``regular``: where the first trial
     needs no proof; ``last``: the limits that were looked at last; ``most``: steps;
     ``met``: 1 for coordinates that have exceeded their rounding errors;
-    ``close``: whether other paths run beside these.
+    ``starts``: points at t = 1, of those that have gone on from others; ``close``: whether other
+    paths run beside these.
     """
 
     where: np.ndarray
@@ -65,6 +66,7 @@ class States:
     found: dict[int, np.ndarray]
     last: dict[int, Limit]
     most: np.ndarray
+    starts: np.ndarray | None = None
     close: bool = False
 
     @classmethod
@@ -102,6 +104,15 @@ class States:
             np.full(P, MAX_STEPS),
         )
 
+    def from_its_start(self, path: int, words: int) -> bool:
+        """Put a path to its start, if it was lost where doubles left it: that is no point of it."""
+        if self.starts is None or self.safe_t[path, 0] == 1 or self.met[path].any():
+            return False
+        self.where[path] = self.safe[path] = _in_words(self.starts[[path]], words)[0]
+        self.t[path] = self.safe_t[path] = np.eye(1, words)[0]
+        self.met[path], self.most[path] = 0.0, MOST_STEPS
+        return True
+
     def point(self, path: int) -> np.ndarray:
         """Coordinates where the path is, as doubles."""
         parts = self.found.get(path, self.where[path]).sum(axis=-1)
@@ -112,9 +123,9 @@ class States:
         return np.abs(self.point(path)) > KNOWN * self.errors[path]
 
 
-def _in_words(points: np.ndarray) -> np.ndarray:
-    """Complex doubles as sums of two doubles, shape ``(P, N, 2, 2)``."""
-    result = np.zeros((*points.shape, 2, 2))
+def _in_words(points: np.ndarray, words: int = 2) -> np.ndarray:
+    """Complex doubles as sums of doubles, shape ``(P, N, 2, words)``."""
+    result = np.zeros((*points.shape, 2, words))
     result[..., 0, 0], result[..., 1, 0] = points.real, points.imag
     return result
 
@@ -127,6 +138,7 @@ class Unfinished:
         ends: where the runs ended, at t = 0 where ``reached``, shape ``(P, N)``.
         regular: which of these ends are known to be regular ones, be they at infinity.
         safe: points of the paths at ``t``, shape ``(P, N)``.
+        starts: their points at t = 1, shape ``(P, N)``.
     """
 
     ends: np.ndarray
@@ -134,6 +146,7 @@ class Unfinished:
     regular: np.ndarray
     safe: np.ndarray
     t: np.ndarray
+    starts: np.ndarray
 
 
 def follow(
@@ -151,7 +164,7 @@ def follow(
     """
     left = unfinished
     states = States.of(left.ends, left.reached, left.safe, left.t)
-    states.regular[:] = left.regular
+    states.regular[:], states.starts = left.regular, left.starts
     # An end that must hold to more digits is looked for as much further in.
     asked = digits_of_evidence(homotopy, settings.evidence)[0]
     states.most[:] = MAX_STEPS * asked // LEAST_EVIDENCE
@@ -243,7 +256,7 @@ def _follow_in(
             if at_limit and outcome != end_run.REGULAR:
                 states.outcome[path] = end_run.LIMIT
             elif outcome == end_run.LOST:
-                later.append(path)
+                (again if states.from_its_start(path, words) else later).append(path)
             elif outcome == end_run.LIMIT:
                 verdict = _limit(states, limits, path, found[k], needs)
                 if verdict != end_run.LIMIT:
