@@ -78,6 +78,15 @@ def systems(draw: st.DrawFn) -> PolynomialSystem:
 
 
 @st.composite
+def slices(draw: st.DrawFn, dimension: int, n: int) -> Slice:
+    """Equations with finite coefficients, of which not all are 0."""
+    a = np.nan_to_num(draw(complex_arrays((dimension, n))), posinf=1.0, neginf=-1.0)
+    a[~a.any(axis=1), 0] = 1.0
+    b = np.nan_to_num(draw(complex_arrays((dimension,))), posinf=1.0, neginf=-1.0)
+    return Slice(a, b)
+
+
+@st.composite
 def components(draw: st.DrawFn, system: PolynomialSystem) -> WitnessSet:
     n, dimension, degree = system.n, draw(st.integers(0, 2)), draw(st.integers(0, 3))
     multidegree = None
@@ -87,7 +96,7 @@ def components(draw: st.DrawFn, system: PolynomialSystem) -> WitnessSet:
         entries = draw(st.lists(st.integers(0, 99), min_size=size, max_size=size))
         multidegree = np.array(entries).reshape(shape)
     return WitnessSet(
-        slice=Slice(draw(complex_arrays((dimension, n))), draw(complex_arrays((dimension,)))),
+        slice=draw(slices(dimension, n)),
         points=draw(complex_arrays((degree, n))),
         multiplicity=draw(st.integers(0, 5)),
         status=draw(st.sampled_from(Status)),

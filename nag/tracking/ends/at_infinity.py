@@ -79,7 +79,7 @@ def regular_paths(
 
 def _zero(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) -> list[Any] | None:
     """The zero near a point, by Newton's method, if one of the coordinates vanishes there."""
-    patches, last = patches_through(flint, terms, x), 1.0
+    patches, last = patches_through(flint, terms, x), 0.0
     size = max(abs(complex(z.mid())) for z in x)
     for _ in range(MOST_STEPS):
         values, jacobian = system_at(flint, terms, patches, x)
@@ -89,7 +89,7 @@ def _zero(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) ->
             return None
         x = [(z - change).mid() for z, change in zip(x, step, strict=True)]
         length = max(abs(complex(change)) for change in step) / size
-        # The quotient of two steps is squared from one to the next.
+        # The quotient of two steps is squared from one to the next; of one step nothing is known.
         if length < last and length * (length / last) ** 2 < ZERO:
             vanishes = any(abs(complex(x[j])) < ZERO * size for j in coordinates)
             return x if vanishes else None
