@@ -141,8 +141,8 @@ def curve_through(
     while order > 2 and work(found.corank, order, [first]) > MOST_WORK_ROUGHLY:
         order -= 1
     with working(DIGITS):
-        slopes, rows = system.values_at(DIGITS).jacobian, system.at(DIGITS)
-        series = eliminate(rows, found.point, first.rows, first.columns, order, slopes=slopes)
+        values, rows = system.values_at(DIGITS), system.at(DIGITS)
+        series = eliminate(rows, found.point, first.rows, first.columns, order, at_points=values)
         assert series is not None
         for attempt in range(attempts):
             begin = DISTANCES[: 2 if attempt % 2 else 1]

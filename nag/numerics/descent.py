@@ -15,7 +15,8 @@ import flint
 
 from nag.numerics.digits import log_norm
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.implicit_function import Slopes, eliminate
+from nag.numerics.implicit_function import eliminate
+from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives, evaluate
 
 Point = list[flint.acb]
@@ -90,8 +91,8 @@ def descend(
         order: of the series of what remains after the last round.
         along: displacements of the variables that the rounds do not determine; default zero.
     """
-    slopes = system.values_at(digits).jacobian
-    return _descend(system.at(digits), centre, rounds, order, along, slopes)
+    at_points = system.values_at(digits)
+    return _descend(system.at(digits), centre, rounds, order, along, at_points)
 
 
 def _descend(
@@ -100,11 +101,11 @@ def _descend(
     rounds: Sequence[Round],
     order: int,
     along: Sequence[flint.acb] | None,
-    slopes: Slopes | None,
+    at_points: PointValues | None,
 ) -> Descent | None:
     this = rounds[0]
     total = total_order(rounds, order)
-    reduction = eliminate(rows, centre, this.rows, this.columns, total, slopes=slopes)
+    reduction = eliminate(rows, centre, this.rows, this.columns, total, at_points=at_points)
     if reduction is None:
         return None
     ring, rest = reduction.ring, reduction.rest

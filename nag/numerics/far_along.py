@@ -18,10 +18,10 @@ from math import log10
 import flint
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
 from nag.numerics.descent import Point, Round, descend
 from nag.numerics.digits import doubles, log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
+from nag.numerics.rounds_in_doubles import RoundsInDoubles
 from nag.numerics.sharpening import DIGITS, LARGEST_INVERSE, predicted, sharpen
 
 # How far a set is followed in the variables that are free, or in any, all of them scaled to a size
@@ -52,11 +52,12 @@ def far_value(
         digits: to which their zeros are known.
     """
     left = len(point) - sum(len(r.columns) for r in rounds)
+    known = RoundsInDoubles.of(system, rounds) if inverse < GOOD else None
     for attempt in range(DIRECTIONS):
         turn = np.exp(1j * (0.3 + np.arange(left) + 2.0 * attempt))
         start = _Place(list(point), 0.0, FIRST)
-        if len(rounds) == 1 and inverse < GOOD:
-            start = _in_doubles(_Block.of(system, rounds[0], turn), start)
+        if known is not None:
+            start = _in_doubles(known, turn, start)
         end = _in_digits(system, rounds, turn, start)
         if end is None:
             continue
@@ -82,62 +83,16 @@ class _Place:
         return self.gone >= FAR or log_norm(self.point) >= log10(AT_MOST)
 
 
-@dataclass(frozen=True, eq=False)
-class _Block:
-    """Regular equations, their variables, and a direction in the others."""
-
-    evaluator: Evaluator
-    columns: np.ndarray
-    free: np.ndarray
-    direction: np.ndarray
-
-    @classmethod
-    def of(cls, system: ExactSystem, this: Round, direction: np.ndarray) -> _Block:
-        rows = [system.at(DIGITS)[i] for i in this.rows]
-        exponents = list(dict.fromkeys(e for row in rows for e, _ in row)) or [(0,) * system.n]
-        place = {e: i for i, e in enumerate(exponents)}
-        coefficients = np.zeros((len(rows), len(exponents)), dtype=complex)
-        for line, row in zip(coefficients, rows, strict=True):
-            for e, c in row:
-                line[place[e]] += complex(c)
-        free = np.array([i for i in range(system.n) if i not in this.columns], dtype=np.int64)
-        columns = np.array(this.columns, dtype=np.int64)
-        evaluator = Evaluator(system.n, np.array(exponents, dtype=np.int64), coefficients)
-        return cls(evaluator, columns, free, direction)
-
-    def tangent(self, x: np.ndarray) -> np.ndarray:
-        slopes = self.evaluator.jacobian(x)
-        along = np.zeros(len(x), dtype=complex)
-        along[self.free] = self.direction
-        right = slopes[:, self.free] @ self.direction
-        along[self.columns] = -np.linalg.solve(slopes[:, self.columns], right)
-        return along
-
-    def ahead(self, x: np.ndarray, h: float) -> np.ndarray:
-        """A step along the set by the classical method of Runge and Kutta."""
-        a = self.tangent(x)
-        b = self.tangent(x + h / 2 * a)
-        c = self.tangent(x + h / 2 * b)
-        d = self.tangent(x + h * c)
-        return x + h / 6 * (a + 2 * b + 2 * c + d)
-
-    def newton(self, x: np.ndarray) -> np.ndarray:
-        step = np.zeros(len(x), dtype=complex)
-        block = self.evaluator.jacobian(x)[:, self.columns]
-        step[self.columns] = np.linalg.solve(block, self.evaluator.values(x[None])[0])
-        return step
-
-
-def _in_doubles(block: _Block, start: _Place) -> _Place:
+def _in_doubles(known: RoundsInDoubles, direction: np.ndarray, start: _Place) -> _Place:
     """As far along the set as doubles do."""
     x, gone, h = doubles(start.point), start.gone, start.step
     for _ in range(STEPS):
         if gone >= FAR or np.abs(x).max() >= AT_MOST:
             break
         try:
-            ahead = block.ahead(x, h)
-            first = block.newton(ahead)
-            second = block.newton(ahead - first)
+            ahead = known.ahead(x, direction, h)
+            first = known.newton(ahead)
+            second = known.newton(ahead - first)
         except np.linalg.LinAlgError:
             break
         moved, one, two = (float(np.abs(v).max()) for v in (ahead - x, first, second))

@@ -7,19 +7,18 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import chain
 from typing import Any
 
 import flint
 
 from nag.numerics.digits import log_norm, middle
+from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Series, SeriesRing, Terms, composed, product_of, shifted
 
 Matrix = list[list[Any]]
-Slopes = Callable[[Sequence[Any]], Matrix]
 
 # Newton steps for the values at the centre, which may not be zero yet; the slopes are taken anew
 # where a step is larger than rounding, as a share of the digits.
@@ -69,7 +68,7 @@ def eliminate(
     columns: Sequence[int],
     order: int,
     modulus: int = 0,
-    slopes: Slopes | None = None,
+    at_points: PointValues | None = None,
 ) -> Reduction | None:
     """Solve the equations ``solved`` for the variables ``columns`` as series in the others.
 
@@ -80,7 +79,8 @@ def eliminate(
         solved, columns: as many indices of rows as of variables.
         order: of the series.
         modulus: a prime, for arithmetic modulo it.
-        slopes: the Jacobian of ``rows`` at a point, where there is a faster way to it.
+        at_points: the same rows as functions, where they are known so: a faster way to their
+            values and slopes.
 
     Returns:
         None if the block of the Jacobian is singular.
@@ -93,8 +93,8 @@ def eliminate(
         images = _images(centre, free, ring)
         return Reduction(ring, images, shifted(rest_rows, centre, ring), -float("inf"))
     chosen = [rows[i] for i in solved]
-    slopes = slopes or partial(jacobian, rows, modulus=modulus)
-    found = _at_centre(chosen, slopes, centre, solved, columns, modulus)
+    functions = at_points or _Rows(rows, modulus)
+    found = _at_centre(functions, centre, solved, columns, modulus)
     if found is None:
         return None
     centre, gradients, inverse = found
@@ -128,29 +128,45 @@ def _images(centre: Sequence[Any], free: Sequence[int], ring: SeriesRing) -> lis
     return images
 
 
+@dataclass(frozen=True)
+class _Rows:
+    """Polynomials as functions, by series."""
+
+    rows: Sequence[Terms]
+    modulus: int
+
+    def values(self, x: Sequence[Any]) -> list[Any]:
+        ring = SeriesRing(0, 0, self.modulus)
+        constants = [{0: c} if c else {} for c in x]
+        return [value.get(0, 0) for value in composed(self.rows, constants, ring)]
+
+    def jacobian(self, x: Sequence[Any]) -> Matrix:
+        return jacobian(self.rows, x, self.modulus)
+
+
 def _at_centre(
-    chosen: Sequence[Terms],
-    slopes: Slopes,
+    functions: PointValues | _Rows,
     centre: Sequence[Any],
     solved: Sequence[int],
     columns: Sequence[int],
     modulus: int,
 ) -> tuple[list[Any], Matrix, Matrix] | None:
     """The corrected centre, the Jacobian there, and the inverse of its block."""
-    gradients = slopes(centre)
+    gradients = functions.jacobian(centre)
     inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
     if inverse is None:
         return None
-    ring, x, moved = SeriesRing(0, 0, modulus), list(centre), False
+    x, moved = list(centre), False
     for _ in range(CONSTANT_STEPS):
-        values = composed(chosen, [{0: c} if c else {} for c in x], ring)
-        steps = [value.get(0, 0) for value in product_of(inverse, values, modulus)]
+        values = functions.values(x)
+        column = [{0: values[i]} if values[i] else {} for i in solved]
+        steps = [value.get(0, 0) for value in product_of(inverse, column, modulus)]
         for j, step in zip(columns, steps, strict=True):
             x[j] = (x[j] - step) % modulus if modulus else middle(x[j] - flint.acb(step))
         moved = moved or any(steps) if modulus else moved or log_norm(steps) > EXACT * flint.ctx.dps
     if not moved:
         return x, gradients, inverse
-    gradients = slopes(x)
+    gradients = functions.jacobian(x)
     inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
     return None if inverse is None else (x, gradients, inverse)
 

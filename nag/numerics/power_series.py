@@ -178,13 +178,18 @@ def evaluate(series: Mapping[int, Any], ring: SeriesRing, v: Sequence[Any]) -> A
     return total
 
 
+def exponents_of_degree(m: int, degree: int) -> list[tuple[int, ...]]:
+    """The exponents of that degree in ``m`` variables, in the order of `derivatives`."""
+    return [a for a in product(range(degree + 1), repeat=m) if sum(a) == degree]
+
+
 def derivatives(rows: Sequence[Series], ring: SeriesRing, order: int) -> list[list[Any]]:
     """All partial derivatives of that order, over factorials, as terms, also those that vanish.
 
     They stand row by row, the directions of each in the same order.
     """
     result = []
-    choices = [a for a in product(range(order + 1), repeat=ring.m) if sum(a) == order]
+    choices = exponents_of_degree(ring.m, order)
     for row in rows:
         terms = [(ring.exponents(key), c) for key, c in row.items()]
         for alpha in choices:
