@@ -21,6 +21,7 @@ import numpy as np
 from nag.numerics.descent import Point, Round, descend
 from nag.numerics.digits import doubles, log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
+from nag.numerics.implicit_function import Matrix
 from nag.numerics.rounds_in_doubles import RoundsInDoubles
 from nag.numerics.sharpening import DIGITS, LARGEST_INVERSE, predicted, sharpen
 
@@ -137,15 +138,26 @@ def _step(
     one_round = len(rounds) == 1
     along = [c * h for c in turns]
     ahead = (_ahead if one_round else predicted)(system, x, rounds, along)
-    found = None if ahead is None else descend(system, DIGITS, ahead, rounds, 1)
-    if ahead is not None and found is not None and found.inverse < LARGEST_INVERSE:
+    step = None if ahead is None else _newton(system, rounds, ahead)
+    if ahead is not None and step is not None:
         moved = log_norm(a - b for a, b in zip(ahead, x, strict=True))
-        one, small = log_norm(found.displacement), log10(SMALL if one_round else SMALL_ROUGHLY)
+        one, small = log_norm(step), log10(SMALL if one_round else SMALL_ROUGHLY)
         if one < moved + small:
             longer = 2.0 if one < moved + small - (1.2 if one_round else 0.6) else 1.0
-            point = [middle(a + b) for a, b in zip(ahead, found.displacement, strict=True)]
-            return _Place(point, place.gone + h, h * longer)
-    return _Place(x, place.gone, h / 2)
+            return _Place(_moved(ahead, step, 1.0), place.gone + h, h * longer)
+    # What the last step left of its error must be small beside the next, smaller one.
+    left = _newton(system, rounds, x)
+    return _Place(x if left is None else _moved(x, left, 1.0), place.gone, h / 2)
+
+
+def _newton(system: ExactSystem, rounds: Sequence[Round], x: Point) -> Point | None:
+    """Newton's step in the variables that the rounds determine; None where they are singular."""
+    if len(rounds) > 1:
+        found = descend(system, DIGITS, x, rounds, 1)
+        return found.displacement if found and found.inverse < LARGEST_INVERSE else None
+    functions = system.values_at(DIGITS)
+    values = functions.values(x)
+    return _solved(functions.jacobian(x), rounds[0], [values[i] for i in rounds[0].rows])
 
 
 def _ahead(
@@ -170,15 +182,22 @@ def _tangent(
     system: ExactSystem, x: Point, this: Round, along: Sequence[flint.acb]
 ) -> Point | None:
     slopes = system.values_at(DIGITS).jacobian(x)
-    step = [flint.acb(0)] * len(x)
     free = [j for j in range(len(x)) if j not in this.columns]
-    for j, v in zip(free, along, strict=True):
-        step[j] = v
+    right = [sum(slopes[i][j] * v for j, v in zip(free, along, strict=True)) for i in this.rows]
+    step = _solved(slopes, this, right)
+    if step is not None:
+        for j, v in zip(free, along, strict=True):
+            step[j] = v
+    return step
+
+
+def _solved(slopes: Matrix, this: Round, right: Sequence[flint.acb]) -> Point | None:
+    """The change of a block's variables that takes so much from its equations."""
+    step = [flint.acb(0)] * len(slopes[0])
     if this.columns:
-        right = [[sum(slopes[i][j] * step[j] for j in free)] for i in this.rows]
         block = flint.acb_mat([[slopes[i][j] for j in this.columns] for i in this.rows])
         try:
-            found = block.solve(flint.acb_mat(right)).mid().entries()
+            found = block.solve(flint.acb_mat(len(right), 1, right)).mid().entries()
         except ZeroDivisionError:
             return None
         for j, c in zip(this.columns, found, strict=True):

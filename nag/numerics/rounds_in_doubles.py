@@ -134,7 +134,7 @@ class RoundsInDoubles:
 
     def _second(self, x: np.ndarray, frame: _Frame, along: np.ndarray) -> np.ndarray:
         """The derivatives of these entries along a tangent."""
-        h = APART / max(1.0, float(np.abs(along).max()))
+        h = APART / (float(np.abs(along).max()) or 1.0)
         ahead, behind = (self.evaluator.jacobian(x + s * along) for s in (h, -h))
         return self._chosen(frame, (ahead - behind) / (2 * h) @ frame.tangents)
 
