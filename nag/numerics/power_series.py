@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain, product
-from math import comb
+from itertools import chain
+from math import comb, prod
+from operator import le, sub
 from typing import Any
 
 import flint
@@ -179,27 +180,30 @@ def evaluate(series: Mapping[int, Any], ring: SeriesRing, v: Sequence[Any]) -> A
 
 
 def exponents_of_degree(m: int, degree: int) -> list[tuple[int, ...]]:
-    """The exponents of that degree in ``m`` variables, in the order of `derivatives`."""
-    return [a for a in product(range(degree + 1), repeat=m) if sum(a) == degree]
+    """All exponents of that degree in ``m`` variables, in lexicographic order."""
+    if m < 2:
+        return [(degree,)] if m else [()] * (degree == 0)
+    return [
+        (k, *others) for k in range(degree + 1) for others in exponents_of_degree(m - 1, degree - k)
+    ]
 
 
 def derivatives(rows: Sequence[Series], ring: SeriesRing, order: int) -> list[list[Any]]:
     """All partial derivatives of that order, over factorials, as terms, also those that vanish.
 
-    They stand row by row, the directions of each in the same order.
+    They stand row by row, the directions of each as in `exponents_of_degree`.
     """
+    place = {alpha: i for i, alpha in enumerate(exponents_of_degree(ring.m, order))}
+    lowered = [exponents_of_degree(ring.m, k) for k in range(ring.order - order + 1)]
     result = []
-    choices = exponents_of_degree(ring.m, order)
     for row in rows:
-        terms = [(ring.exponents(key), c) for key, c in row.items()]
-        for alpha in choices:
-            derived = []
-            for e, c in terms:
-                factor = 1
-                for k, a in zip(e, alpha, strict=True):
-                    factor *= comb(k, a)
-                if factor:
-                    lowered = tuple(k - a for k, a in zip(e, alpha, strict=True))
-                    derived.append((lowered, c * factor))
-            result.append(derived)
+        derived: list[list[Any]] = [[] for _ in place]
+        for key, c in row.items():
+            e, left = ring.exponents(key), ring.degree(key) - order
+            for to in lowered[left] if left >= 0 else ():
+                if all(map(le, to, e)):
+                    alpha = tuple(map(sub, e, to))
+                    factor = prod(map(comb, e, alpha))
+                    derived[place[alpha]].append((to, c * factor))
+        result.extend(derived)
     return result
