@@ -14,6 +14,7 @@ from typing import Any
 
 import flint
 
+from nag.numerics.composition import Composition
 from nag.numerics.digits import log_norm, middle
 from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Series, SeriesRing, Terms, composed, product_of, shifted
@@ -98,24 +99,24 @@ def eliminate(
     if found is None:
         return None
     centre, gradients, inverse = found
-    images = _images(centre, free, ring)
-    if ring.order:
-        across = [{ring.unit(k): gradients[i][j] for k, j in enumerate(free)} for i in solved]
-        for j, linear in zip(columns, product_of(inverse, across, modulus), strict=True):
-            ring.add(images[j], linear, -1)
-    for degree in range(2, ring.order):
-        values = composed(chosen, images, SeriesRing(ring.m, degree, modulus))
-        for j, step in zip(columns, product_of(inverse, values, modulus), strict=True):
-            ring.add(images[j], step, -1)
-    values = composed([*chosen, *rest_rows], images, ring)
-    rest = values[len(chosen) :]
-    # What the last step changes in the equations that remain is linear in it, to this order.
-    steps = product_of(inverse, values[: len(chosen)], modulus)
-    for j, step in zip(columns, steps, strict=True):
-        ring.add(images[j], step, -1)
+    images, rest = _images(centre, free, ring), [{} for _ in rest_rows]
     outer = [[gradients[i][j] for j in columns] for i in others]
-    for value, change in zip(rest, product_of(outer, steps, modulus), strict=True):
-        ring.add(value, change, -1)
+    composition = Composition.of([*chosen, *rest_rows], len(centre), ring)
+    for degree in range(ring.order + 1):
+        known = [{k: c for k, c in image.items() if ring.degree(k) == degree} for image in images]
+        values = composition.extended(known)
+        for series, value in zip(rest, values[len(chosen) :], strict=True):
+            series.update(value)
+        if not degree:
+            continue
+        # What a step changes in terms of its degree is linear in it.
+        steps = product_of(inverse, values[: len(chosen)], modulus)
+        for j, step in zip(columns, steps, strict=True):
+            ring.add(images[j], step, -1)
+        for series, change in zip(rest, product_of(outer, steps, modulus), strict=True):
+            ring.add(series, change, -1)
+        if degree < ring.order:
+            composition.lower(dict(zip(columns, steps, strict=True)))
     size = 0.0 if modulus else log_norm(c for row in inverse for c in row)
     return Reduction(ring, images, rest, size)
 
