@@ -21,9 +21,10 @@ from nag.numerics.power_series import Series, SeriesRing, Terms, composed, produ
 
 Matrix = list[list[Any]]
 
-# Newton steps for the values at the centre, which may not be zero yet; the slopes are taken anew
-# where a step is larger than rounding, as a share of the digits.
-CONSTANT_STEPS, EXACT = 2, -0.8
+# Newton steps for the values at the centre, which may not be zero yet. Slopes are taken anew after
+# each but those that are rounding, of so many digits beside those that the inverse takes: what is
+# deflated by their series converges no faster than they are known.
+CONSTANT_STEPS, ROUNDING = 2, 5.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +118,7 @@ def eliminate(
             ring.add(series, change, -1)
         if degree < ring.order:
             composition.lower(dict(zip(columns, steps, strict=True)))
-    size = 0.0 if modulus else log_norm(c for row in inverse for c in row)
-    return Reduction(ring, images, rest, size)
+    return Reduction(ring, images, rest, 0.0 if modulus else _size(inverse))
 
 
 def _images(centre: Sequence[Any], free: Sequence[int], ring: SeriesRing) -> list[Series]:
@@ -153,23 +153,31 @@ def _at_centre(
     modulus: int,
 ) -> tuple[list[Any], Matrix, Matrix] | None:
     """The corrected centre, the Jacobian there, and the inverse of its block."""
-    gradients = functions.jacobian(centre)
-    inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
-    if inverse is None:
-        return None
-    x, moved = list(centre), False
-    for _ in range(CONSTANT_STEPS):
+    x = list(centre)
+    for steps_left in range(CONSTANT_STEPS, -1, -1):
+        gradients = functions.jacobian(x)
+        inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
+        if inverse is None:
+            return None
+        if not steps_left:
+            break
         values = functions.values(x)
         column = [{0: values[i]} if values[i] else {} for i in solved]
         steps = [value.get(0, 0) for value in product_of(inverse, column, modulus)]
         for j, step in zip(columns, steps, strict=True):
             x[j] = (x[j] - step) % modulus if modulus else middle(x[j] - flint.acb(step))
-        moved = moved or any(steps) if modulus else moved or log_norm(steps) > EXACT * flint.ctx.dps
-    if not moved:
-        return x, gradients, inverse
-    gradients = functions.jacobian(x)
-    inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
-    return None if inverse is None else (x, gradients, inverse)
+        if not any(steps) or (not modulus and log_norm(steps) < _rounding(inverse)):
+            break
+    return x, gradients, inverse
+
+
+def _rounding(inverse: Matrix) -> float:
+    return ROUNDING + max(0.0, _size(inverse)) - flint.ctx.dps
+
+
+def _size(matrix: Matrix) -> float:
+    """The decimal logarithm of the largest entry."""
+    return log_norm(c for row in matrix for c in row)
 
 
 def _inverse(block: Matrix, modulus: int) -> Matrix | None:
