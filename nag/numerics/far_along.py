@@ -23,7 +23,7 @@ from nag.numerics.digits import doubles, log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import Matrix
 from nag.numerics.rounds_in_doubles import RoundsInDoubles
-from nag.numerics.sharpening import DIGITS, LARGEST_INVERSE, predicted, sharpen
+from nag.numerics.sharpening import ARRIVED, DIGITS, LARGEST_INVERSE, predicted, sharpen
 
 # How far a set is followed in the variables that are free, or in any, all of them scaled to a size
 # of one (much further out many sets are nearly singular); and in how many steps at most.
@@ -142,9 +142,12 @@ def _step(
     if ahead is not None and step is not None:
         moved = log_norm(a - b for a, b in zip(ahead, x, strict=True))
         one, small = log_norm(step), log10(SMALL if one_round else SMALL_ROUGHLY)
-        if one < moved + small:
+        nearer = _moved(ahead, step, 1.0)
+        second = _newton(system, rounds, nearer) if one < moved + small else None
+        # A second step that is not much smaller may belong to another sheet.
+        if second is not None and log_norm(second) <= max(one + log10(CONTRACTION), ARRIVED):
             longer = 2.0 if one < moved + small - (1.2 if one_round else 0.6) else 1.0
-            return _Place(_moved(ahead, step, 1.0), place.gone + h, h * longer)
+            return _Place(_moved(nearer, second, 1.0), place.gone + h, h * longer)
     # What the last step left of its error must be small beside the next, smaller one.
     left = _newton(system, rounds, x)
     return _Place(x if left is None else _moved(x, left, 1.0), place.gone, h / 2)

@@ -18,7 +18,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.numerics.descent import Round
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.power_series import exponents_of_degree
+from nag.numerics.power_series import SeriesRing, Terms, derivatives, exponents_of_degree
 from nag.numerics.sharpening import DIGITS
 
 # Differences are taken over so much, the scaled variables being of size one.
@@ -47,6 +47,8 @@ class _Frame:
 class RoundsInDoubles:
     """The set of one round, or of two if the first leaves terms of second order.
 
+    Where the first round solves nothing, the second is the first one of polynomials.
+
     Attributes:
         evaluator: of the equations that occur.
         rows, columns: of the first block.
@@ -66,11 +68,16 @@ class RoundsInDoubles:
     @classmethod
     def of(cls, system: ExactSystem, rounds: Sequence[Round]) -> RoundsInDoubles | None:
         """None where the rounds are of other kinds."""
-        first, *more = rounds
+        rows, (first, *more) = system.at(DIGITS), rounds
+        while more and not first.columns:
+            # Nothing was solved for: what remains are the equations, their derivatives polynomials.
+            ring = SeriesRing(system.n, system.largest_degree)
+            series = [{ring.key(e): c for e, c in row} for row in rows]
+            rows, (first, *more) = derivatives(series, ring, first.order - 1), more
         if len(more) > 1 or (more and first.order != 2):
             return None
         free = [i for i in range(system.n) if i not in first.columns]
-        others = [i for i in range(len(system.rows)) if i not in first.rows]
+        others = [i for i in range(len(rows)) if i not in first.rows]
         places = [e.index(1) for e in exponents_of_degree(len(free), 1)]
         # The derivatives stand row by row.
         derived = [divmod(i, len(places)) for i in (more[0].rows if more else ())]
@@ -79,7 +86,7 @@ class RoundsInDoubles:
         solved = list(more[0].columns) if more else []
         left = [k for k in range(len(free)) if k not in solved]
         return cls(
-            _evaluator(system, kept),
+            _evaluator([rows[i] for i in kept], system.n),
             np.arange(len(first.rows)),
             *(np.array(a, dtype=np.int64) for a in (first.columns, free, entries, solved, left)),
         )
@@ -143,13 +150,11 @@ class RoundsInDoubles:
         return np.stack([self._second(x, frame, frame.tangents[:, k]) for k in self.solved], axis=1)
 
 
-def _evaluator(system: ExactSystem, kept: Sequence[int]) -> Evaluator:
-    known = system.at(DIGITS)
-    rows = [known[i] for i in kept]
-    exponents = list(dict.fromkeys(e for row in rows for e, _ in row)) or [(0,) * system.n]
+def _evaluator(rows: Sequence[Terms], n: int) -> Evaluator:
+    exponents = list(dict.fromkeys(e for row in rows for e, _ in row)) or [(0,) * n]
     place = {e: i for i, e in enumerate(exponents)}
     coefficients = np.zeros((len(rows), len(exponents)), dtype=complex)
     for line, row in zip(coefficients, rows, strict=True):
         for e, c in row:
             line[place[e]] += complex(c)
-    return Evaluator(system.n, np.array(exponents, dtype=np.int64), coefficients)
+    return Evaluator(n, np.array(exponents, dtype=np.int64), coefficients)
