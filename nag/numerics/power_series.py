@@ -204,16 +204,19 @@ def derivatives(rows: Sequence[Series], ring: SeriesRing, order: int) -> list[li
     They stand row by row, the directions of each as in `exponents_of_degree`.
     """
     place = {alpha: i for i, alpha in enumerate(exponents_of_degree(ring.m, order))}
-    lowered = [exponents_of_degree(ring.m, k) for k in range(ring.order - order + 1)]
+    lowered = [exponents_of_degree(ring.m, k) for k in range(order)]
     result = []
     for row in rows:
         derived: list[list[Any]] = [[] for _ in place]
         for key, c in row.items():
             e, left = ring.exponents(key), ring.degree(key) - order
-            for to in lowered[left] if left >= 0 else ():
-                if all(map(le, to, e)):
-                    alpha = tuple(map(sub, e, to))
-                    factor = prod(map(comb, e, alpha))
-                    derived[place[alpha]].append((to, c * factor))
+            if left < 0:
+                continue
+            for part in lowered[left] if left < order else place:
+                if all(map(le, part, e)):
+                    to, alpha = part, tuple(map(sub, e, part))
+                    if left >= order:
+                        to, alpha = alpha, part
+                    derived[place[alpha]].append((to, c * prod(map(comb, e, alpha))))
         result.extend(derived)
     return result
