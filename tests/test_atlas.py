@@ -129,6 +129,22 @@ def test_a_step_back_is_told_and_the_same_share_is_not() -> None:
     assert [line.split(",")[0] for line in changes(before, _atlas(1, 1, 0))] == ["a 2: better"]
 
 
+def test_families_that_are_not_run_are_taken_from_another_atlas(tmp_path: Path, capsys) -> None:
+    kept = Path(__file__).parents[1] / "nag" / "bench" / "charts" / "stability.json"
+    before, target = read_atlas(json.loads(kept.read_text())), tmp_path / "atlas.json"
+    now = replace(before, rows=(replace(before.rows[2], text="run again"), *before.rows[4:6]))
+    (tmp_path / "now.json").write_text(json.dumps(document(now)))
+    command = ["chart", "stability", "--data", str(tmp_path / "now.json"), "--json", str(target)]
+    assert main([*command, "--rest", str(kept)]) == 0
+    found = read_atlas(json.loads(target.read_text()))
+    assert [row.name for row in found.rows] == [row.name for row in before.rows]
+    texts = {row.name: row.text for row in found.rows}
+    assert texts == {row.name: row.text for row in before.rows} | {now.rows[0].name: "run again"}
+    (tmp_path / "now.json").write_text(json.dumps(document(replace(now, seeds=3))))
+    assert main([*command, "--rest", str(kept)]) == 2
+    assert "seeds" in capsys.readouterr().err
+
+
 def test_answers_are_counted_over_seeds() -> None:
     atlas = run_atlas([replace(family_named("unity"), values=(2, 10))], seeds=2, limit=20.0)
     assert [(c.value, c.right, c.answers) for c in atlas.rows[0].cells] == [(2, 2, 2), (10, 2, 2)]
@@ -147,6 +163,7 @@ def test_the_kept_atlas_is_drawn_without_a_run(tmp_path: Path, capsys) -> None:
     "arguments",
     [
         ["--family", "nothing"],
+        ["--rest", "/nowhere/atlas.json"],
         ["--data", "/nowhere/atlas.json"],
         ["--picture", "atlas.txt"],
         ["--seeds", "0"],
