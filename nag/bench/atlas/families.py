@@ -15,6 +15,8 @@ from nag.bench.atlas.points import Problem
 
 Make = Callable[[Any, np.random.Generator], Problem]
 
+# Families of systems that take some ten seconds.
+PATIENCE = {"solved-hard": 4}
 DIGITS = (2, 4, 8, 12, 16, 20, 30)
 
 
@@ -26,6 +28,7 @@ class Family:
         name: short, for options and files; text: what it is; knob: what the values are.
         make: the system for a value of the knob; random numbers choose its coordinates.
         values: easy ones first.
+        patience: how many times the usual limit of processor time an answer has.
         method: what is asked for: ``"solve"``, ``"decompose"``, ``"singular"`` or ``"slice"``.
     """
 
@@ -35,6 +38,7 @@ class Family:
     make: Make
     values: tuple[Any, ...]
     method: str = "solve"
+    patience: int = 1
 
 
 def _two(make: Make, *first: int) -> Make:
@@ -61,7 +65,7 @@ def _cases(
     for name, cases in groups.items():
         _, dash, kind = name.partition("-")
         text = f"cases {how}" + (f": {kind}" if dash else "")
-        yield Family(name, text, "case", make, cases, method)
+        yield Family(name, text, "case", make, cases, method, PATIENCE.get(name, 1))
 
 
 FAMILIES: tuple[Family, ...] = (

@@ -124,7 +124,7 @@ def run_atlas(
 
     Args:
         seeds: how many, from 0.
-        limit: seconds of processor time for one answer.
+        limit: seconds of processor time for one answer, times the patience of its family.
         jobs: processes.
         progress: called with each family's answers.
     """
@@ -134,7 +134,11 @@ def run_atlas(
     named = {f.name: f for f in families}
     rows: dict[str, Row] = {}
     warm = Task("unity", 2, 0)
-    for run in timed_runs(answer, tasks, limit=limit, jobs=jobs, first=warm):
+
+    def limit_of(task: Task) -> float:
+        return limit * named[task.family].patience
+
+    for run in timed_runs(answer, tasks, limit=limit_of, jobs=jobs, first=warm):
         name = run.task.family
         found[name].append(run)
         left[name] -= 1
