@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from math import isqrt
+from pathlib import Path
 
 import flint
 import numpy as np
@@ -14,12 +16,13 @@ import pytest
 import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.families import FAMILIES
 from nag.bench.atlas.general_position import NAMES, Coordinates, mixed
 from nag.bench.reference import Reference
+from nag.cli import main
 from nag.decomposition import decompose, project
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 
+CASES = Path(__file__).parents[1] / "cases"
 DIGITS = 300
 Exact = Callable[[], list[flint.arb]]
 
@@ -143,11 +146,6 @@ def test_a_rounded_point_of_a_curve_is_on_it_to_all_digits_that_are_shown() -> N
             assert abs(value) < flint.arb(10) ** -95
 
 
-def _family(name: str, value: int) -> PolynomialSystem:
-    make = next(f for f in FAMILIES if f.name == name).make
-    return make(value, np.random.default_rng(1)).system
-
-
 # Curves, coordinates, and for each component dimension and degree of the image, and of the fibre.
 CURVES = {
     "cubic": (("y - x^2", "z - x*y"), (0, 1), [(1, 2, 1)]),
@@ -180,3 +178,33 @@ def test_points_of_projections_are_as_accurate_as_they_say(name: str) -> None:
             assert (off <= image.accuracy * (1 + np.linalg.norm(reference.high, axis=1))).all()
             # Not worse than it is said to be by more than what is never believed in doubles.
             assert image.accuracy < 1e-9
+
+
+@pytest.mark.parametrize("name", ["spatial/bricard_cube", "bennett", "spatial/universal-shaft"])
+def test_a_rounded_configuration_of_a_mechanism_closes_to_all_digits(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case = CASES / f"{name}.toml"
+    made = nag.model(nag.read_case(case).mechanism)
+    system = made.system
+    places = zip(system.variables, made.reference, strict=True)
+    at = ", ".join(f"{v} = {float(x):.9f}" for v, x in places)
+    target = tmp_path / "local.json"
+    command = ["local", str(case), "--quiet", "--at", at, "--json", str(target)]
+    assert main(command) == 0
+    (found,) = json.loads(target.read_text())["points"]
+    assert f"local dimension {found['local_dimension']}" in capsys.readouterr().out
+    assert found["local_dimension"] == 1
+    with flint.ctx.workdps(DIGITS):
+        shown = [flint.acb(*map(flint.arb, pair)) for pair in found["sharpened"]]
+        for f in system.polynomials:
+            terms = [abs(monomial(shown, e, c)) for e, c in f.terms.items()]
+            value = sum((monomial(shown, e, c) for e, c in f.terms.items()), start=flint.acb(0))
+            assert abs(value) < sum(terms, start=flint.arb(0)) * flint.arb(10) ** -95
+
+
+def monomial(x: Sequence[flint.acb], exponents: Sequence[int], c: Fraction) -> flint.acb:
+    value = flint.acb(flint.arb(flint.fmpq(c.numerator, c.denominator)))
+    for z, k in zip(x, exponents, strict=True):
+        value *= z**k
+    return value
