@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from exact_counts import zero_set
 
 import nag
+from nag.bench.atlas.asked import SINGULAR, asked
+from nag.bench.atlas.curves import tangent_slice
 from nag.bench.atlas.families import FAMILIES, Family
-from nag.bench.atlas.linkages import bricard_violated
+from nag.bench.atlas.linkages import bennett_violated, bricard_violated, slider_crank
+from nag.bench.atlas.moved import GROUPS, TOO_LONG
+from nag.bench.atlas.sparse_changes import KINDS, sparsely_changed
 from nag.bench.atlas.stability import (
     Atlas,
     Cell,
@@ -23,11 +29,17 @@ from nag.bench.atlas.stability import (
     read_atlas,
     run_atlas,
 )
+from nag.bench.verdicts import agrees
 from nag.cli import main
 from nag.numerics.box_relations import overlaps
 from nag.numerics.discs import DiscPolynomials, Discs
 from nag.numerics.krawczyk import boxes_of
+from nag.numerics.local_dimension import local_dimension
 from nag.solving.solve import solve
+from nag.witness.moving import witness_at
+from nag.witness.witness import WitnessSet
+
+CASES = Path(__file__).parents[1] / "cases"
 
 
 def test_families_have_names_of_their_own() -> None:
@@ -50,6 +62,54 @@ def test_what_is_known_of_a_family_is_exact(name: str) -> None:
         problem = family.make(value, np.random.default_rng(3))
         exact = zero_set(problem.system) if problem.system.n < 3 else None
         assert exact is None or exact.agrees(problem.truth)
+
+
+@pytest.mark.parametrize("digits", [0, 2, 10, 30])
+def test_what_violates_bennetts_condition_leaves_one_simple_point(digits: int) -> None:
+    problem = bennett_violated(digits, np.random.default_rng(0))
+    exact = zero_set(replace(problem.system, nonzero=()))
+    assert exact is not None and exact.agrees(problem.truth)
+    assert bool(digits) == ((0, 1, 1) in problem.truth)
+
+
+@pytest.mark.parametrize("digits", [0, 8, 30])
+def test_slider_cranks_have_nodes_exactly_where_the_lengths_add_up(digits: int) -> None:
+    problem = slider_crank(digits, np.random.default_rng(2))
+    upright = tuple(Fraction(c) for c in (0, 1, 0, -1, 0, -1))
+    vanish = [f(upright) == 0 for f in problem.system.polynomials]
+    assert all(vanish) == (digits == 0) == bool(problem.facts)
+    if digits == 0:
+        found = local_dimension(problem.system, upright)
+        assert SINGULAR.format(found.dimension, found.tangent_dimension, 2) in problem.facts
+
+
+def test_every_case_is_in_the_atlas_or_said_to_take_too_long() -> None:
+    cases = [str(path.relative_to(CASES).with_suffix("")) for path in CASES.rglob("*.toml")]
+    run = [name for names in GROUPS.values() for name in names]
+    assert sorted([*run, *TOO_LONG]) == sorted(cases)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_sparse_changes_keep_the_zero_set(kind: str) -> None:
+    points = nag.system(["x^2 + y^2 - 2", "x*y^2 - 3*x + 1"])
+    whole = nag.system(["(x - 2*y)*(x^2 + y^2 - 2)^2", "(x - 2*y)*(y - 1)*(x + 3)"])
+    for seed in range(6):
+        for before in (points, whole):
+            after = sparsely_changed(before, np.random.default_rng(seed), kind)
+            assert zero_set(after) == zero_set(before)
+
+
+def test_points_that_are_elsewhere_than_they_say_are_no_right_answer(monkeypatch) -> None:
+    problem = tangent_slice(8, np.random.default_rng(0))
+    right = asked("slice", problem, 0, "default")
+    assert right.complete and agrees(right, problem.zero_set)
+
+    def off(*arguments: Any, **options: Any) -> WitnessSet:
+        found = witness_at(*arguments, **options)
+        return replace(found, points=found.points + 1e-12)
+
+    monkeypatch.setattr("nag.bench.atlas.asked.witness_at", off)
+    assert not agrees(asked("slice", problem, 0, "default"), problem.zero_set)
 
 
 def test_the_violated_cube_has_six_proved_configurations() -> None:
