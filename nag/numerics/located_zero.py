@@ -21,7 +21,8 @@ from nag.numerics.exact_system import ExactSystem
 from nag.numerics.local_structure import FURTHEST, REACHES
 from nag.numerics.rational_point import rational_point
 from nag.numerics.scaling import scaled_terms, variable_scales
-from nag.numerics.sharpening import DIGITS, ZERO
+from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO
+from nag.numerics.sharpening import ROUNDING as STALLED
 
 # An exact point is known to all digits but these.
 ROUNDING = 5.0
@@ -41,6 +42,20 @@ class Zero:
     found: Deflated
     block: Round
     exact: tuple[Number, ...] | None
+
+    @property
+    def balls(self) -> list[flint.acb]:
+        """The zero to as many digits as are known of it, at the working precision.
+
+        Newton's last step is as short as the inverse lets it be, and no shorter.
+        """
+        if self.exact is not None:
+            return [number(c) for c in self.exact]
+        radius = flint.arb(10) ** max(ARRIVED, STALLED + self.found.inverse - DIGITS)
+        # Equations are real: the only zero near to a real point is real.
+        across = radius if any(c.imag for c in self.found.point) else 0
+        parts = [(c.real.mid(), c.imag.mid()) for c in self.found.point]
+        return [flint.acb(flint.arb(re, radius), flint.arb(im, across)) for re, im in parts]
 
     @property
     def tangent(self) -> int:
