@@ -206,6 +206,8 @@ def _assembly_case(
 
 def _with_points(case: Case, top: Table, numbers: _Numbers) -> Case:
     if case.system is None:
+        if "point" in top.values:
+            top.fail("point", "the places fix the point, `reference`; leave it out")
         return case
     named = _read_points(top, case.system, numbers, case.points)
     return replace(case, points=(*case.points, *named))
