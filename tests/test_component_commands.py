@@ -155,6 +155,17 @@ def test_an_incomplete_decomposition_leaves_memberships_incomplete(case, tmp_pat
     assert "the decomposition is incomplete" in capsys.readouterr().out
 
 
+def test_other_values_of_parameters_are_taken(capsys) -> None:
+    crank = str(CASES / "slider-crank.toml")
+    assert main(["singular", crank, "--quiet"]) == 0
+    assert "2 isolated singular points" in capsys.readouterr().out
+    # L1 = 3 is the sum of no other two lengths, nor is one of these with it.
+    assert main(["singular", crank, "--quiet", "--set", "L1=3"]) == 0
+    assert "no singular points" in capsys.readouterr().out
+    assert main(["singular", crank, "--free", "L1,L2", "--set", "L1=3"]) == 2
+    assert "--set L1: is an unknown by --free" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("argv", "part"),
     [
@@ -170,6 +181,8 @@ def test_an_incomplete_decomposition_leaves_memberships_incomplete(case, tmp_pat
         (["member", "{case}", "--at", "x=1/0,y=0"], "--at: x: "),
         (["member", "{case}", "--at", "x=__import__('os'),y=0"], "--at: x: "),
         (["member", "{export}", "--at", "x=1,y=0", "--formulation", "E"], "is an export"),
+        (["member", "{export}", "--at", "x=1,y=0", "--set", "a=1"], "--set is for cases"),
+        (["singular", "{case}", "--set", "a=1"], "a: is no parameter of the case; it has none"),
         (["member", "{folder}/none.json", "--at", "x=1"], "none.json"),
         (["sample", "{export}", "--component", "3"], "--component: 3: there are components 1 to 2"),
         (["sample", "{export}", "--component", "0"], "is not a component's number"),

@@ -99,3 +99,18 @@ def test_the_implicit_function_of_a_circle_is_a_square_root() -> None:
     coefficients = [found.images[1].get(found.ring.key((k,)), 0) for k in range(7)]
     half, eighth, sixteenth = (pow(k, -1, PRIME) for k in (2, 8, 16))
     assert coefficients == [1, 0, PRIME - half, 0, PRIME - eighth, 0, PRIME - sixteenth]
+
+
+@pytest.mark.parametrize("field", FIELDS, ids=["prime", "digits"])
+def test_solved_equations_vanish_along_their_series(field: Field) -> None:
+    rows = polynomials("x y u v", "x + u*y - v^2", "2*y + x^2*u + u^3 - x*v", "x*y + u*v - y^3")
+    terms = [[(e, number(field, c)) for e, c in f.terms.items()] for f in rows]
+    with flint.ctx.workdps(60):
+        found = eliminate(terms, [0, 0, 0, 0], [0, 1], [0, 1], 7, field.modulus)
+        assert found is not None
+        *solved, rest = composed(terms, found.images, found.ring)
+        assert all(field.is_zero(c) for s in solved for c in s.values())
+        [known] = found.rest
+        for key in rest.keys() | known.keys():
+            difference = rest.get(key, 0) - known.get(key, 0)
+            assert field.is_zero(difference % PRIME if field.modulus else flint.acb(difference))

@@ -254,3 +254,14 @@ def test_points_of_cases_have_the_published_multiplicities(name: str, tmp_path) 
         c.multiplicity for c in nag.read_case(path).truth if c.multiplicity not in (1, None)
     ]
     assert (point["local_dimension"], point["multiplicity"]) == (0, published)
+
+
+@pytest.mark.parametrize(
+    ("name", "point", "tangent", "dimension"),
+    [("four-bar-kite", "fold", 2, 1), ("wunderlich-12-bar", "all on a line", 6, 2)],
+)
+def test_points_of_links_and_bars_have_names(name, point, tangent, dimension) -> None:
+    case = nag.read_case(CASES / "planar" / f"{name}.toml")
+    (at,) = (p.at for p in case.points if p.name == point)
+    found = nag.local_dimension(case.system, at)
+    assert (found.tangent_dimension, found.dimension) == (tangent, dimension)

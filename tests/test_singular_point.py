@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import flint
 import numpy as np
 import pytest
 from singular_zeros import ISOLATED, ON_COMPONENTS, Zero, polynomials
 
+from nag.numerics.deflation import deflate
+from nag.numerics.digits import doubles
+from nag.numerics.exact_system import ExactSystem
+from nag.numerics.rounds_in_doubles import RoundsInDoubles
+from nag.numerics.sharpening import DIGITS, sharpen
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 
 LARGE = {"DZ1", "two curves of order 40"}
@@ -181,3 +187,29 @@ def test_a_line_through_a_rational_point_parallel_to_an_axis_is_seen_exactly() -
     assert end.place is Place.ON_COMPONENT
     assert end.dimension == 1
     assert "exactly" in end.reason
+
+
+SINGULAR_CURVES = {
+    "a crossing of surfaces": ("x y z w", "w - z - x^2, x*y*(1 + z)", [0, 0, 0, 0], [0, 0, 1, 1]),
+    "a triple curve": ("x y", "(x - y^2)^3, (x - y^2)^3*y", [0, 0], [0, 1]),
+}
+
+
+@pytest.mark.parametrize("name", SINGULAR_CURVES)
+def test_the_set_that_two_rounds_leave_is_the_same_in_doubles(name: str) -> None:
+    variables, equations, zero, direction = SINGULAR_CURVES[name]
+    with flint.ctx.workdps(DIGITS):
+        system = ExactSystem.of(polynomials(variables, *equations.split(", ")), np.zeros(len(zero)))
+        centre = [flint.acb(c) for c in zero]
+        found = deflate(system, centre, -140.0, np.random.default_rng(0))
+        assert (len(found.rounds), found.free) == (2, 1)
+        known = RoundsInDoubles.of(system, found.rounds)
+        assert known is not None
+        tangent = known.tangent(np.array(zero, dtype=complex), np.ones(1))
+        assert np.abs(tangent / np.abs(tangent).max() - direction).max() < 1e-9
+        near = np.array(zero) + 0.3 * tangent + 1e-3 * np.arange(1, len(zero) + 1)
+        for _ in range(5):
+            near = near - known.newton(near)
+        exact = sharpen(system, [flint.acb(complex(c)) for c in near], found.rounds)
+    assert exact is not None
+    assert np.abs(doubles(exact[0]) - near).max() < 1e-10

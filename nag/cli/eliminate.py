@@ -193,7 +193,7 @@ def _euler(options: argparse.Namespace) -> str | None:
     from nag.files.cases import CaseError, read_case
 
     try:
-        return None if read_case(options.case).mechanism is None else "E"
+        return None if read_case(options.case, dict(options.set)).mechanism is None else "E"
     except (CaseError, OSError):
         return None
 

@@ -30,8 +30,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     names = [name.strip() for name in options.free.split(",")]
     if len(set(names)) < len(names) or not all(names):
         raise UsageError("--free: write names of parameters, each once: 'L1, L2'")
+    for name, _ in options.set:
+        if name in names:
+            raise UsageError(f"--set {name}: is an unknown by --free; give it no value")
     try:
-        system = freed_system(options.case, names)
+        system = freed_system(options.case, names, dict(options.set))
     except CaseError as error:
         raise UsageError(str(error)) from None
     except OSError as error:

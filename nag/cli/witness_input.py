@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_formulation, read_problem
+from nag.cli.arguments import UsageError, add_formulation, add_parameters, read_problem
 from nag.cli.running import writing_json
 
 if TYPE_CHECKING:
@@ -45,6 +45,7 @@ def add_input(parser: argparse.ArgumentParser) -> None:
         "case", metavar="EXPORT_OR_CASE", help="export of `nag decompose --json`, or case file"
     )
     add_formulation(parser)
+    add_parameters(parser)
 
 
 def is_export(path: str) -> bool:
@@ -73,6 +74,8 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
 
         if options.formulation is not None:
             raise UsageError(f"{options.case}: is an export; --formulation is for cases")
+        if options.set:
+            raise UsageError(f"{options.case}: is an export; --set is for cases")
         try:
             export = read_export(options.case)
         except ExportError as error:

@@ -18,9 +18,10 @@ KEYS = {
         "bars",
         "lengths",
         "squared_lengths",
+        "point",
         "truth",
     ),
-    "linkage": ("title", "kind", "parameters", "ground", "link", "truth"),
+    "linkage": ("title", "kind", "parameters", "ground", "link", "point", "truth"),
 }
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -161,7 +161,8 @@ def read_case(
         return Case(title, "mechanism", path, parameters, mechanism=mechanism, truth=truth)
     if kind in ASSEMBLY_KEYS:
         made = read_assembly(kind, top, numbers.number)
-        return _assembly_case(made, title=title, kind=kind, path=path, truth=truth, of=parameters)
+        case = _assembly_case(made, title=title, kind=kind, path=path, truth=truth, of=parameters)
+        return _with_points(case, top, numbers)
     system, family = _read_system(top, numbers)
     return Case(
         title,
@@ -201,6 +202,15 @@ def _assembly_case(
         symmetries=made.symmetries,
         assembly=made,
     )
+
+
+def _with_points(case: Case, top: Table, numbers: _Numbers) -> Case:
+    if case.system is None:
+        if "point" in top.values:
+            top.fail("point", "the places fix the point, `reference`; leave it out")
+        return case
+    named = _read_points(top, case.system, numbers, case.points)
+    return replace(case, points=(*case.points, *named))
 
 
 @dataclass(frozen=True)
@@ -291,13 +301,16 @@ def _read_groups(top: Table, variables: list[str]) -> tuple[tuple[int, ...], ...
     return tuple(groups)
 
 
-def _read_points(top: Table, system: PolynomialSystem, numbers: _Numbers) -> tuple[NamedPoint, ...]:
+def _read_points(
+    top: Table, system: PolynomialSystem, numbers: _Numbers, known: Sequence[NamedPoint] = ()
+) -> tuple[NamedPoint, ...]:
+    """The named points, besides those that are known."""
     points: list[NamedPoint] = []
     for table in top.tables("point"):
         table.allow(("name", "at"))
         name = table.text("name")
         table = table.called(name)
-        if any(name == p.name for p in points):
+        if any(name == p.name for p in (*known, *points)):
             table.fail("name", "another point has that name; give each a name of its own")
         coordinates = Table(
             table.file, f"{table.place}: at", table.get("at", dict, "{ variable = number, ... }")

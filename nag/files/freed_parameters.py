@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from nag.algebra.expression import Budget, parse_polynomial
@@ -11,16 +11,22 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import names_in, nearest, quote
 from nag.files.case_table import CaseError, Table, read_toml
 from nag.files.cases import read_case
+from nag.files.parameters import with_values
 
 
-def freed_system(path: str | os.PathLike[str], names: Sequence[str]) -> PolynomialSystem:
+def freed_system(
+    path: str | os.PathLike[str], names: Sequence[str], values: Mapping[str, str] | None = None
+) -> PolynomialSystem:
     """The equations of a case; the parameters ``names`` are its last variables.
+
+    Args:
+        values: other values of the other parameters, as in a case.
 
     Raises:
         CaseError: if the case is no polynomial system, has no such parameters, or has others that
             depend on them.
     """
-    case = read_case(path)
+    case = read_case(path, values)
     if case.system is None:
         raise CaseError(f"{path}: is a mechanism; parameters are freed in polynomial systems")
     for name in names:
@@ -30,7 +36,7 @@ def freed_system(path: str | os.PathLike[str], names: Sequence[str]) -> Polynomi
                 f"{', '.join(case.parameters) or 'none'}"
             )
     top = Table(str(path), "", read_toml(Path(path)))
-    for other, text in top.table("parameters").values.items():
+    for other, text in with_values(top.table("parameters"), values or {}).values.items():
         used = sorted(names_in(text) & set(names)) if isinstance(text, str) else []
         if used and other not in names:
             raise CaseError(f"{path}: parameters: {other}: depends on {used[0]}; free it as well")

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from nag.numerics.power_series import Compiled, Series, SeriesRing, Terms, compiled, product_of
+from nag.numerics.power_series import Series, SeriesRing, Terms, product_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,7 @@ class Composition:
 
     ring: SeriesRing
     products: tuple[tuple[int, int], ...]
-    matrix: Compiled
+    matrix: list[list[Any]]
     parts: list[list[Series]]
 
     @classmethod
@@ -49,7 +49,7 @@ class Composition:
         return cls(
             ring,
             tuple(made.products),
-            compiled(matrix, ring.modulus),
+            matrix,
             [[] for _ in range(width - 1)],
         )
 
@@ -62,7 +62,9 @@ class Composition:
             part.append(self._product(self.parts[i], self.parts[j], degree))
         one: Series = {} if degree else {0: 1}
         terms = [one, *(part[degree] for part in self.parts)]
-        return product_of(self.matrix, terms, self.ring.modulus)
+        kept = [k for k, series in enumerate(terms) if series]
+        matrix = [[row[k] for k in kept] for row in self.matrix]
+        return product_of(matrix, [terms[k] for k in kept], self.ring.modulus)
 
     def lower(self, steps: Mapping[int, Series]) -> None:
         """Subtract terms of the last degree, which is not 0, from those of some series."""
@@ -78,13 +80,20 @@ class Composition:
             self.ring.add(part[-1], step, -1)
 
     def _product(self, a: Sequence[Series], b: Sequence[Series], degree: int) -> Series:
-        result: Series = {}
-        for k in range(degree + 1):
-            first, second = a[k], list(b[degree - k].items())
-            for i, x in first.items():
+        """The terms of one degree; of a square, those of two different degrees count twice."""
+        square, result = a is b, {}
+        for k in range(degree // 2 + 1 if square else degree + 1):
+            twice = square and 2 * k < degree
+            second = list(b[degree - k].items())
+            for i, x in a[k].items():
+                if twice:
+                    x = x + x
                 for j, y in second:
                     key = i + j
-                    result[key] = result[key] + x * y if key in result else x * y
+                    if key in result:
+                        result[key] += x * y
+                    else:
+                        result[key] = x * y
         modulus = self.ring.modulus
         return {k: c % modulus for k, c in result.items()} if modulus else result
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from nag.numerics.deflation import MOST_WORK_ROUGHLY, Deflated, NotDeflated, deflate
 from nag.numerics.descent import Point, Round, work
-from nag.numerics.digits import LOG10_2, log_norm, middle, working
+from nag.numerics.digits import LOG10_2, log_norm, log_size, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.far_along import far_value
 from nag.numerics.implicit_function import Reduction, eliminate
@@ -37,7 +37,7 @@ PATIENCE = 0.05
 # How many digits less than it has a zero on a hyperplane is known to.
 CLOSE = 5.0
 # Binary logarithms of distances at which hyperplanes pass a singular point.
-DISTANCES = (5, 9, 13, 17)
+DISTANCES = (5, 9, 13, 17, 21)
 
 
 def digits_at(system: ExactSystem, k: int) -> int:
@@ -144,13 +144,25 @@ def curve_through(
         values, rows = system.values_at(DIGITS), system.at(DIGITS)
         series = eliminate(rows, found.point, first.rows, first.columns, order, at_points=values)
         assert series is not None
+        nearest = _trusted(series)
         for attempt in range(attempts):
-            begin = DISTANCES[: 1 + attempt % 3]
+            begin = DISTANCES[min(nearest + attempt % 3, len(DISTANCES) - 2)]
             plane = np.rint(64 * rng.normal(size=(2, found.corank))) / 64
-            dimension = _followed(system, found, series, begin[-1], plane[0] + 1j * plane[1], rng)
+            dimension = _followed(system, found, series, begin, plane[0] + 1j * plane[1], rng)
             if dimension:
                 return dimension
     return 0
+
+
+def _trusted(series: Reduction) -> int:
+    """The first of the distances where the last terms of series are small beside the first ones."""
+    ring = series.ring
+    norms = [-inf] * (ring.order + 1)
+    for key, c in ((key, c) for one in series.rest for key, c in one.items()):
+        norms[ring.degree(key)] = max(norms[ring.degree(key)], log_size(c))
+    low = next((d for d in range(2, ring.order) if norms[d] > ZERO), ring.order)
+    growth = (norms[-1] - norms[low]) / (ring.order - low) if low < ring.order else -inf
+    return next((i for i, k in enumerate(DISTANCES) if growth < k * LOG10_2), len(DISTANCES) - 1)
 
 
 def _followed(

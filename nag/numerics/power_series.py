@@ -25,7 +25,6 @@ LONG = 12
 
 Series = dict[int, Any]
 Terms = Sequence[tuple[tuple[int, ...], Any]]
-Compiled = flint.acb_mat | flint.nmod_mat
 
 
 @dataclass(frozen=True)
@@ -154,28 +153,19 @@ def shifted(rows: Sequence[Terms], centre: Sequence[Any], ring: SeriesRing) -> l
     return result
 
 
-def compiled(matrix: list[list[Any]], modulus: int) -> Compiled:
-    """A matrix for products in compiled code."""
-    if not modulus:
-        return flint.acb_mat(matrix)
-    width = len(matrix[0]) if matrix else 0
-    return flint.nmod_mat(len(matrix), width, list(chain(*matrix)), modulus)
-
-
-def product_of(
-    matrix: list[list[Any]] | Compiled, column: Sequence[Series], modulus: int
-) -> list[Series]:
+def product_of(matrix: list[list[Any]], column: Sequence[Series], modulus: int) -> list[Series]:
     """A matrix times a column of series, in compiled code."""
-    left = compiled(matrix, modulus) if isinstance(matrix, list) else matrix
     keys = sorted({k for value in column for k in value})
-    if not keys or not left.nrows():
-        return [{} for _ in range(left.nrows())]
+    if not keys or not matrix:
+        return [{} for _ in matrix]
     table = [[value.get(k, 0) for k in keys] for value in column]
-    found = left * compiled(table, modulus)
-    rows = (found if modulus else found.mid()).tolist()
-    return [
-        {k: (int(c) if modulus else c) for k, c in zip(keys, row, strict=True) if c} for row in rows
-    ]
+    if modulus:
+        left = flint.nmod_mat(len(matrix), len(column), list(chain(*matrix)), modulus)
+        found = left * flint.nmod_mat(len(column), len(keys), list(chain(*table)), modulus)
+        rows = [[int(c) for c in row] for row in found.tolist()]
+    else:
+        rows = (flint.acb_mat(matrix) * flint.acb_mat(table)).mid().tolist()
+    return [{k: c for k, c in zip(keys, row, strict=True) if c} for row in rows]
 
 
 def evaluate(series: Mapping[int, Any], ring: SeriesRing, v: Sequence[Any]) -> Any:
