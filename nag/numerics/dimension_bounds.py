@@ -35,7 +35,7 @@ from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 
 # Degrees of the dual space from which on sets of zeros through the point are looked for, if it has
 # not become smaller for two degrees.
-SEARCHES = (3, 8, 18, 36)
+SEARCHES = (3, 5, 9, 18, 36)
 # Images modulo primes that must agree.
 IMAGES = 2
 # Digits of a point on hyperplanes: zeros beside it are told from it in less.

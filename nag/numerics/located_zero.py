@@ -140,16 +140,16 @@ def _exact_zero(
     reasons = []
     # Less reach than what may hold a singular zero shows no other that stands for the point.
     least = -np.inf
-    for more in REACHES:
-        if more < least:
+    reaches = (min(error + more, max(FURTHEST, error)) for more in REACHES)
+    for reach in dict.fromkeys(max(reach, ROUNDING - DIGITS) for reach in reaches):
+        if reach < least:
             continue
-        reach = min(error + more, max(FURTHEST, error))
         try:
-            found = deflate(system, y, max(reach, ROUNDING - DIGITS), rng)
+            found = deflate(system, y, reach, rng)
         except NotDeflated as reason:
             reasons.append(str(reason))
             if isinstance(reason, SeriesTooLong):
-                least = more
+                least = reach
             continue
         if is_exact_zero(system, found):
             block = regular_block(
