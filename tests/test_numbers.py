@@ -14,9 +14,9 @@ from nag.machine_code.lanes import aligned
 from nag.machine_code.records import Reals
 from nag.tracking.ends.records import _constants, words
 from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.numbers import double_double, quad_double
+from nag.tracking.numbers import double_double, octuple_double, quad_double
 
-ARITHMETICS = (double_double, quad_double)
+ARITHMETICS = (double_double, quad_double, octuple_double)
 
 
 class Operands(NamedTuple):
@@ -61,8 +61,8 @@ def random_numbers(count: int, rng: np.random.Generator, size: float) -> np.ndar
     lanes = np.zeros((2 * count, 8))
     for lane in range(8):
         for part in range(2):
-            digits = "".join(map(str, rng.integers(0, 10, 80)))
-            value = Fraction(int(digits), 10**80) * Fraction(size) * int(rng.choice([-1, 1]))
+            digits = "".join(map(str, rng.integers(0, 10, 160)))
+            value = Fraction(int(digits), 10**160) * Fraction(size) * int(rng.choice([-1, 1]))
             lanes[part * count : (part + 1) * count, lane] = words(value, count)[:count]
     return lanes
 
