@@ -104,6 +104,13 @@ class States:
             np.full(P, MAX_STEPS),
         )
 
+    def lengthen(self, words: int) -> None:
+        """Numbers of so many words; the next arithmetic starts from what is known well."""
+        room = ((0, 0), (0, 0), (0, 0), (0, words - self.where.shape[-1]))
+        self.ends, self.safe = np.pad(self.ends, room), np.pad(self.safe, room)
+        self.safe_t = np.pad(self.safe_t, room[2:])
+        self.where, self.t = self.safe.copy(), self.safe_t.copy()
+
     def from_its_start(self, path: int, words: int) -> bool:
         """Put a path to its start, if it was lost where doubles left it: that is no point of it."""
         if self.starts is None or self.safe_t[path, 0] == 1 or self.met[path].any():
@@ -235,14 +242,8 @@ def _follow_in(
     """Follow paths in one arithmetic; those that need the next one."""
     from nag.tracking.ends import end_run
 
-    have = states.where.shape[-1]
-    if have < words:
-        room = ((0, 0), (0, 0), (0, 0), (0, words - have))
-        states.ends = np.pad(states.ends, room)
-        states.safe = np.pad(states.safe, room)
-        states.safe_t = np.pad(states.safe_t, room[2:])
-        # The next arithmetic starts from what is known well.
-        states.where, states.t = states.safe.copy(), states.safe_t.copy()
+    if states.where.shape[-1] < words:
+        states.lengthen(words)
     if words == max(DIGITS):
         states.most[pending] = states.steps[pending] + LAST_STEPS
     terms, fine = Terms(homotopy), Terms(homotopy)

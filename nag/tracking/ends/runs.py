@@ -23,7 +23,7 @@ ORDER = {2: 14, 4: 14, 8: 28}
 # the way there.
 MAX_STEPS, MOST_STEPS = 300, 3000
 # Steps of a path in 120 digits: ends that these decide take ten, and each is some 50 times as dear.
-LAST_STEPS = 30
+LAST_STEPS = 20
 MAX_WINDING = 40
 # Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
 # those of the settings.
@@ -74,7 +74,9 @@ def _batch(
     from nag.tracking.ends.end_run import Batch
 
     count, N = len(own), homotopy.N
-    most = np.minimum(states.most[own], LAST_STEPS) if words == max(ORDER) else states.most[own]
+    most = states.most[own]
+    if words == max(ORDER):
+        most = np.maximum(1, most - states.steps[own])
     outcome, winding, steps, spent = (np.zeros(count, dtype=np.int64) for _ in range(4))
     return Batch(
         count,
