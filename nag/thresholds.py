@@ -134,7 +134,8 @@ tracking.ends.follow.GAINED                 0.1     Residual of a limit over tha
                                                     further out: more is rounding, if it is below
                                                     NEARLY, and asks for more digits.
 tracking.ends.follow.NEARLY                 1e-6    See there.
-tracking.ends.follow.MOST_EVIDENCE          58      More cannot be asked of 64 digits.
+tracking.ends.follow.MOST_EVIDENCE          58      More cannot be asked of 64 digits, and 120 are
+                                                    for paths that these lose.
 tracking.ends.follow.BEYOND                 30      Error of a limit in last terms of its series.
 tracking.ends.runs.TAIL                     1e-11   Last terms of a path's power series that is
                                                     taken to converge, for the winding number in
@@ -302,8 +303,9 @@ tracking.ends.branch: LONGEST; tracking.ends.corrector:
 DOUBLES; tracking.ends.inclusion: TINY; tracking.ends.kept_points: RESIDUAL, SECOND;
 tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
-tracking.numbers.complex_numbers: HALVED; tracking.numbers.double_double: EPSILON, SMALL;
-tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
+tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.numbers.double_double:
+EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL; tracking.numbers.quad_double:
+EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
 tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
 solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING, WRITTEN;
 solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP;

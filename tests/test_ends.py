@@ -87,6 +87,16 @@ def test_solutions_far_out_are_not_taken_for_ends_at_infinity(power: int) -> Non
     assert len(paths.balls) == 4
 
 
+@pytest.mark.parametrize("power", [100, 160, 200, 240])
+def test_zeros_so_small_that_squares_of_terms_leave_the_range_are_regular(power: int) -> None:
+    x, y = Polynomial.variables(2)
+    paths = followed([x**4 - Fraction(1, 10**power), y - x**2 - x])
+    finite = paths.points[paths.status == PathStatus.REGULAR]
+    zeros = finite[:, 1] / finite[:, 0]
+    assert np.allclose(np.abs(zeros), 10.0 ** (-power / 4), rtol=1e-9, atol=0)
+    assert len({complex(np.round(z * 10.0 ** (power / 4), 6)) for z in zeros}) == 4
+
+
 def test_paths_that_were_lost_on_the_way_may_take_more_steps_than_an_end() -> None:
     # x^3 = (y^2 + e) ((y - 1/10)^2 + e) .. for y = t - 1/20: the zeros meet, but for e, each time.
     x, y = Polynomial.variables(2)

@@ -1,4 +1,4 @@
-"""Double-double and quad-double arithmetic in lanes agrees with ball arithmetic to rounding."""
+"""The arithmetics in lanes agree with ball arithmetic to rounding."""
 
 from __future__ import annotations
 
@@ -9,14 +9,17 @@ import flint
 import numpy as np
 import pytest
 
+from nag.machine_code import plain
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import aligned
+from nag.machine_code.lanes import aligned, store
 from nag.machine_code.records import Reals
+from nag.machine_code.target import processor
 from nag.tracking.ends.records import _constants, words
 from nag.tracking.numbers import complex_numbers as z
-from nag.tracking.numbers import double_double, quad_double
+from nag.tracking.numbers import double_double, octuple_double, quad_double
+from nag.tracking.numbers import double_double as number
 
-ARITHMETICS = (double_double, quad_double)
+ARITHMETICS = (double_double, quad_double, octuple_double)
 
 
 class Operands(NamedTuple):
@@ -36,7 +39,14 @@ def operations(x: Operands) -> None:
     z.write(x.results, 4, z.exponential(a, x.inverses))
 
 
+def small_operations(x: Operands) -> None:
+    a = z.read(x.a, 0)
+    z.write(x.results, 0, z.inverse(a))
+    store(x.results, 2 * number.WORDS, z.magnitude(a))
+
+
 KERNELS = {m.WORDS: Kernel(operations, None, {"number": m}) for m in ARITHMETICS}
+SMALL = {m.WORDS: Kernel(small_operations, None, {"number": m}) for m in ARITHMETICS}
 
 
 def ball(parts: np.ndarray) -> flint.acb:
@@ -61,8 +71,8 @@ def random_numbers(count: int, rng: np.random.Generator, size: float) -> np.ndar
     lanes = np.zeros((2 * count, 8))
     for lane in range(8):
         for part in range(2):
-            digits = "".join(map(str, rng.integers(0, 10, 80)))
-            value = Fraction(int(digits), 10**80) * Fraction(size) * int(rng.choice([-1, 1]))
+            digits = "".join(map(str, rng.integers(0, 10, 160)))
+            value = Fraction(int(digits), 10**160) * Fraction(size) * int(rng.choice([-1, 1]))
             lanes[part * count : (part + 1) * count, lane] = words(value, count)[:count]
     return lanes
 
@@ -83,6 +93,38 @@ def test_operations_are_exact_to_rounding(arithmetic, size: float) -> None:
                 factor = 2**16 if k == 4 else 32
                 error = abs(ball(results[k, :, lane]) - value) / scale
                 assert float(error.mid()) < factor * arithmetic.EPSILON
+
+
+@pytest.mark.parametrize("arithmetic", ARITHMETICS)
+@pytest.mark.parametrize("size", [1e-140, 1e-160, 1e-180])
+def test_numbers_whose_squares_leave_the_range_have_sizes_and_inverses(arithmetic, size) -> None:
+    count = arithmetic.WORDS
+    memory, results = aligned(2 * count), aligned(2 * count + 1)
+    memory[:8], memory[8 * count : 8 * count + 8] = 3 * size, -4 * size
+    SMALL[count](Operands(memory, memory, memory, results))
+    values = results.reshape(2 * count + 1, 8)
+    with flint.ctx.workprec(600):
+        for lane in range(8):
+            expected = 1 / flint.acb(flint.arb(3 * size), flint.arb(-4 * size))
+            error = abs(ball(values[: 2 * count, lane]) - expected) / abs(expected)
+            # What is left of the last words are whole multiples of the smallest double.
+            least = 5e-324 / size * 100
+            assert float(error.mid()) < max(32 * arithmetic.EPSILON, least)
+            assert values[-1, lane] == pytest.approx(5 * size, rel=1e-15)
+
+
+@pytest.mark.parametrize("arithmetic", ARITHMETICS)
+def test_plain_python_makes_the_same_words(arithmetic) -> None:
+    count, rng = arithmetic.WORDS, np.random.default_rng(7)
+    a, b = random_numbers(count, rng, 1.0), random_numbers(count, rng, 1.0)
+    memory = [aligned(2 * count) for _ in range(2)]
+    for place, values in zip(memory, (a, b), strict=True):
+        place[:] = values.ravel()
+    results = aligned(10 * count)
+    operands = Operands(*memory, _constants(14, count)[-1], results)
+    plain.run(operations, operands, modules={"number": arithmetic})
+    if "fma" in processor()[2] or processor()[0].startswith(("aarch64", "arm64")):
+        assert np.array_equal(results.reshape(5, 2 * count, 8), computed(count, a, b))
 
 
 @pytest.mark.parametrize("arithmetic", ARITHMETICS)

@@ -7,10 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from nag.bench.atlas.moved import moved_case
+from nag.decomposition import decompose
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.files.cases import read_case
 from nag.files.problem import system_of
+from nag.tracking.settings import Settings
 from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
 
@@ -27,3 +30,12 @@ def test_ends_that_ask_for_more_digits_are_reached_at_the_first_attempt(seed: in
     assert found.counts.failed == 0
     assert found.notes == ()
     assert {d: sum(map(len, f)) for d, f in found.fibres.items() if f} == {1: 16}
+
+
+@pytest.mark.parametrize("seed", [6, 11])
+def test_ends_that_64_digits_lose_are_found_in_120(seed: int, monkeypatch) -> None:
+    monkeypatch.chdir(SPATIAL.parent.parent)
+    name = "literature/sphere-curve-lines-point"
+    system = moved_case(name, np.random.default_rng([seed, 20])).system
+    assert not decompose(system, settings=Settings(digits=64), seed=seed).complete
+    assert decompose(system, seed=seed).complete

@@ -129,7 +129,7 @@ class Paths:
             lead, inf if nothing is known of that.
         condition: Frobenius norm of the Jacobian over its smallest singular value.
         steps: predictor steps, rejected ones included, of all arithmetics.
-        precision: decimal digits of the arithmetic used: 16, 32 or 64.
+        precision: decimal digits of the arithmetic used: 16, 32, 64 or 120.
         reason: `Reason` of a failure, 0 otherwise.
         simple: whether the end is a regular zero, be it at infinity.
         balls: regular ends that were found in more digits, by index.

@@ -25,7 +25,7 @@ class Settings:
         max_steps: steps after which a path fails.
         radius: t at which a path's safe point is kept, from which its end is looked for where a
             straight run to t = 0 leaves it doubtful.
-        digits: most decimal digits in which that is done, 16, 32 or 64.
+        digits: most decimal digits in which that is done, 16, 32, 64 or 120.
         evidence: digits beyond the least to which an end at infinity, or a singular one, must
             satisfy the exact equations (see `nag.tracking.ends.follow.digits_of_evidence`).
         retries: how often paths that prove to have jumped are tracked again, more tightly.
@@ -41,7 +41,7 @@ class Settings:
     safety: float = 0.2
     max_steps: int = 4000
     radius: float = 0.1
-    digits: int = 64
+    digits: int = 120
     evidence: int = 0
     retries: int = 3
 

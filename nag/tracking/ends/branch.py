@@ -64,10 +64,9 @@ def _round(s, r, order, j):
 def _last_terms(s, r, order, j):
     """Sizes of the last coefficients of a coordinate's logarithm, times it, and of itself."""
     q = 2 * (j * (order + 1) + order)
-    re, im = load(r.plain, q), load(r.plain, q + 1)
-    plain = square_root(fma(re, re, im * im))
-    re, im = load(r.logs, q), load(r.logs, q + 1)
-    return square_root(fma(re, re, im * im)) * z.magnitude(z.read(r.base, j)), plain
+    plain = z.length(load(r.plain, q), load(r.plain, q + 1))
+    log = z.length(load(r.logs, q), load(r.logs, q + 1))
+    return log * z.magnitude(z.read(r.base, j)), plain
 
 
 def predict(s, r, order, wanted, finishing, h):
@@ -102,7 +101,10 @@ def predict(s, r, order, wanted, finishing, h):
 
 
 def _size(data, q, lane):
-    return math.sqrt(data[8 * q + lane] ** 2 + data[8 * (q + 1) + lane] ** 2)
+    square = data[8 * q + lane] ** 2 + data[8 * (q + 1) + lane] ** 2
+    if square < z.SMALL_SQUARE:
+        return abs(complex(data[8 * q + lane], data[8 * (q + 1) + lane]))
+    return math.sqrt(square)
 
 
 def _reach(first, second, order, goal):

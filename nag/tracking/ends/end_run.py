@@ -54,7 +54,7 @@ from nag.tracking.ends.linear_algebra import (
     substitute,
 )
 from nag.tracking.ends.records import Equations, Room
-from nag.tracking.numbers import double_double, quad_double
+from nag.tracking.numbers import double_double, octuple_double, quad_double
 from nag.tracking.numbers import double_double as number
 
 # How a path ended: it is lost where its rounding errors, or its steps, leave it nothing to go on.
@@ -337,5 +337,5 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
 
 KERNELS = {
     arithmetic.WORDS: Kernel(follow_batch, "tracking", {"number": arithmetic})
-    for arithmetic in (double_double, quad_double)
+    for arithmetic in (double_double, quad_double, octuple_double)
 }

@@ -11,7 +11,7 @@ from nag.algebra.number import decimal_digits
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limit, Limits
-from nag.tracking.ends.runs import MAX_STEPS, MAX_WINDING, MOST_STEPS, ORDER, run
+from nag.tracking.ends.runs import LAST_STEPS, MAX_STEPS, MAX_WINDING, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
@@ -20,7 +20,7 @@ from nag.tracking.projective import ROUNDING
 from nag.tracking.settings import Settings
 
 # Digits of numbers of as many words.
-DIGITS = {2: 32, 4: 64}
+DIGITS = {2: 32, 4: 64, 8: 120}
 # Residual of a limit over that of the last one, further out: more says that rounding decides, if
 # the forms nearly vanish.
 GAINED, NEARLY = 0.1, 1e-6
@@ -103,6 +103,13 @@ class States:
             {},
             np.full(P, MAX_STEPS),
         )
+
+    def lengthen(self, words: int) -> None:
+        """Numbers of so many words; the next arithmetic starts from what is known well."""
+        room = ((0, 0), (0, 0), (0, 0), (0, words - self.where.shape[-1]))
+        self.ends, self.safe = np.pad(self.ends, room), np.pad(self.safe, room)
+        self.safe_t = np.pad(self.safe_t, room[2:])
+        self.where, self.t = self.safe.copy(), self.safe_t.copy()
 
     def from_its_start(self, path: int, words: int) -> bool:
         """Put a path to its start, if it was lost where doubles left it: that is no point of it."""
@@ -235,16 +242,12 @@ def _follow_in(
     """Follow paths in one arithmetic; those that need the next one."""
     from nag.tracking.ends import end_run
 
-    have = states.where.shape[-1]
-    if have < words:
-        room = ((0, 0), (0, 0), (0, 0), (0, words - have))
-        states.ends = np.pad(states.ends, room)
-        states.safe = np.pad(states.safe, room)
-        states.safe_t = np.pad(states.safe_t, room[2:])
-        # The next arithmetic starts from what is known well.
-        states.where, states.t = states.safe.copy(), states.safe_t.copy()
+    if states.where.shape[-1] < words:
+        states.lengthen(words)
+    if words == max(DIGITS):
+        states.most[pending] = states.steps[pending] + LAST_STEPS
     terms, fine = Terms(homotopy), Terms(homotopy)
-    limits = Limits(terms, words, ORDER)
+    limits = Limits(terms, words, ORDER[words])
     needs = [10.0**-digits for digits in digits_of_evidence(homotopy, settings.evidence)]
     later: list[int] = []
     while len(pending):
@@ -324,7 +327,7 @@ def _limit(
     shrink = 1e-3
     if limit is not None:
         # The last term of the series is about the power of r of its order.
-        shrink = min(0.1, max(1e-8, (need / limit.residual) ** (w / ORDER)))
+        shrink = min(0.1, max(1e-8, (need / limit.residual) ** (w / limits.order)))
     states.latest[path] = t * shrink
     return end_run.OPEN
 

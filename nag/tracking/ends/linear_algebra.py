@@ -7,7 +7,7 @@ import math
 from nag.machine_code.lanes import any_less, fma, load, select_less, splat, square_root, store
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
-from nag.tracking.numbers.error_free import power_near_inverse_root
+from nag.tracking.numbers.error_free import power_near_inverse
 
 PHASE = 1.9416
 # Part of a coordinate that a correction leaves where it takes it away.
@@ -21,8 +21,8 @@ def _power_near_inverse(r, value):
     store(r.measures, 0, value)
     for lane in range(8):
         size = r.measures[lane]
-        finite = size > 1e-150 and size < 1e150
-        r.measures[lane] = power_near_inverse_root(size * size) if finite else 1.0
+        finite = size > 1e-290 and size < 1e290
+        r.measures[lane] = power_near_inverse(size) if finite else 1.0
     return load(r.measures, 0)
 
 
@@ -44,7 +44,7 @@ def equilibrate(s, r):
         store(r.scales, i, power)
         for j in range(n):
             entry = z.read(r.matrix, i * n + j)
-            z.write(r.matrix, i * n + j, z.scale(z.scale(entry, load(r.columns, j)), power))
+            z.write(r.matrix, i * n + j, z.scale(entry, load(r.columns, j) * power))
 
 
 def _exchange(s, r, k):

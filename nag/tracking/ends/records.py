@@ -121,7 +121,7 @@ class Room(NamedTuple):
 
 # Numbers of the rows of the lanes' scalars, and of inverses of whole numbers.
 SCALARS = 20
-MOST_INVERSES = 32
+MOST_INVERSES = 64
 
 
 def _split(numerator: int, denominator: int, count: int) -> list[float]:

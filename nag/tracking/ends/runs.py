@@ -16,11 +16,14 @@ if TYPE_CHECKING:
     from nag.tracking.ends.end_run import Batch
     from nag.tracking.ends.follow import States
 
-# Order of the Taylor coefficients.
-ORDER = 14
+# Order of the Taylor coefficients, by words. Where 64 digits do not do, other paths are so near
+# that a prediction must hold to some 50 digits: twice the order then makes a quarter of the steps.
+ORDER = {2: 14, 4: 14, 8: 28}
 # Steps to an end that must hold to the least number of digits, and those of a path that is lost on
 # the way there.
 MAX_STEPS, MOST_STEPS = 300, 3000
+# Steps of a path in 120 digits: ends that these decide take ten, and each is some 50 times as dear.
+LAST_STEPS = 20
 MAX_WINDING = 40
 # Expected error of a prediction, and largest contraction of Newton's method after it, as parts of
 # those of the settings.
@@ -42,14 +45,15 @@ def run(
 
     compiled = end_run.KERNELS[words]
     compiled.prepare()
-    system = records.equations(homotopy, words, ORDER)
+    order = ORDER[words]
+    system = records.equations(homotopy, words, order)
     batches = max(1, min(threads, len(chosen) // 8))
     limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
 
     def part(first: int) -> int:
         own = chosen[first::batches]
         batch = _batch(homotopy, states, own, words, settings)
-        compiled(system, records.room(homotopy, words, ORDER), batch)
+        compiled(system, records.room(homotopy, words, order), batch)
         _keep(states, own, batch)
         limits[first::batches] = batch.limits.reshape(len(own), *limits.shape[1:])
         return int(batch.evaluations.sum())
@@ -70,10 +74,13 @@ def _batch(
     from nag.tracking.ends.end_run import Batch
 
     count, N = len(own), homotopy.N
+    most = states.most[own]
+    if words == max(ORDER):
+        most = np.maximum(1, most - states.steps[own])
     outcome, winding, steps, spent = (np.zeros(count, dtype=np.int64) for _ in range(4))
     return Batch(
         count,
-        ORDER,
+        ORDER[words],
         states.ends[own].ravel(),
         states.tried[own],
         states.straight[own],
@@ -91,7 +98,7 @@ def _batch(
         np.zeros(count * N),
         states.met[own].ravel(),
         states.curvature[own],
-        np.where([path in states.limits for path in own.tolist()], 0, states.most[own]),
+        np.where([path in states.limits for path in own.tolist()], 0, most),
         MAX_WINDING,
         int(states.close),
         ACCURACY * settings.tolerance,

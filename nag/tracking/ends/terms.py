@@ -13,7 +13,7 @@ from nag.algebra.number import Irrational, Number, rounded_fraction
 from nag.tracking.homotopy import Homotopy
 
 # Bits of working precision for numbers of as many words.
-BITS = {2: 140, 4: 280}
+BITS = {2: 140, 4: 280, 8: 560}
 # Exponents as (coordinate, exponent) pairs, and the coefficients of 1 and of t.
 Term = tuple[tuple[tuple[int, int], ...], Any, Any]
 

@@ -10,6 +10,8 @@ HALVINGS = 12
 HALVED = 2.0**-HALVINGS
 # As often it is squared at last, from an argument of at most 1.
 SQUARINGS = 6
+# Squares that are smaller have lost digits, or are zero, unless what is squared is made larger.
+SMALL_SQUARE, LARGER = 1e-270, 2.0**500
 
 
 def read(data, k):
@@ -78,7 +80,10 @@ def choose(a, b, x, y):
 def inverse(a):
     """``1 / a`` by Newton's method from the inverse in doubles."""
     re, im = rounded(a)
-    size = splat(1.0) / fma(re, re, im * im)
+    power = select_less(fma(re, re, im * im), splat(SMALL_SQUARE), splat(LARGER), splat(1.0))
+    re = re * power
+    im = im * power
+    size = power / fma(re, re, im * im)
     one = exact(splat(1.0), splat(0.0))
     result = exact(re * size, splat(0.0) - im * size)
     digits = 1
@@ -92,7 +97,15 @@ def inverse(a):
 def magnitude(a):
     """Absolute value as a double."""
     re, im = rounded(a)
-    return square_root(fma(re, re, im * im))
+    return length(re, im)
+
+
+def length(re, im):
+    """Absolute value of doubles, however small they are."""
+    square = fma(re, re, im * im)
+    larger, other = re * splat(LARGER), im * splat(LARGER)
+    root = square_root(fma(larger, larger, other * other)) / splat(LARGER)
+    return select_less(square, splat(SMALL_SQUARE), root, square_root(square))
 
 
 def largest(a, b):

@@ -46,3 +46,8 @@ def three_sum_rounded(a, b, c):
 def power_near_inverse_root(square):
     """The power of two nearest to the inverse square root of a positive double."""
     return 2.0 ** np.rint(-0.5 * math.log2(square))
+
+
+def power_near_inverse(size):
+    """The power of two nearest to the inverse of a positive double."""
+    return 2.0 ** np.rint(-math.log2(size))
