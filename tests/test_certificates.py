@@ -178,6 +178,16 @@ def test_what_more_equations_do_at_irrational_zeros_is_evidence() -> None:
     assert 140 < found.digits[0] < 160
 
 
+@pytest.mark.parametrize("power", [2, 3, 4])
+def test_zeros_that_are_deflated_several_times_are_proved_real_where_they_are(power: int) -> None:
+    for square, real in ((2, True), (-2, False)):
+        equations = (x**2 - square, (x - y) ** power)
+        certificate = certify_solutions(solve(PolynomialSystem(("x", "y"), equations)))
+        assert certificate.points.proofs == (Proof.DEFLATED,) * 2
+        assert certificate.real.tolist() == [real] * 2
+        assert certificate.not_real.tolist() == [not real] * 2
+
+
 def test_multiple_zeros_are_proved_real_where_they_are() -> None:
     equations = [(x - y) ** 2 + (x**2 + y**2 - 4) * x, x**2 + y**2 - 4]
     certificate = certify_solutions(solve(PolynomialSystem(("x", "y"), equations)))

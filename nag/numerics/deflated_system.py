@@ -69,14 +69,18 @@ def deflated_zero(
     equations, rows = list(polynomials), slices
     with flint.ctx.workdps(DIGITS):
         point = [middle(flint.acb(flint.arb(re), flint.arb(im))) for re, im in digits]
-        rounds = 0
+        rounds, of_real = 0, not len(slices)
         while len(point) <= MOST_UNKNOWNS:
             system = BallPolynomials.of(equations, rows)
             entries = [[middle(z) for z in row] for row in system.jacobian(point).tolist()]
             chosen, columns = pivots(lambda _, m=entries: m, len(point), 0, ZERO)
             if len(columns) == len(point):
-                return _proved(system, point, chosen, rounds, not len(slices))
-            found = _deflated(equations, rows, entries, point, chosen, rng)
+                return _proved(system, point, chosen, rounds, of_real)
+            parts = rng.integers(-(2**WEIGHT), 2**WEIGHT, (2, len(point) - len(chosen), len(point)))
+            # Without slices the deflated equations are real, and so is the zero in a box that
+            # holds its conjugate.
+            conditions = (parts[0] + (0j if of_real else 1j * parts[1])) * 2.0**-WEIGHT
+            found = _deflated(equations, rows, entries, point, chosen, conditions)
             if found is None:
                 return None
             equations, rows, point = found
@@ -90,9 +94,14 @@ def _deflated(
     jacobian: list[list[flint.acb]],
     point: list[flint.acb],
     chosen: Sequence[int],
-    rng: np.random.Generator,
+    conditions: np.ndarray,
 ) -> tuple[list[Polynomial], np.ndarray, list[flint.acb]] | None:
-    """The equations with a kernel vector as further unknowns, and the zero with it."""
+    """The equations with a kernel vector as further unknowns, and the zero with it.
+
+    Args:
+        conditions: on the kernel vector, the first of which is one there, the others zero: dyadic
+            numbers of so many bits that no kernel vector satisfies those without the first.
+    """
     n = len(point)
     places = list(range(n))
     lifted = [f.with_variables(2 * n, places) for f in equations]
@@ -103,12 +112,6 @@ def _deflated(
     blank = np.zeros((len(slices), n), dtype=complex)
     rows = [np.hstack([slices, blank])]
     rows.append(np.hstack([blank[:, :1], blank, slices[:, 1:]]))
-    shape = 2, n - len(chosen), n
-    # Without slices the deflated equations are real, and so is the zero in a box that holds its
-    # conjugate.
-    # Dyadic numbers of so many bits: of few, a kernel vector might satisfy conditions without e_1.
-    parts = np.ldexp(rng.integers(-(2**WEIGHT), 2**WEIGHT, shape), -WEIGHT)
-    conditions = parts[0] + (1j * parts[1] if len(slices) else 0j)
     one = np.zeros((len(conditions), 1 + n), dtype=complex)
     one[:1, 0] = -1.0
     rows.append(np.hstack([one, conditions]))
