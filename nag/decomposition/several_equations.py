@@ -42,18 +42,17 @@ def decompose_several(
     if whole is None and is_finite(reduction.reduced, rng, tracker):
         points = solved_at_once(system, rng, tracker, symmetries, finite=True)
         if points is not None:
-            return replace(points, seed=seed, settings=tracker.settings)
+            return replace(points, seed=seed, settings=tracker.settings, paths=points.paths + spent)
 
+    order = [] if whole else intersection_order(reduction.reduced.polynomials)
+    superset = whole or _one_by_one(reduction, order, flag, intersecting, tracker)
+    superset = replace(superset, counts=superset.counts + spent)
     known = Known(
         actions=[Action.of(g, reduction.frame) for g in symmetries if not g.is_identity],
         scheme=scheme,
     )
-    order = [] if whole else intersection_order(reduction.reduced.polynomials)
-    superset = whole or _one_by_one(reduction, order, flag, intersecting, tracker)
     answer, only_points = _put_together(reduction, superset, intersecting, tracker, known)
     answer = replace(answer, order=tuple(order))
-    if whole is None:
-        answer = replace(answer, paths=answer.paths + spent)
     if not answer.complete and answer.dimension > 0 and only_points:
         answer = with_points(answer, rng, tracker, symmetries) or answer
     if not answer.complete and answer.dimension <= 0:
@@ -61,7 +60,10 @@ def decompose_several(
         if points is not None and contains(points, answer):
             tracked = answer.paths.tracked + points.paths.tracked
             answer = replace(points, paths=replace(points.paths, tracked=tracked))
-    return counted(replace(answer, seed=seed, settings=tracker.settings), scheme)
+    # Zeros of a section that is whole were counted before.
+    if whole is None or not answer.complete:
+        answer = counted(answer, scheme)
+    return replace(answer, seed=seed, settings=tracker.settings)
 
 
 def _one_by_one(

@@ -164,7 +164,7 @@ def section_at_once(
         return None, counts
     d = len(section.rows)
     fibre = ends.fibre(own, d, range(len(points)))
-    return Superset({d: [fibre]}, flag, counts, ()), counts
+    return Superset({d: [fibre]}, flag, PathCounts(), ()), counts
 
 
 def mixed_volume_of_section(reduction: Reduction, rng: np.random.Generator) -> int | None:

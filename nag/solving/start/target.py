@@ -128,8 +128,7 @@ class Target:
         """
         more = () if self.in_torus else ((0,) * self.n,)
         return tuple(
-            np.array(sorted({*row, *more}), dtype=np.int64).reshape(-1, self.n)
-            for row in self.rows
+            np.array(sorted({*row, *more}), dtype=np.int64).reshape(-1, self.n) for row in self.rows
         )
 
 
