@@ -31,7 +31,7 @@ from nag.tracking.paths import PathStatus
 from nag.tracking.settings import named
 from nag.tracking.track import track
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, Tracker, homogeneous, moved
+from nag.witness.fibres import Tracker, homogeneous, moved
 from nag.witness.slices import padded
 from nag.witness.witness import PathCounts
 
