@@ -19,6 +19,7 @@ from functools import cached_property
 
 import numpy as np
 
+from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import Turns, turns_of
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Superset
@@ -32,7 +33,7 @@ from nag.tracking.settings import named
 from nag.tracking.track import track
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Tracker, homogeneous, moved
-from nag.witness.slices import padded
+from nag.witness.slices import padded, random_rows
 from nag.witness.witness import PathCounts
 
 
@@ -54,11 +55,14 @@ class ToricSection:
     def of(cls, reduction: Reduction, flag: np.ndarray) -> ToricSection | None:
         """The section by as many rows of the flag as leave points of the least dimension.
 
-        None if the system is not one of turns, or is one of more equations than variables.
+        None if the system is not one of turns, or has more equations than variables, or but one
+        loop: these ask for so few paths that finding a start system takes longer.
         """
         system, reduced = reduction.system, reduction.reduced
         turns = None if system.nonzero else turns_of(system)
-        if turns is None or not 0 <= turns.freedoms == reduced.n - len(reduced.polynomials):
+        if turns is None or len(turns.loops) < 2:
+            return None
+        if not 0 <= turns.freedoms == reduced.n - len(reduced.polynomials):
             return None
         return cls(reduction, turns, flag[: turns.freedoms])
 
@@ -167,10 +171,10 @@ def section_at_once(
     return Superset({d: [fibre]}, flag, PathCounts(), ()), counts
 
 
-def mixed_volume_of_section(reduction: Reduction, rng: np.random.Generator) -> int | None:
+def paths_at_once(system: PolynomialSystem) -> int | None:
     """How many paths `section_at_once` tracks; None if the system is not one of turns."""
-    flag = rng.standard_normal((reduction.n, 1 + reduction.n)).astype(complex)
-    section = ToricSection.of(reduction, flag)
+    reduction, rng = Reduction.of(system), np.random.default_rng(0)
+    section = ToricSection.of(reduction, random_rows(rng, reduction.n, reduction.n))
     try:
         return None if section is None else section.cells(rng).mixed_volume or None
     except StartError:

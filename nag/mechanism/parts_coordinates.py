@@ -45,6 +45,13 @@ class PartsCoordinates:
         """Estimated number of paths that equation by equation are tracked at most."""
         return fewest_estimated_paths(self.system)
 
+    @property
+    def at_once(self) -> int | None:
+        """Number of paths to a slice that are tracked before, where they may be all it takes."""
+        from nag.decomposition.toric_section import paths_at_once
+
+        return paths_at_once(self.parts.system)
+
 
 def coordinates_of_parts(parts: AssemblyModel) -> tuple[PartsCoordinates, ...]:
     """The coordinates of a linkage or a framework, those that are taken first.

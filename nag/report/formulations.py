@@ -60,8 +60,15 @@ def parts_lines(parts: AssemblyModel) -> list[str]:
     from nag.mechanism.parts_coordinates import coordinates_of_parts
 
     each = coordinates_of_parts(parts)
-    taken = next(c.formulation for c in each if c.taken)
-    return _formulation_lines(each, taken, [], "coordinates")
+    taken = next(c for c in each if c.taken)
+    lines = _formulation_lines(each, taken.formulation, [], "coordinates")
+    if taken.at_once is not None:
+        lines += [
+            f"before that, in z = c + is and w = c - is, {large(taken.at_once)} paths to a slice at "
+            "once, as many as",
+            "it may have zeros; equation by equation only if not all of them end at zeros",
+        ]
+    return lines
 
 
 def _formulation_lines(
