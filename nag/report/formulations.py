@@ -63,10 +63,10 @@ def parts_lines(parts: AssemblyModel) -> list[str]:
     taken = next(c for c in each if c.taken)
     lines = _formulation_lines(each, taken.formulation, [], "coordinates")
     if taken.at_once is not None:
+        paths = f"{large(taken.at_once)} paths to a slice at once"
         lines += [
-            f"before that, in z = c + is and w = c - is, {large(taken.at_once)} paths to a slice at "
-            "once, as many as",
-            "it may have zeros; equation by equation only if not all of them end at zeros",
+            f"before that, in z = c + is and w = c - is, {paths}, as many as it may have zeros;",
+            "equation by equation only if not all of them end at zeros",
         ]
     return lines
 

@@ -83,6 +83,12 @@ class Target:
         origins = np.array([float(b) for b in self.centres])
         return points * np.exp2(self.scales) + origins
 
+    def scaled_points(self, x: np.ndarray) -> np.ndarray:
+        """Values of ``y``, from those of the original variables, shape ``(P, n)``."""
+        if not self.scales:
+            return x
+        return (x - np.array([float(b) for b in self.centres])) * np.exp2(-np.array(self.scales))
+
     def rounding(self, points: np.ndarray) -> np.ndarray:
         """Errors that `original` adds, relative to one and the size of the result, shape ``(P,)``.
 

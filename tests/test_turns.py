@@ -1,0 +1,96 @@
+"""Pairs of variables on circles, and the complex equations between them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.expression import parse_polynomial
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.algebra.turns import turns_of
+
+numbers = st.fractions(-9, 9, max_denominator=7)
+factors = numbers.filter(bool)
+
+
+def system(variables: str, *equations: str) -> PolynomialSystem:
+    names = tuple(variables.split())
+    return PolynomialSystem(names, tuple(parse_polynomial(text, names) for text in equations))
+
+
+def test_a_loop_closes_in_one_complex_equation() -> None:
+    found = turns_of(
+        system(
+            "c1 s1 c2 s2", "c1^2 + s1^2 - 1", "3*c2^2 + 3*s2^2 - 6", "2*c1 - s2 - 1", "2*s1 + c2"
+        )
+    )
+    assert found is not None
+    assert found.pairs == ((0, 1), (2, 3))
+    assert found.squares == (1, 2)
+    assert found.loops.tolist() == [[2, 1j, -1]]
+    assert found.freedoms == 0
+
+
+@given(st.lists(st.tuples(numbers, numbers), min_size=2, max_size=3), numbers, numbers, factors)
+def test_loops_are_the_equations_in_isotropic_coordinates(plates, x, y, factor) -> None:
+    n = 2 * len(plates)
+    v = Polynomial.variables(n)
+    pairs = list(zip(v[::2], v[1::2], strict=True))
+    real = sum((c * a - s * b for (c, s), (a, b) in zip(pairs, plates, strict=True)), v[0] * 0) + x
+    imaginary = sum((s * a + c * b for (c, s), (a, b) in zip(pairs, plates, strict=True)), v[0] * 0)
+    imaginary = (imaginary + y) * factor
+    if not any(a or b for a, b in plates):
+        return
+    circles = [c * c + s * s - 1 for c, s in pairs]
+    names = tuple(f"x{i}" for i in range(n))
+    found = turns_of(PolynomialSystem(names, (imaginary, *circles, real)))
+    assert found is not None
+    rng = np.random.default_rng(0)
+    point = rng.standard_normal(n) + 1j * rng.standard_normal(n)
+    z, w = point[::2] + 1j * point[1::2], point[::2] - 1j * point[1::2]
+    first, second = (_value(f, point) for f in (real, imaginary))
+    (row,) = found.loops
+    # The equation that comes first is real in it.
+    expected = second + first * 1j * float(-factor)
+    assert row[:-1] @ z + row[-1] == pytest.approx(expected, rel=1e-12, abs=1e-12)
+    expected = second - first * 1j * float(-factor)
+    assert row[:-1].conj() @ w + row[-1].conj() == pytest.approx(expected, rel=1e-12, abs=1e-12)
+
+
+def _value(f: Polynomial, point: np.ndarray) -> complex:
+    size = max(map(abs, f.doubles), default=0.0)
+    return complex(Evaluator.of([f], f.n).values(point[None])[0, 0]) * size
+
+
+@pytest.mark.parametrize(
+    "equations",
+    [
+        ["c^2 + 2*s^2 - 1"],
+        ["c^2 + s^2"],
+        ["c^2 + s^2 - 1", "c + s - 1"],
+        ["c^2 + s^2 - 1", "c - 2*s + 1", "3*c + s - 1"],
+        ["c^2 + s^2 - 1", "c*s - 1"],
+        ["c^2 + s^2 - 1", "c^2 + s^2 - 2"],
+        ["c^2 + s^2 - sqrt(2)"],
+        ["c - s", "c + s"],
+    ],
+)
+def test_other_equations_are_none_of_turns(equations: list[str]) -> None:
+    assert turns_of(system("c s", *equations)) is None
+
+
+def test_a_variable_on_no_circle_is_none_of_turns() -> None:
+    assert turns_of(system("c s x", "c^2 + s^2 - 1", "c - x", "s + 1")) is None
+
+
+def test_a_coefficient_that_doubles_do_not_hold_is_left_alone() -> None:
+    tiny = Fraction(1, 10**400)
+    c, s = Polynomial.variables(2)
+    loops = (c * tiny + 1, s * tiny)
+    assert turns_of(PolynomialSystem(("c", "s"), (c * c + s * s - 1, *loops))) is None
