@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from fractions import Fraction
+from math import prod
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from random_linkages import random_linkage
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.turns import looped_turns
 from nag.cli.command_line import main
 from nag.decomposition import decompose, several_equations
 from nag.decomposition.reduction import Reduction
@@ -23,7 +25,7 @@ from nag.files.cases import read_case
 from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.solving import solve as solving
 from nag.solving.solve import solve
-from nag.solving.start.isotropic import IsotropicSection, looped_turns
+from nag.solving.start.isotropic import IsotropicSection
 from nag.solving.start.mixed_cells import mixed_cells
 from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
@@ -133,13 +135,17 @@ def test_what_must_not_vanish_is_left_to_others() -> None:
     assert at_once(excluding, 0) == (None, PathCounts())
 
 
-def test_circles_of_other_radii_are_those_of_scaled_variables() -> None:
+@pytest.mark.parametrize("own", [{0: 3, 1: 3}, dict.fromkeys(range(1, 10, 2), 2)])
+def test_circles_may_have_other_radii_and_equal_ratios_of_axes(own: dict[int, int]) -> None:
     system = planar("watt-six-bar")
     scaled = []
     for f in system.polynomials:
-        terms = {e: v / Fraction(3) ** (e[0] + e[1]) for e, v in f.terms.items()}
+        sizes = [prod(own.get(i, 1) ** k for i, k in enumerate(e)) for e in f.terms]
+        terms = {e: v / size for (e, v), size in zip(f.terms.items(), sizes, strict=True)}
         scaled.append(Polynomial(system.n, terms))
-    assert kinds(decompose(PolynomialSystem(system.variables, tuple(scaled)))) == {(1, 16, 1): 1}
+    changed = PolynomialSystem(system.variables, tuple(scaled))
+    assert at_once(changed, 0)[0] is not None
+    assert kinds(decompose(changed)) == Counter({(1, 16, 1): 1})
 
 
 @pytest.mark.parametrize("name", ["watt-six-bar", "assur-triad"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import sqrt
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from nag.algebra.turns import turns_of
 
 numbers = st.fractions(-9, 9, max_denominator=7)
 factors = numbers.filter(bool)
+weights = st.sampled_from([Fraction(1), Fraction(2), Fraction(3, 7)])
 
 
 def system(variables: str, *equations: str) -> PolynomialSystem:
@@ -33,34 +35,42 @@ def test_a_loop_closes_in_one_complex_equation() -> None:
     assert found is not None
     assert found.pairs == ((0, 1), (2, 3))
     assert found.squares == (1, 2)
+    assert found.weight == 1
     assert found.loops.tolist() == [[2, 1j, -1]]
     assert found.freedoms == 0
 
 
-@given(st.lists(st.tuples(numbers, numbers), min_size=2, max_size=3), numbers, numbers, factors)
-def test_loops_are_the_equations_in_isotropic_coordinates(plates, x, y, factor) -> None:
+@given(
+    st.lists(st.tuples(numbers, numbers), min_size=2, max_size=3),
+    numbers,
+    numbers,
+    factors,
+    weights,
+)
+def test_loops_are_the_equations_in_isotropic_coordinates(plates, x, y, factor, weight) -> None:
+    if not any(a or b for a, b in plates):
+        return
     n = 2 * len(plates)
     v = Polynomial.variables(n)
     pairs = list(zip(v[::2], v[1::2], strict=True))
-    real = sum((c * a - s * b for (c, s), (a, b) in zip(pairs, plates, strict=True)), v[0] * 0) + x
-    imaginary = sum((s * a + c * b for (c, s), (a, b) in zip(pairs, plates, strict=True)), v[0] * 0)
-    imaginary = (imaginary + y) * factor
-    if not any(a or b for a, b in plates):
-        return
-    circles = [c * c + s * s - 1 for c, s in pairs]
+    real, imaginary = v[0] * 0 + x, v[0] * 0 + y
+    for (c, s), (a, b) in zip(pairs, plates, strict=True):
+        real, imaginary = real + c * a - s * (weight * b), imaginary + s * a + c * b
+    imaginary = imaginary * factor
+    circles = [c * c + s * s * weight - 1 for c, s in pairs]
     names = tuple(f"x{i}" for i in range(n))
-    found = turns_of(PolynomialSystem(names, (imaginary, *circles, real)))
+    found = turns_of(PolynomialSystem(names, (real, *circles, imaginary)))
     assert found is not None
+    assert found.weight == weight
     rng = np.random.default_rng(0)
     point = rng.standard_normal(n) + 1j * rng.standard_normal(n)
-    z, w = point[::2] + 1j * point[1::2], point[::2] - 1j * point[1::2]
-    first, second = (_value(f, point) for f in (real, imaginary))
+    j = 1j * sqrt(weight)
+    z, w = point[::2] + j * point[1::2], point[::2] - j * point[1::2]
+    first, second = _value(real, point), _value(imaginary, point) / float(factor)
     (row,) = found.loops
-    # The equation that comes first is real in it.
-    expected = second + first * 1j * float(-factor)
-    assert row[:-1] @ z + row[-1] == pytest.approx(expected, rel=1e-12, abs=1e-12)
-    expected = second - first * 1j * float(-factor)
-    assert row[:-1].conj() @ w + row[-1].conj() == pytest.approx(expected, rel=1e-12, abs=1e-12)
+    near = {"rel": 1e-11, "abs": 1e-11}
+    assert row[:-1] @ z + row[-1] == pytest.approx(first + j * second, **near)
+    assert row[:-1].conj() @ w + row[-1].conj() == pytest.approx(first - j * second, **near)
 
 
 def _value(f: Polynomial, point: np.ndarray) -> complex:
@@ -71,8 +81,9 @@ def _value(f: Polynomial, point: np.ndarray) -> complex:
 @pytest.mark.parametrize(
     "equations",
     [
-        ["c^2 + 2*s^2 - 1"],
+        ["c^2 - s^2 - 1"],
         ["c^2 + s^2"],
+        ["c^2 + 2*s^2 - 1", "c + 3*s", "s - 3*c"],
         ["c^2 + s^2 - 1", "c + s - 1"],
         ["c^2 + s^2 - 1", "c - 2*s + 1", "3*c + s - 1"],
         ["c^2 + s^2 - 1", "c*s - 1"],
@@ -83,6 +94,10 @@ def _value(f: Polynomial, point: np.ndarray) -> complex:
 )
 def test_other_equations_are_none_of_turns(equations: list[str]) -> None:
     assert turns_of(system("c s", *equations)) is None
+
+
+def test_circles_of_different_kinds_are_none_of_turns() -> None:
+    assert turns_of(system("c s x y", "c^2 + s^2 - 1", "x^2 + 2*y^2 - 1")) is None
 
 
 def test_a_variable_on_no_circle_is_none_of_turns() -> None:

@@ -1,9 +1,9 @@
 """Pairs of variables on circles, and linear equations that are complex ones in them.
 
-Where c^2 + s^2 = r, the isotropic coordinates z = c + is and w = c - is have the product r. Of two
-linear equations in such pairs, one of which is the other turned by a right angle, as those by which
-a loop of a planar linkage closes, one times i plus the other is an equation in the z alone, and its
-conjugate is one in the w.
+Where c^2 + N s^2 = r, the isotropic coordinates z = c + i sqrt(N) s and w = c - i sqrt(N) s have
+the product r. Of two linear equations in such pairs, one of which is the other turned by a right
+angle, as those by which a loop of a planar linkage closes, one times i sqrt(N) plus the other is an
+equation in the z alone, and its conjugate is one in the w.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import sqrt
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 
 Pair = tuple[int, int]
+# Of one loop there are so few paths that finding a start system takes longer.
+FEWEST_LOOPS = 2
 # Coefficients of each c and each s, and the constant.
 _Linear = tuple[tuple[tuple[Fraction, Fraction], ...], Fraction]
 
@@ -28,12 +31,14 @@ class Turns:
 
     Attributes:
         pairs: the indices of c and s, two for each circle: all variables.
-        squares: the squared radius of each circle.
+        weight: the N of all circles, positive.
+        squares: the r of each circle, not zero.
         loops: the equations in z and one, complex, shape ``(L, 1 + len(pairs))``, the constants
             last; zero exactly where they are.
     """
 
     pairs: tuple[Pair, ...]
+    weight: Fraction
     squares: tuple[Fraction, ...]
     loops: np.ndarray
 
@@ -50,6 +55,7 @@ def turns_of(system: PolynomialSystem) -> Turns | None:
     rational.
     """
     circles: dict[Pair, Fraction] = {}
+    weights = set()
     linear = []
     for f in system.polynomials:
         if not f.exact:
@@ -60,27 +66,37 @@ def turns_of(system: PolynomialSystem) -> Turns | None:
         circle = _circle(f)
         if circle is None or circle[0] in circles:
             return None
-        circles[circle[0]] = circle[1]
+        circles[circle[0]] = circle[2]
+        weights.add(circle[1])
     pairs = tuple(sorted(circles))
-    if sorted(i for pair in pairs for i in pair) != list(range(system.n)):
+    if len(weights) != 1 or sorted(i for pair in pairs for i in pair) != list(range(system.n)):
         return None
-    loops = _loops([_in_pairs(f, pairs) for f in linear])
+    weight = weights.pop()
+    loops = _loops([_in_pairs(f, pairs) for f in linear], weight)
     if loops is None:
         return None
     rows = np.array(loops, dtype=np.complex128).reshape(len(loops), 1 + len(pairs))
-    return Turns(pairs, tuple(circles[pair] for pair in pairs), rows)
+    return Turns(pairs, weight, tuple(circles[pair] for pair in pairs), rows)
 
 
-def _circle(f: Polynomial) -> tuple[Pair, Fraction] | None:
-    """The pair, and the squared radius, of a multiple of c^2 + s^2 - r; None for anything else."""
+def looped_turns(system: PolynomialSystem) -> Turns | None:
+    """The turns of a system, if there are loops enough, and no more equations than variables."""
+    turns = turns_of(system)
+    if turns is None or len(turns.loops) < FEWEST_LOOPS or turns.freedoms < 0:
+        return None
+    return turns
+
+
+def _circle(f: Polynomial) -> tuple[Pair, Fraction, Fraction] | None:
+    """The pair, N and r of a multiple of c^2 + N s^2 - r; None for anything else."""
     support = sorted(f.support)
     if len(support) != 2 or len(f.terms) != 3:
         return None
     c, s = (f.terms.get(_power(f.n, i, 2), Fraction(0)) for i in support)
     constant = f.terms.get(_power(f.n, 0, 0), Fraction(0))
-    if c != s or not c or not constant:
+    if c * s <= 0 or not constant:
         return None
-    return (support[0], support[1]), -constant / c
+    return (support[0], support[1]), s / c, -constant / c
 
 
 def _power(n: int, i: int, k: int) -> Exponents:
@@ -93,33 +109,33 @@ def _in_pairs(f: Polynomial, pairs: Sequence[Pair]) -> _Linear:
     return tuple((c, s) for c, s in own), f.terms.get(_power(f.n, 0, 0), zero)
 
 
-def _loops(linear: Sequence[_Linear]) -> list[list[complex]] | None:
+def _loops(linear: Sequence[_Linear], weight: Fraction) -> list[list[complex]] | None:
     """Equations that come in twos, as complex ones; None if one has no other."""
     loops: list[list[complex]] = []
-    left = list(linear)
+    left, root = list(linear), sqrt(weight)
     while left:
         first = left.pop(0)
-        found = next(((g, q) for g in left if (q := _turned(first, g))), None)
+        found = next(((g, q) for g in left if (q := _turned(first, g, weight))), None)
         if found is None:
             return None
         other, factor = found
         left.remove(other)
-        # a c + b s and factor (a s - b c) are parts of (a - b i)(c + i s).
-        exact = [(a, -b) for a, b in first[0]] + [(first[1], other[1] / factor)]
-        row = [complex(float(x), float(y)) for x, y in exact]
+        # With j = i sqrt(N), a c + b s and a s - b c / N are parts of (a - b j / N) (c + j s).
+        exact = [(a, -b / weight) for a, b in first[0]] + [(first[1], other[1] / factor)]
+        row = [complex(float(x), float(y) * root) for x, y in exact]
         if any(not z and (x or y) for z, (x, y) in zip(row, exact, strict=True)):
             return None
         loops.append(row)
     return loops
 
 
-def _turned(first: _Linear, second: _Linear) -> Fraction | None:
+def _turned(first: _Linear, second: _Linear, weight: Fraction) -> Fraction | None:
     """How many times ``second`` is ``first``, turned by a right angle; None if it is not."""
     for (a, b), (c, s) in zip(first[0], second[0], strict=True):
         if a or b:
-            factor = -c / b if b else s / a
+            factor = -c * weight / b if b else s / a
             break
     else:
         return None
-    quarter = tuple((-b * factor, a * factor) for a, b in first[0])
+    quarter = tuple((-b * factor / weight, a * factor) for a, b in first[0])
     return factor if factor and quarter == second[0] else None

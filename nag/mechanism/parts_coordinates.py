@@ -10,7 +10,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel, in_each_coordinates
 from nag.mechanism.linkage import LinkageModel
-from nag.mechanism.path_estimates import fewest_estimated_paths, path_bound
+from nag.mechanism.path_estimates import fewest_estimated_paths, path_bound, paths_at_once
 from nag.mechanism.pins import pin_model
 
 
@@ -47,9 +47,7 @@ class PartsCoordinates:
 
     @property
     def at_once(self) -> int | None:
-        """Number of paths to a slice that are tracked before, where they may be all it takes."""
-        from nag.decomposition.toric_section import paths_at_once
-
+        """Number of paths to a slice where these may be all it takes: see `paths_at_once`."""
         return paths_at_once(self.parts.system)
 
 

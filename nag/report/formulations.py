@@ -40,6 +40,7 @@ def alternative_lines(model: Model) -> list[str]:
     """Every formulation with its numbers, the one that is taken marked."""
     covered = [a for a in model.alternatives if a.form is not None]
     lines = _formulation_lines(covered, model.formulation, [unreduced_row(model)])
+    lines += _at_once_lines(next(a for a in covered if a.formulation == model.formulation))
     lines += [
         f"  {a.formulation}: {printable(a.problem)}" for a in model.alternatives if a.form is None
     ]
@@ -62,13 +63,18 @@ def parts_lines(parts: AssemblyModel) -> list[str]:
     each = coordinates_of_parts(parts)
     taken = next(c for c in each if c.taken)
     lines = _formulation_lines(each, taken.formulation, [], "coordinates")
-    if taken.at_once is not None:
-        paths = f"{large(taken.at_once)} paths to a slice at once"
-        lines += [
-            f"before that, in z = c + is and w = c - is, {paths}, as many as it may have zeros;",
-            "equation by equation only if not all of them end at zeros",
-        ]
-    return lines
+    return lines + _at_once_lines(taken)
+
+
+def _at_once_lines(taken: Alternative | PartsCoordinates) -> list[str]:
+    """What is tracked before equations are intersected one by one, if anything is."""
+    if taken.at_once is None:
+        return []
+    paths = f"{large(taken.at_once)} paths to a slice at once"
+    return [
+        f"before that, in z = c + is and w = c - is, {paths}, as many as it may have zeros;",
+        "equation by equation only if not all of them end at zeros",
+    ]
 
 
 def _formulation_lines(

@@ -1,11 +1,12 @@
 """All zeros of equations of turns, from a polyhedral start system in isotropic coordinates.
 
-A system in pairs (c, s) on circles is one in an algebraic torus in z = c + is and w = c - is, whose
-products are known: the equations between turns are linear ones in the z and, conjugate, in their
-inverses. With as many linear equations more as it takes it has no more isolated zeros than the
-mixed volume of its monomials, and if so many are found, by multiplicity, there is nothing else: no
-other zero and no set of positive dimension (Bernshtein, The number of roots of a system of
-equations, 1975, theorems A and B). Planar linkages with links in general position have so many.
+A system in pairs (c, s) on circles c^2 + N s^2 = r is one in an algebraic torus in the isotropic
+coordinates z = c + i sqrt(N) s and w = c - i sqrt(N) s, whose products are known: the equations
+between turns are linear ones in the z and, conjugate, in their inverses. With as many linear
+equations more as it takes it has no more isolated zeros than the mixed volume of its monomials, and
+if so many are found, by multiplicity, there is nothing else: no other zero and no set of positive
+dimension (Bernshtein, The number of roots of a system of equations, 1975, theorems A and B). Planar
+linkages with links in general position have so many.
 
 Zeros are found in doubles here. Where they prove to be zeros of the equations themselves, whose
 coefficients are rational in c and s but not in z and w, the count is a proof.
@@ -16,11 +17,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import sqrt
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.turns import Turns, turns_of
+from nag.algebra.turns import Turns, looped_turns
 from nag.solving.start.mixed_cells import MixedCells, mixed_cells
 from nag.solving.start.polyhedral import polyhedral
 from nag.solving.start.target import Start, StartError, Target, Terms, homogenized
@@ -29,17 +31,6 @@ from nag.tracking.known import Known
 from nag.tracking.paths import PathStatus
 from nag.tracking.settings import Settings, named
 from nag.tracking.track import track
-
-# Of one loop there are so few paths that finding a start system takes longer.
-FEWEST_LOOPS = 2
-
-
-def looped_turns(system: PolynomialSystem) -> Turns | None:
-    """The turns of a system, if there are loops enough, and no more equations than variables."""
-    turns = turns_of(system)
-    if turns is None or len(turns.loops) < FEWEST_LOOPS or turns.freedoms < 0:
-        return None
-    return turns
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +57,8 @@ class IsotropicSection:
         none, ones = np.zeros((len(loops), pairs)), loops[:, -1:]
         own, across = loops[:, :-1] * self._radii, loops[:, :-1].conj() * self._radii
         c, s = (self.slices[:, [1 + pair[k] for pair in self.turns.pairs]] for k in (0, 1))
-        z, w = (c - 1j * s) / 2 * self._radii, (c + 1j * s) / 2 * self._radii
+        turned = s * (1j / sqrt(self.turns.weight))
+        z, w = (c - turned) / 2 * self._radii, (c + turned) / 2 * self._radii
         linear = [
             *np.hstack([own, none, ones]),
             *np.hstack([none, across, ones.conj()]),
@@ -116,7 +108,7 @@ class IsotropicSection:
         z, w = ends[:, :pairs] * self._radii, ends[:, pairs:] * self._radii
         x = np.zeros_like(ends)
         x[:, [c for c, _ in self.turns.pairs]] = (z + w) / 2
-        x[:, [s for _, s in self.turns.pairs]] = (z - w) / 2j
+        x[:, [s for _, s in self.turns.pairs]] = (z - w) / (2j * sqrt(self.turns.weight))
         return x, len(paths)
 
 
