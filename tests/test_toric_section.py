@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from linkages import kinds
-from random_linkages import random_linkage
+from random_linkages import FLAT, Axes, random_linkage, random_planar_mechanism
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
@@ -23,6 +23,7 @@ from nag.decomposition.superset import Superset
 from nag.decomposition.toric_section import paths_at_once, section_at_once
 from nag.files.cases import read_case
 from nag.mechanism.linkage import Link, Linkage, linkage_model
+from nag.mechanism.model import model
 from nag.solving import solve as solving
 from nag.solving.solve import solve
 from nag.solving.start.isotropic import IsotropicSection
@@ -181,3 +182,33 @@ def test_the_paths_that_a_linkage_takes_at_once_are_printed(
         assert main(["model", str(PLANAR / f"{name}.toml")]) == 0
         printed = capsys.readouterr().out
         assert ("16 paths to a slice at once" in printed) is said
+
+
+# Across (1, 1, 0) lengths along the two axes of the plane count differently, by a root of 2.
+TILTED = ((1, -1, 0), (0, 0, 1), (1, 1, 0))
+
+
+@pytest.mark.parametrize("axes", [FLAT, TILTED])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_placed_linkage_of_several_loops_is_cut_at_once(seed: int, axes: Axes) -> None:
+    mechanism = random_planar_mechanism(2, seed, axes)
+    made = model(mechanism)
+    assert (made.space, made.formulation) == ("planar", "E")
+    assert f"at once {paths_at_once(made.system)}" in made.reason
+    assert at_once(made.system, 0)[0] is not None
+    assert not any(f(made.reference) for f in made.system.polynomials)
+    (component,) = decompose(made.system).components
+    other = decompose(model(mechanism, "H").system)
+    assert [c.dimension for c in other.components] == [component.dimension] == [1]
+    lifted = made.lift(component.points[0])
+    unreduced = made.unreduced
+    point = np.array(made.unreduced_point(lifted))
+    assert Evaluator.of(unreduced.polynomials, unreduced.n).residuals(point[None]).max() < 1e-13
+
+
+def test_the_paths_that_a_mechanism_takes_at_once_count_in_the_choice() -> None:
+    made = model(random_planar_mechanism(3, 0))
+    first, second = made.alternatives[:2]
+    assert (first.formulation, second.formulation) == ("E", "H")
+    assert first.paths == first.at_once == 54 < second.paths
+    assert second.at_once is None
