@@ -149,6 +149,15 @@ def test_circles_may_have_other_radii_and_equal_ratios_of_axes(own: dict[int, in
     assert kinds(decompose(changed)) == Counter({(1, 16, 1): 1})
 
 
+@pytest.mark.parametrize("size", [Fraction(1, 10**12), Fraction(10**12)])
+def test_the_unit_of_length_does_not_matter(size: Fraction) -> None:
+    system = linkage_model(random_linkage(4, 1)).system
+    other = tuple(f if f.degree > 1 else f * size for f in system.polynomials)
+    found, counts = at_once(PolynomialSystem(system.variables, other), 0)
+    assert found is not None
+    assert counts.tracked == paths_at_once(system)
+
+
 @pytest.mark.parametrize("name", ["watt-six-bar", "assur-triad"])
 def test_cells_of_the_torus_are_those_of_all_isotropic_coordinates(name: str) -> None:
     turns = looped_turns(planar(name))

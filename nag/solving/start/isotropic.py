@@ -14,7 +14,6 @@ coefficients are rational in c and s but not in z and w, the count is a proof.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import sqrt
@@ -117,11 +116,15 @@ def in_doubles(settings: Settings | str) -> Settings:
     return replace(named(settings), digits=16)
 
 
-def _terms(linear: Sequence[complex]) -> Terms:
-    """The terms of a linear row, the constant last."""
+def _terms(linear: np.ndarray) -> Terms:
+    """The terms of a linear row, the constant last, the largest one of size one.
+
+    None is left out, however small: the bound counts them all.
+    """
     n = len(linear) - 1
     exponents = [tuple(int(i == j) for j in range(n)) for i in range(n + 1)]
-    return {e: complex(c) for e, c in zip(exponents, linear, strict=True) if c}
+    kept, size = np.flatnonzero(linear), np.abs(linear).max()
+    return {exponents[i]: complex(linear[i] / size) for i in kept.tolist()}
 
 
 def isotropic(
