@@ -191,6 +191,7 @@ def test_the_paths_that_a_linkage_takes_at_once_are_printed(
         assert main(["model", str(PLANAR / f"{name}.toml")]) == 0
         printed = capsys.readouterr().out
         assert ("16 paths to a slice at once" in printed) is said
+        assert ("equation by equation, at most 62" in printed) is said
 
 
 # Across (1, 1, 0) lengths along the two axes of the plane count differently, by a root of 2.

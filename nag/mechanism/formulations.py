@@ -65,10 +65,15 @@ class Alternative:
         """Number of paths to a slice where these may be all it takes: see `paths_at_once`."""
         return paths_at_once(self.system)
 
-    @cached_property
+    @property
+    def most(self) -> int:
+        """Estimated number of paths that equation by equation are tracked at most."""
+        return estimated_paths(self.system)
+
+    @property
     def paths(self) -> int:
-        """Estimated number of paths, equation by equation the most that are tracked."""
-        return self.at_once or estimated_paths(self.system)
+        """Estimated number of paths: those at once where there are such."""
+        return self.at_once or self.most
 
 
 def alternative(

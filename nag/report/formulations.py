@@ -40,7 +40,6 @@ def alternative_lines(model: Model) -> list[str]:
     """Every formulation with its numbers, the one that is taken marked."""
     covered = [a for a in model.alternatives if a.form is not None]
     lines = _formulation_lines(covered, model.formulation, [unreduced_row(model)])
-    lines += _at_once_lines(next(a for a in covered if a.formulation == model.formulation))
     lines += [
         f"  {a.formulation}: {printable(a.problem)}" for a in model.alternatives if a.form is None
     ]
@@ -61,20 +60,8 @@ def parts_lines(parts: AssemblyModel) -> list[str]:
     from nag.mechanism.parts_coordinates import coordinates_of_parts
 
     each = coordinates_of_parts(parts)
-    taken = next(c for c in each if c.taken)
-    lines = _formulation_lines(each, taken.formulation, [], "coordinates")
-    return lines + _at_once_lines(taken)
-
-
-def _at_once_lines(taken: Alternative | PartsCoordinates) -> list[str]:
-    """What is tracked before equations are intersected one by one, if anything is."""
-    if taken.at_once is None:
-        return []
-    paths = f"{large(taken.at_once)} paths to a slice at once"
-    return [
-        f"before that, in z = c + is and w = c - is, {paths}, as many as it may have zeros;",
-        "equation by equation only if not all of them end at zeros",
-    ]
+    taken = next(c.formulation for c in each if c.taken)
+    return _formulation_lines(each, taken, [], "coordinates")
 
 
 def _formulation_lines(
@@ -89,6 +76,18 @@ def _formulation_lines(
     return [
         f"{what.removesuffix('s')}s; paths: at most so many, equation by equation",
         *(f"  {line}" for line in align(rows, (0, 6))),
+        *(line for a in covered for line in _at_once_lines(a)),
+    ]
+
+
+def _at_once_lines(each: Alternative | PartsCoordinates) -> list[str]:
+    """What is tracked before equations are intersected one by one, if anything is."""
+    if each.at_once is None:
+        return []
+    return [
+        f"  {each.formulation}: {large(each.at_once)} paths to a slice at once, in z = c + is and "
+        "w = c - is, as many as it may",
+        f"  have zeros; if not all end at zeros, equation by equation, at most {large(each.most)}",
     ]
 
 
