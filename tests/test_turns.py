@@ -104,8 +104,14 @@ def test_a_variable_on_no_circle_is_none_of_turns() -> None:
     assert turns_of(system("c s x", "c^2 + s^2 - 1", "c - x", "s + 1")) is None
 
 
-def test_a_coefficient_that_doubles_do_not_hold_is_left_alone() -> None:
-    tiny = Fraction(1, 10**400)
+@pytest.mark.parametrize("extreme", [Fraction(1, 10**400), Fraction(10**400)])
+def test_numbers_that_doubles_do_not_hold_are_left_alone(extreme: Fraction) -> None:
     c, s = Polynomial.variables(2)
-    loops = (c * tiny + 1, s * tiny)
-    assert turns_of(PolynomialSystem(("c", "s"), (c * c + s * s - 1, *loops))) is None
+    for circle, first in (
+        (c * c + s * s - 1, c * extreme + 1),
+        (c * c + s * s - extreme, c * 2 + 1),
+        (c * c + s * s * extreme - 1, c + 1),
+    ):
+        second = Polynomial(2, {(0, 1): first.terms[1, 0]})
+        assert turns_of(PolynomialSystem(("c", "s"), (circle, first, second))) is None
+    assert turns_of(PolynomialSystem(("c", "s"), (c * c + s * s - 1, c * 2 + 1, s * 2))) is not None

@@ -21,6 +21,8 @@ from nag.algebra.system import PolynomialSystem
 Pair = tuple[int, int]
 # Of one loop there are so few paths that finding a start system takes longer.
 FEWEST_LOOPS = 2
+# Numbers beyond this, or below its inverse, are left alone: as doubles they might vanish.
+LARGEST = 10**100
 # Coefficients of each c and each s, and the constant.
 _Linear = tuple[tuple[tuple[Fraction, Fraction], ...], Fraction]
 
@@ -52,7 +54,7 @@ def turns_of(system: PolynomialSystem) -> Turns | None:
     """The pairs that all equations are about, and the equations between them.
 
     None if there is another variable or another equation, or one whose coefficients are not
-    rational.
+    rational or of extreme size.
     """
     circles: dict[Pair, Fraction] = {}
     weights = set()
@@ -72,6 +74,8 @@ def turns_of(system: PolynomialSystem) -> Turns | None:
     if len(weights) != 1 or sorted(i for pair in pairs for i in pair) != list(range(system.n)):
         return None
     weight = weights.pop()
+    if not all(map(_is_moderate, (weight, *circles.values()))):
+        return None
     loops = _loops([_in_pairs(f, pairs) for f in linear], weight)
     if loops is None:
         return None
@@ -85,6 +89,10 @@ def looped_turns(system: PolynomialSystem) -> Turns | None:
     if turns is None or len(turns.loops) < FEWEST_LOOPS or turns.freedoms < 0:
         return None
     return turns
+
+
+def _is_moderate(x: Fraction) -> bool:
+    return not x or 1 < LARGEST * abs(x) < LARGEST**2
 
 
 def _circle(f: Polynomial) -> tuple[Pair, Fraction, Fraction] | None:
@@ -122,10 +130,9 @@ def _loops(linear: Sequence[_Linear], weight: Fraction) -> list[list[complex]] |
         left.remove(other)
         # With j = i sqrt(N), a c + b s and a s - b c / N are parts of (a - b j / N) (c + j s).
         exact = [(a, -b / weight) for a, b in first[0]] + [(first[1], other[1] / factor)]
-        row = [complex(float(x), float(y) * root) for x, y in exact]
-        if any(not z and (x or y) for z, (x, y) in zip(row, exact, strict=True)):
+        if not all(map(_is_moderate, (x for part in exact for x in part))):
             return None
-        loops.append(row)
+        loops.append([complex(float(x), float(y) * root) for x, y in exact])
     return loops
 
 
