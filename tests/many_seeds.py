@@ -5,7 +5,8 @@
         [--changed]
 
 Prints one line a case and the totals. With `--changed`, every seed decomposes the case in other
-coordinates, with other equations (see `changed_system`); multidegrees are those of the old ones.
+coordinates, with other equations (see `nag.bench.atlas.sparse_changes`); multidegrees are those of
+the old ones.
 With a journal, a run that was cut off goes on where it stopped. Exit status 1 if any answer
 differs from what the case file knows, or is incomplete.
 """
@@ -21,10 +22,10 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from changed_system import changed
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas.sparse_changes import changed
 from nag.decomposition import decompose
 from nag.files.cases import Truth, read_case
 from nag.files.problem import symmetries_of

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from exact_counts import zero_set
 
 import nag
+from nag.bench.atlas.asked import SINGULAR, asked
+from nag.bench.atlas.curves import tangent_slice
 from nag.bench.atlas.families import FAMILIES, Family
-from nag.bench.atlas.linkages import bricard_violated
+from nag.bench.atlas.linkages import bennett_violated, bricard_violated, slider_crank
+from nag.bench.atlas.moved import GROUPS, TOO_LONG
+from nag.bench.atlas.sparse_changes import KINDS, sparsely_changed
 from nag.bench.atlas.stability import (
     Atlas,
     Cell,
@@ -23,11 +29,17 @@ from nag.bench.atlas.stability import (
     read_atlas,
     run_atlas,
 )
+from nag.bench.verdicts import agrees
 from nag.cli import main
 from nag.numerics.box_relations import overlaps
 from nag.numerics.discs import DiscPolynomials, Discs
 from nag.numerics.krawczyk import boxes_of
+from nag.numerics.local_dimension import local_dimension
 from nag.solving.solve import solve
+from nag.witness.moving import witness_at
+from nag.witness.witness import WitnessSet
+
+CASES = Path(__file__).parents[1] / "cases"
 
 
 def test_families_have_names_of_their_own() -> None:
@@ -50,6 +62,54 @@ def test_what_is_known_of_a_family_is_exact(name: str) -> None:
         problem = family.make(value, np.random.default_rng(3))
         exact = zero_set(problem.system) if problem.system.n < 3 else None
         assert exact is None or exact.agrees(problem.truth)
+
+
+@pytest.mark.parametrize("digits", [0, 2, 10, 30])
+def test_what_violates_bennetts_condition_leaves_one_simple_point(digits: int) -> None:
+    problem = bennett_violated(digits, np.random.default_rng(0))
+    exact = zero_set(replace(problem.system, nonzero=()))
+    assert exact is not None and exact.agrees(problem.truth)
+    assert bool(digits) == ((0, 1, 1) in problem.truth)
+
+
+@pytest.mark.parametrize("digits", [0, 8, 30])
+def test_slider_cranks_have_nodes_exactly_where_the_lengths_add_up(digits: int) -> None:
+    problem = slider_crank(digits, np.random.default_rng(2))
+    upright = tuple(Fraction(c) for c in (0, 1, 0, -1, 0, -1))
+    vanish = [f(upright) == 0 for f in problem.system.polynomials]
+    assert all(vanish) == (digits == 0) == bool(problem.facts)
+    if digits == 0:
+        found = local_dimension(problem.system, upright)
+        assert SINGULAR.format(found.dimension, found.tangent_dimension, 2) in problem.facts
+
+
+def test_every_case_is_in_the_atlas_or_said_to_take_too_long() -> None:
+    cases = [str(path.relative_to(CASES).with_suffix("")) for path in CASES.rglob("*.toml")]
+    run = [name for names in GROUPS.values() for name in names]
+    assert sorted([*run, *TOO_LONG]) == sorted(cases)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_sparse_changes_keep_the_zero_set(kind: str) -> None:
+    points = nag.system(["x^2 + y^2 - 2", "x*y^2 - 3*x + 1"])
+    whole = nag.system(["(x - 2*y)*(x^2 + y^2 - 2)^2", "(x - 2*y)*(y - 1)*(x + 3)"])
+    for seed in range(6):
+        for before in (points, whole):
+            after = sparsely_changed(before, np.random.default_rng(seed), kind)
+            assert zero_set(after) == zero_set(before)
+
+
+def test_points_that_are_elsewhere_than_they_say_are_no_right_answer(monkeypatch) -> None:
+    problem = tangent_slice(8, np.random.default_rng(0))
+    right = asked("slice", problem, 0, "default")
+    assert right.complete and agrees(right, problem.zero_set)
+
+    def off(*arguments: Any, **options: Any) -> WitnessSet:
+        found = witness_at(*arguments, **options)
+        return replace(found, points=found.points + 1e-12)
+
+    monkeypatch.setattr("nag.bench.atlas.asked.witness_at", off)
+    assert not agrees(asked("slice", problem, 0, "default"), problem.zero_set)
 
 
 def test_the_violated_cube_has_six_proved_configurations() -> None:
@@ -129,6 +189,22 @@ def test_a_step_back_is_told_and_the_same_share_is_not() -> None:
     assert [line.split(",")[0] for line in changes(before, _atlas(1, 1, 0))] == ["a 2: better"]
 
 
+def test_families_that_are_not_run_are_taken_from_another_atlas(tmp_path: Path, capsys) -> None:
+    kept = Path(__file__).parents[1] / "nag" / "bench" / "charts" / "stability.json"
+    before, target = read_atlas(json.loads(kept.read_text())), tmp_path / "atlas.json"
+    now = replace(before, rows=(replace(before.rows[2], text="run again"), *before.rows[4:6]))
+    (tmp_path / "now.json").write_text(json.dumps(document(now)))
+    command = ["chart", "stability", "--data", str(tmp_path / "now.json"), "--json", str(target)]
+    assert main([*command, "--rest", str(kept)]) == 0
+    found = read_atlas(json.loads(target.read_text()))
+    assert [row.name for row in found.rows] == [row.name for row in before.rows]
+    texts = {row.name: row.text for row in found.rows}
+    assert texts == {row.name: row.text for row in before.rows} | {now.rows[0].name: "run again"}
+    (tmp_path / "now.json").write_text(json.dumps(document(replace(now, seeds=3))))
+    assert main([*command, "--rest", str(kept)]) == 2
+    assert "seeds" in capsys.readouterr().err
+
+
 def test_answers_are_counted_over_seeds() -> None:
     atlas = run_atlas([replace(family_named("unity"), values=(2, 10))], seeds=2, limit=20.0)
     assert [(c.value, c.right, c.answers) for c in atlas.rows[0].cells] == [(2, 2, 2), (10, 2, 2)]
@@ -147,6 +223,7 @@ def test_the_kept_atlas_is_drawn_without_a_run(tmp_path: Path, capsys) -> None:
     "arguments",
     [
         ["--family", "nothing"],
+        ["--rest", "/nowhere/atlas.json"],
         ["--data", "/nowhere/atlas.json"],
         ["--picture", "atlas.txt"],
         ["--seeds", "0"],

@@ -59,7 +59,7 @@ def draw_case(chart: Chart, path: str) -> None:
             if curve.kind != "peer" and curve.points[0].evaluations:
                 _error(grid[1, 0], curve, style, "evaluations")
                 _share(grid[1, 1], curve, style, "evaluations")
-        _certification(grid[0, 0], chart)
+        handles |= _certification(grid[0, 0], chart)
         for row, across, of in ((0, "processor time [s]", "time"), (1, WORK, "work")):
             error, share = grid[row, :2]
             if not error.lines:
@@ -138,21 +138,18 @@ def _axes(axes: Any, across: str, up: str, title: str) -> None:
         axes.tick_params(axis="x", which="minor", labelsize=6.5, labelrotation=30)
 
 
-def _certification(axes: Any, chart: Chart) -> None:
-    """The times of proving all solutions, and all paths, as lines across."""
+def _certification(axes: Any, chart: Chart) -> dict[str, Any]:
+    """The times of proving all solutions, and all paths, as lines across, by their names."""
     noun = "paths" if chart.what == "solutions" else "loops"
-    for seconds, side, text in (
-        (chart.certification, "left", f"proof of {chart.certified} {chart.what}"),
-        (chart.path_proof, "right", f"proof of {noun}, {chart.proved_paths} of {chart.paths}"),
-    ):
-        if seconds > 0:
-            axes.axvline(seconds, color="#444444", linewidth=0.8, linestyle=(0, (1, 1)))
-            axes.annotate(
-                text, (seconds, 1), xytext=(2 if side == "left" else -2, -2), va="top", ha=side,
-                xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=6.5,
-                rotation=90,
-                color="#444444",
-            )  # fmt: skip
+    proofs = (
+        (f"proof of {chart.certified} {chart.what}", chart.certification, (0, (1, 1.5))),
+        (f"proof of {noun}, {chart.proved_paths} of {chart.paths}", chart.path_proof, (0, (5, 2))),
+    )
+    return {
+        name: axes.axvline(seconds, color="#444444", linewidth=1.0, linestyle=dashes, zorder=1)
+        for name, seconds, dashes in proofs
+        if seconds > 0
+    }
 
 
 def _named(arithmetic: str) -> str:

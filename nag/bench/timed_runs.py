@@ -41,24 +41,29 @@ class Run:
 
 @dataclass
 class _Worker:
-    """A process, our end of its pipe, the task it has, and since when."""
+    """A process, our end of its pipe, the task it has, its limit, and since when."""
 
     process: BaseProcess
     pipe: Connection
     task: Any = None
+    limit: float = 0.0
     since: float = 0.0
 
     @classmethod
-    def started(cls, work: Callable[[Any], Any], first: Any, limit: float) -> _Worker:
+    def started(cls, work: Callable[[Any], Any], first: Any) -> _Worker:
         ours, theirs = PROCESSES.Pipe()
-        process = PROCESSES.Process(target=_serve, args=(theirs, work, first, limit), daemon=True)
+        process = PROCESSES.Process(target=_serve, args=(theirs, work, first), daemon=True)
         process.start()
         theirs.close()
         return cls(process, ours)
 
-    def give(self, task: Any) -> None:
-        self.task, self.since = task, time.monotonic()
-        self.pipe.send((task,))
+    def give(self, task: Any, limit: float) -> None:
+        self.task, self.limit, self.since = task, limit, time.monotonic()
+        self.pipe.send((task, limit))
+
+    @property
+    def stuck(self) -> bool:
+        return time.monotonic() - self.since > LONGEST_WAIT * self.limit
 
     def end(self) -> None:
         self.process.kill()
@@ -66,7 +71,7 @@ class _Worker:
         self.pipe.close()
 
 
-def _serve(pipe: Connection, work: Callable[[Any], Any], first: Any, limit: float) -> None:
+def _serve(pipe: Connection, work: Callable[[Any], Any], first: Any) -> None:
     """Work on what comes through ``pipe``; the signal of the timer ends the process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGPROF, signal.SIG_DFL)
@@ -74,7 +79,7 @@ def _serve(pipe: Connection, work: Callable[[Any], Any], first: Any, limit: floa
         work(first)
     while True:
         try:
-            (task,) = pipe.recv()
+            task, limit = pipe.recv()
         except EOFError:
             return
         begin, value, error = time.process_time(), None, ""
@@ -94,7 +99,7 @@ def timed_runs(
     work: Callable[[Any], Any],
     tasks: Iterable[Any],
     *,
-    limit: float,
+    limit: float | Callable[[Any], float],
     jobs: int = 1,
     first: Any = None,
 ) -> Iterator[Run]:
@@ -103,41 +108,43 @@ def timed_runs(
     Args:
         work: a function of a module; it, tasks and results must be picklable.
         tasks: drawn as processes become free.
-        limit: seconds of processor time after which a call is ended.
+        limit: seconds of processor time after which a call is ended, for all tasks or for each.
         jobs: number of processes.
         first: a task that each new process does beforehand, which is neither timed nor reported:
             what is loaded on first use is loaded then.
     """
     tasks, workers = iter(tasks), []
+    limit_of = limit if callable(limit) else lambda _: limit
     try:
         for task in tasks:
-            workers.append(_Worker.started(work, first, limit))
-            workers[-1].give(task)
+            workers.append(_Worker.started(work, first))
+            workers[-1].give(task, limit_of(task))
             if len(workers) == jobs:
                 break
         while workers:
             ready = wait([w.pipe for w in workers], timeout=1.0)
             for k, worker in reversed(list(enumerate(workers))):
-                stuck = time.monotonic() - worker.since > LONGEST_WAIT * limit
+                stuck = worker.stuck
                 if worker.pipe not in ready and not stuck:
                     continue
-                run = _received(worker, limit, stuck)
+                run = _received(worker, stuck)
                 yield run
                 if run.slow:
                     worker.end()
-                    workers[k] = worker = _Worker.started(work, first, limit)
+                    workers[k] = worker = _Worker.started(work, first)
                 task = next(tasks, _received)
                 if task is _received:
                     worker.end()
                     del workers[k]
                 else:
-                    worker.give(task)
+                    worker.give(task, limit_of(task))
     finally:
         for worker in workers:
             worker.end()
 
 
-def _received(worker: _Worker, limit: float, stuck: bool) -> Run:
+def _received(worker: _Worker, stuck: bool) -> Run:
+    limit = worker.limit
     try:
         if stuck:
             return Run(worker.task, None, limit, slow=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from statistics import median
 
 from nag.algebra.symmetry import SignedPermutation
@@ -20,12 +20,13 @@ VERDICTS = ("right", "incomplete", "slow", "wrong", "error")
 
 @dataclass(frozen=True)
 class Answer:
-    """What was found, whether it is said to be all, and what is said beside."""
+    """What was found, whether it is said to be all, what is said beside, and counts of facts."""
 
     method: str
     components: Components
     complete: bool
     notes: str = ""
+    facts: Counter[str] = field(default_factory=Counter)
 
 
 def answered(
@@ -52,7 +53,7 @@ def agrees(answer: Answer, truth: ZeroSet) -> bool:
     """Whether the answer is the truth, as far as its method looks for it."""
     if answer.method == "solve" and truth.dimension is None:
         return ZeroSet.of(answer.components).points == truth.points
-    return truth.agrees(answer.components)
+    return truth.agrees(answer.components) and answer.facts == truth.facts
 
 
 def verdict(run: Run, truth: ZeroSet | None) -> str | None:
@@ -69,12 +70,13 @@ def verdict(run: Run, truth: ZeroSet | None) -> str | None:
     return "right" if agrees(run.value, truth) else "wrong"
 
 
-def in_words(components: Components) -> str:
+def in_words(components: Components, facts: Counter[str] | None = None) -> str:
     """Like "3 isolated, 1 isolated mult 2, 1 of dim 1 deg 4"."""
     parts = []
     for (dimension, degree, multiplicity), count in sorted(components.items()):
         kind = f"{count} isolated" if dimension == 0 else f"{count} of dim {dimension} deg {degree}"
         parts.append(kind + (f" mult {multiplicity}" if multiplicity != 1 else ""))
+    parts += [f"{count} {text}" for text, count in sorted((facts or {}).items())]
     return ", ".join(parts) or "empty"
 
 
@@ -84,8 +86,8 @@ def known(truth: ZeroSet | None, method: str) -> str:
         return "not known"
     if truth.dimension is not None:
         return f"of dimension {truth.dimension}"
-    if method == "decompose" and truth.components is not None:
-        return in_words(truth.components)
+    if method != "solve" and truth.components is not None:
+        return in_words(truth.components, truth.facts)
     text = in_words(Counter({(0, 1, k): count for k, count in truth.points.items()}))
     if method == "decompose":
         sums = (f"degrees in dim {d} mult {m}: {s}" for (d, m), s in sorted(truth.degrees.items()))
@@ -98,7 +100,8 @@ def described(run: Run, truth: ZeroSet | None) -> str:
     if run.value is None:
         return run.error or f"ended after {run.seconds:g} s"
     notes = f" ({run.value.notes})" if not run.value.complete else ""
-    return f"{in_words(run.value.components)}; known: {known(truth, run.value.method)}{notes}"
+    found = in_words(run.value.components, run.value.facts)
+    return f"{found}; known: {known(truth, run.value.method)}{notes}"
 
 
 def summary(counts: Counter[str], seconds: Sequence[float]) -> str:

@@ -18,6 +18,7 @@ class ZeroSet:
         degrees: by dimension, above 0, and multiplicity, the sum of the components' degrees.
         components: all components, isolated zeros included, or None where only the sums of their
             degrees are known.
+        facts: what else is known, in words, each with how often it is so.
         dimension: where it is not None, nothing but the dimension is known; -1 for the empty set.
     """
 
@@ -25,10 +26,11 @@ class ZeroSet:
     degrees: Counter[tuple[int, int]] = field(default_factory=Counter)
     components: Components | None = None
     dimension: int | None = None
+    facts: Counter[str] = field(default_factory=Counter)
 
     @classmethod
-    def of(cls, components: Components) -> ZeroSet:
-        """The zero set that has these components."""
+    def of(cls, components: Components, facts: Counter[str] | None = None) -> ZeroSet:
+        """The zero set that has these components, and of which these facts are known."""
         points: Counter[int] = Counter()
         degrees: Counter[tuple[int, int]] = Counter()
         for (dimension, degree, multiplicity), count in components.items():
@@ -36,7 +38,7 @@ class ZeroSet:
                 degrees[dimension, multiplicity] += count * degree
             else:
                 points[multiplicity] += count
-        return cls(points, degrees, Counter(components))
+        return cls(points, degrees, Counter(components), facts=Counter(facts or {}))
 
     def agrees(self, components: Components) -> bool:
         """Whether these are the components, as far as is known here."""

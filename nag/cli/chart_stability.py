@@ -43,6 +43,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--against", metavar="FILE", default=str(KEPT), help="an earlier atlas (default: the kept)"
     )
+    parser.add_argument(
+        "--rest", metavar="FILE", help="take the families that are not run from the atlas in FILE"
+    )
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
@@ -56,13 +59,19 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     before = _read(options.against) if Path(options.against).exists() else None
     if before is None and options.against != str(KEPT):
         raise UsageError(f"--against: {options.against}: there is no such file")
+    rest = _read(options.rest) if options.rest is not None else None
     atlas = _read(options.data) if options.data is not None else _run(options)
 
     from nag.bench.atlas.picture import draw
-    from nag.bench.atlas.stability import changes, document, table
+    from nag.bench.atlas.stability import changes, completed, document, table
     from nag.files.json_text import lay_out
     from nag.report.table import align, printable
 
+    if rest is not None:
+        try:
+            atlas = completed(atlas, rest)
+        except ValueError as error:
+            raise UsageError(f"--rest: {options.rest}: {error}") from None
     write_text(options.json, lay_out(document(atlas)) + "\n")
     for path in options.picture or ():
         write_picture(path, lambda target: draw(atlas, target))

@@ -141,11 +141,11 @@ def curve_through(
     while order > 2 and work(found.corank, order, [first]) > MOST_WORK_ROUGHLY:
         order -= 1
     with working(DIGITS):
-        slopes, rows = system.values_at(DIGITS).jacobian, system.at(DIGITS)
-        series = eliminate(rows, found.point, first.rows, first.columns, order, slopes=slopes)
+        values, rows = system.values_at(DIGITS), system.at(DIGITS)
+        series = eliminate(rows, found.point, first.rows, first.columns, order, at_points=values)
         assert series is not None
         for attempt in range(attempts):
-            begin = DISTANCES[: 2 if attempt % 2 else 1]
+            begin = DISTANCES[: 1 + attempt % 3]
             plane = np.rint(64 * rng.normal(size=(2, found.corank))) / 64
             dimension = _followed(system, found, series, begin[-1], plane[0] + 1j * plane[1], rng)
             if dimension:

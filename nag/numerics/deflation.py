@@ -159,10 +159,15 @@ def deflate(
         slopes: Callable[[Point], list[list[Any]]] = system.values_at(DIGITS).jacobian
         point, centre = list(x), list(x)
         while True:
-            rounds.append(regular_block(slopes, centre, reach, rng))
-            left = len(centre) - len(rounds[-1].columns)
-            if len(rounds) > 1 and left == len(centre):
+            this = regular_block(slopes, centre, reach, rng)
+            left = len(centre) - len(this.columns)
+            if rounds and left == len(centre):
                 raise NotDeflated("its error is too large to see which derivatives vanish there")
+            if rounds and rounds[-1].order == 1:
+                # What remained has a linear part, at the sharpened point: both are one block.
+                rounds[-1] = rounds[-1].joined(this)
+            else:
+                rounds.append(this)
             found = sharpen(system, point, rounds)
             if found is None:
                 raise NotDeflated("Newton's method does not converge to a zero there")

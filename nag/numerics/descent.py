@@ -15,7 +15,8 @@ import flint
 
 from nag.numerics.digits import log_norm
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.implicit_function import Slopes, eliminate
+from nag.numerics.implicit_function import eliminate
+from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives, evaluate
 
 Point = list[flint.acb]
@@ -28,6 +29,17 @@ class Round:
     rows: tuple[int, ...]
     columns: tuple[int, ...]
     order: int = 0
+
+    def joined(self, other: Round) -> Round:
+        """One round for this one and another one of the equations that it leaves as they are."""
+        rows = (*self.rows, *_others(self.rows, other.rows))
+        return Round(rows, (*self.columns, *_others(self.columns, other.columns)), other.order)
+
+
+def _others(taken: Sequence[int], places: Sequence[int]) -> list[int]:
+    """The numbers at these places among those that are not taken."""
+    left = [i for i in range(len(taken) + max(places, default=-1) + 1) if i not in taken]
+    return [left[k] for k in places]
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,8 +102,8 @@ def descend(
         order: of the series of what remains after the last round.
         along: displacements of the variables that the rounds do not determine; default zero.
     """
-    slopes = system.values_at(digits).jacobian
-    return _descend(system.at(digits), centre, rounds, order, along, slopes)
+    at_points = system.values_at(digits)
+    return _descend(system.at(digits), centre, rounds, order, along, at_points)
 
 
 def _descend(
@@ -100,11 +112,11 @@ def _descend(
     rounds: Sequence[Round],
     order: int,
     along: Sequence[flint.acb] | None,
-    slopes: Slopes | None,
+    at_points: PointValues | None,
 ) -> Descent | None:
     this = rounds[0]
     total = total_order(rounds, order)
-    reduction = eliminate(rows, centre, this.rows, this.columns, total, slopes=slopes)
+    reduction = eliminate(rows, centre, this.rows, this.columns, total, at_points=at_points)
     if reduction is None:
         return None
     ring, rest = reduction.ring, reduction.rest

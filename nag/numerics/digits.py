@@ -66,6 +66,8 @@ def log_size(z: flint.acb | int) -> float:
     size = hypot(rounded.real, rounded.imag)
     if SMALLEST < size < LARGEST:
         return log10(size)
+    if not z:
+        return -np.inf
     if not z.is_finite():
         return np.inf
     return LOG10_2 * max(_log2(z.real), _log2(z.imag))

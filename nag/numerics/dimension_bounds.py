@@ -27,7 +27,7 @@ from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import LocalDimension
-from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, decimal
+from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, known_digits
 from nag.numerics.located_zero import Zero, is_exact, located_zero
 from nag.numerics.null_space import Field, PrimeField, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, Terms
@@ -35,7 +35,7 @@ from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 
 # Degrees of the dual space from which on sets of zeros through the point are looked for, if it has
 # not become smaller for two degrees.
-SEARCHES = (3, 8, 18, 36)
+SEARCHES = (3, 5, 9, 18, 36)
 # Images modulo primes that must agree.
 IMAGES = 2
 # Digits of a point on hyperplanes: zeros beside it are told from it in less.
@@ -66,15 +66,30 @@ def bounds(
     Args:
         error: decimal logarithm of the point's error in each coordinate; None if it is exact.
     """
+    found, zero = _bounds(polynomials, point, error, rng)
+    return found if zero is None else _told(found, zero)
+
+
+def _bounds(
+    polynomials: Sequence[Polynomial],
+    point: Sequence[Any],
+    error: float | None,
+    rng: np.random.Generator,
+) -> tuple[LocalDimension, list[flint.acb] | None]:
+    """Bounds, and the zero in balls; None if there is none."""
     with working(DIGITS):
         zero, factors, reason = located_zero(polynomials, point, error, rng)
         if zero is None:
             here = np.array([complex(float(c)) if is_exact(c) else complex(c) for c in point])
-            return LocalDimension(here, None, 0, len(point), 0, 0, (), "", reason)
-        sharpened = [c * f for c, f in zip(zero.found.point, factors, strict=True)]
+            return LocalDimension(here, None, 0, len(point), 0, 0, (), "", reason), None
         answer = _at_zero(zero, _on_hypersurface(polynomials, zero, factors), rng)
-        digits = tuple((decimal(c.real), decimal(c.imag)) for c in sharpened)
-        return replace(answer, point=doubles(sharpened), digits=digits)
+        return answer, [c * f for c, f in zip(zero.balls, factors, strict=True)]
+
+
+def _told(found: LocalDimension, zero: Sequence[flint.acb]) -> LocalDimension:
+    """What was found, with the digits of the zero that its balls leave."""
+    digits = tuple((known_digits(c.real), known_digits(c.imag)) for c in zero)
+    return replace(found, point=doubles([middle(c) for c in zero]), digits=digits)
 
 
 def reduced_bounds(
@@ -94,14 +109,11 @@ def reduced_bounds(
         reach = 10.0 ** min(error + max(REACHES), max(FURTHEST, error))
         if (moved > reach * np.maximum(1.0, np.abs(given))).any():
             return None
-    found = bounds(elimination.system.polynomials, kept, error, rng)
-    if not found.digits:
+    found, zero = _bounds(elimination.system.polynomials, kept, error, rng)
+    if zero is None:
         return replace(found, point=np.array([complex(c) for c in elimination.lift(found.point)]))
     with working(DIGITS):
-        precise = [flint.acb(flint.arb(re), flint.arb(im)) for re, im in found.digits]
-        lifted = [_value(image, precise) for image in elimination.images]
-        digits = tuple((decimal(c.real), decimal(c.imag)) for c in lifted)
-        return replace(found, point=doubles(lifted), digits=digits)
+        return _told(found, [_value(image, zero) for image in elimination.images])
 
 
 def _value(image: Polynomial, point: Sequence[flint.acb]) -> flint.acb:

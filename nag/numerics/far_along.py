@@ -18,11 +18,12 @@ from math import log10
 import flint
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
 from nag.numerics.descent import Point, Round, descend
 from nag.numerics.digits import doubles, log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.sharpening import DIGITS, LARGEST_INVERSE, predicted, sharpen
+from nag.numerics.implicit_function import Matrix
+from nag.numerics.rounds_in_doubles import RoundsInDoubles
+from nag.numerics.sharpening import ARRIVED, DIGITS, LARGEST_INVERSE, predicted, sharpen
 
 # How far a set is followed in the variables that are free, or in any, all of them scaled to a size
 # of one (much further out many sets are nearly singular); and in how many steps at most.
@@ -52,11 +53,12 @@ def far_value(
         digits: to which their zeros are known.
     """
     left = len(point) - sum(len(r.columns) for r in rounds)
+    known = RoundsInDoubles.of(system, rounds) if inverse < GOOD else None
     for attempt in range(DIRECTIONS):
         turn = np.exp(1j * (0.3 + np.arange(left) + 2.0 * attempt))
         start = _Place(list(point), 0.0, FIRST)
-        if len(rounds) == 1 and inverse < GOOD:
-            start = _in_doubles(_Block.of(system, rounds[0], turn), start)
+        if known is not None:
+            start = _in_doubles(known, turn, start)
         end = _in_digits(system, rounds, turn, start)
         if end is None:
             continue
@@ -82,62 +84,16 @@ class _Place:
         return self.gone >= FAR or log_norm(self.point) >= log10(AT_MOST)
 
 
-@dataclass(frozen=True, eq=False)
-class _Block:
-    """Regular equations, their variables, and a direction in the others."""
-
-    evaluator: Evaluator
-    columns: np.ndarray
-    free: np.ndarray
-    direction: np.ndarray
-
-    @classmethod
-    def of(cls, system: ExactSystem, this: Round, direction: np.ndarray) -> _Block:
-        rows = [system.at(DIGITS)[i] for i in this.rows]
-        exponents = list(dict.fromkeys(e for row in rows for e, _ in row)) or [(0,) * system.n]
-        place = {e: i for i, e in enumerate(exponents)}
-        coefficients = np.zeros((len(rows), len(exponents)), dtype=complex)
-        for line, row in zip(coefficients, rows, strict=True):
-            for e, c in row:
-                line[place[e]] += complex(c)
-        free = np.array([i for i in range(system.n) if i not in this.columns], dtype=np.int64)
-        columns = np.array(this.columns, dtype=np.int64)
-        evaluator = Evaluator(system.n, np.array(exponents, dtype=np.int64), coefficients)
-        return cls(evaluator, columns, free, direction)
-
-    def tangent(self, x: np.ndarray) -> np.ndarray:
-        slopes = self.evaluator.jacobian(x)
-        along = np.zeros(len(x), dtype=complex)
-        along[self.free] = self.direction
-        right = slopes[:, self.free] @ self.direction
-        along[self.columns] = -np.linalg.solve(slopes[:, self.columns], right)
-        return along
-
-    def ahead(self, x: np.ndarray, h: float) -> np.ndarray:
-        """A step along the set by the classical method of Runge and Kutta."""
-        a = self.tangent(x)
-        b = self.tangent(x + h / 2 * a)
-        c = self.tangent(x + h / 2 * b)
-        d = self.tangent(x + h * c)
-        return x + h / 6 * (a + 2 * b + 2 * c + d)
-
-    def newton(self, x: np.ndarray) -> np.ndarray:
-        step = np.zeros(len(x), dtype=complex)
-        block = self.evaluator.jacobian(x)[:, self.columns]
-        step[self.columns] = np.linalg.solve(block, self.evaluator.values(x[None])[0])
-        return step
-
-
-def _in_doubles(block: _Block, start: _Place) -> _Place:
+def _in_doubles(known: RoundsInDoubles, direction: np.ndarray, start: _Place) -> _Place:
     """As far along the set as doubles do."""
     x, gone, h = doubles(start.point), start.gone, start.step
     for _ in range(STEPS):
         if gone >= FAR or np.abs(x).max() >= AT_MOST:
             break
         try:
-            ahead = block.ahead(x, h)
-            first = block.newton(ahead)
-            second = block.newton(ahead - first)
+            ahead = known.ahead(x, direction, h)
+            first = known.newton(ahead)
+            second = known.newton(ahead - first)
         except np.linalg.LinAlgError:
             break
         moved, one, two = (float(np.abs(v).max()) for v in (ahead - x, first, second))
@@ -182,15 +138,29 @@ def _step(
     one_round = len(rounds) == 1
     along = [c * h for c in turns]
     ahead = (_ahead if one_round else predicted)(system, x, rounds, along)
-    found = None if ahead is None else descend(system, DIGITS, ahead, rounds, 1)
-    if ahead is not None and found is not None and found.inverse < LARGEST_INVERSE:
+    step = None if ahead is None else _newton(system, rounds, ahead)
+    if ahead is not None and step is not None:
         moved = log_norm(a - b for a, b in zip(ahead, x, strict=True))
-        one, small = log_norm(found.displacement), log10(SMALL if one_round else SMALL_ROUGHLY)
-        if one < moved + small:
+        one, small = log_norm(step), log10(SMALL if one_round else SMALL_ROUGHLY)
+        nearer = _moved(ahead, step, 1.0)
+        second = _newton(system, rounds, nearer) if one < moved + small else None
+        # A second step that is not much smaller may belong to another sheet.
+        if second is not None and log_norm(second) <= max(one + log10(CONTRACTION), ARRIVED):
             longer = 2.0 if one < moved + small - (1.2 if one_round else 0.6) else 1.0
-            point = [middle(a + b) for a, b in zip(ahead, found.displacement, strict=True)]
-            return _Place(point, place.gone + h, h * longer)
-    return _Place(x, place.gone, h / 2)
+            return _Place(_moved(nearer, second, 1.0), place.gone + h, h * longer)
+    # What the last step left of its error must be small beside the next, smaller one.
+    left = _newton(system, rounds, x)
+    return _Place(x if left is None else _moved(x, left, 1.0), place.gone, h / 2)
+
+
+def _newton(system: ExactSystem, rounds: Sequence[Round], x: Point) -> Point | None:
+    """Newton's step in the variables that the rounds determine; None where they are singular."""
+    if len(rounds) > 1:
+        found = descend(system, DIGITS, x, rounds, 1)
+        return found.displacement if found and found.inverse < LARGEST_INVERSE else None
+    functions = system.values_at(DIGITS)
+    values = functions.values(x)
+    return _solved(functions.jacobian(x), rounds[0], [values[i] for i in rounds[0].rows])
 
 
 def _ahead(
@@ -215,15 +185,22 @@ def _tangent(
     system: ExactSystem, x: Point, this: Round, along: Sequence[flint.acb]
 ) -> Point | None:
     slopes = system.values_at(DIGITS).jacobian(x)
-    step = [flint.acb(0)] * len(x)
     free = [j for j in range(len(x)) if j not in this.columns]
-    for j, v in zip(free, along, strict=True):
-        step[j] = v
+    right = [sum(slopes[i][j] * v for j, v in zip(free, along, strict=True)) for i in this.rows]
+    step = _solved(slopes, this, right)
+    if step is not None:
+        for j, v in zip(free, along, strict=True):
+            step[j] = v
+    return step
+
+
+def _solved(slopes: Matrix, this: Round, right: Sequence[flint.acb]) -> Point | None:
+    """The change of a block's variables that takes so much from its equations."""
+    step = [flint.acb(0)] * len(slopes[0])
     if this.columns:
-        right = [[sum(slopes[i][j] * step[j] for j in free)] for i in this.rows]
         block = flint.acb_mat([[slopes[i][j] for j in this.columns] for i in this.rows])
         try:
-            found = block.solve(flint.acb_mat(right)).mid().entries()
+            found = block.solve(flint.acb_mat(len(right), 1, right)).mid().entries()
         except ZeroDivisionError:
             return None
         for j, c in zip(this.columns, found, strict=True):

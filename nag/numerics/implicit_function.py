@@ -7,23 +7,24 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import chain
 from typing import Any
 
 import flint
 
+from nag.numerics.composition import Composition
 from nag.numerics.digits import log_norm, middle
+from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Series, SeriesRing, Terms, composed, product_of, shifted
 
 Matrix = list[list[Any]]
-Slopes = Callable[[Sequence[Any]], Matrix]
 
-# Newton steps for the values at the centre, which may not be zero yet; the slopes are taken anew
-# where a step is larger than rounding, as a share of the digits.
-CONSTANT_STEPS, EXACT = 2, -0.8
+# Newton steps for the values at the centre, which may not be zero yet. Slopes are taken anew after
+# each but those that are rounding, of so many digits beside those that the inverse takes: what is
+# deflated by their series converges no faster than they are known.
+CONSTANT_STEPS, ROUNDING = 2, 5.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +70,7 @@ def eliminate(
     columns: Sequence[int],
     order: int,
     modulus: int = 0,
-    slopes: Slopes | None = None,
+    at_points: PointValues | None = None,
 ) -> Reduction | None:
     """Solve the equations ``solved`` for the variables ``columns`` as series in the others.
 
@@ -80,7 +81,8 @@ def eliminate(
         solved, columns: as many indices of rows as of variables.
         order: of the series.
         modulus: a prime, for arithmetic modulo it.
-        slopes: the Jacobian of ``rows`` at a point, where there is a faster way to it.
+        at_points: the same rows as functions, where they are known so: a faster way to their
+            values and slopes.
 
     Returns:
         None if the block of the Jacobian is singular.
@@ -93,31 +95,30 @@ def eliminate(
         images = _images(centre, free, ring)
         return Reduction(ring, images, shifted(rest_rows, centre, ring), -float("inf"))
     chosen = [rows[i] for i in solved]
-    slopes = slopes or partial(jacobian, rows, modulus=modulus)
-    found = _at_centre(chosen, slopes, centre, solved, columns, modulus)
+    functions = at_points or _Rows(rows, modulus)
+    found = _at_centre(functions, centre, solved, columns, modulus)
     if found is None:
         return None
     centre, gradients, inverse = found
-    images = _images(centre, free, ring)
-    if ring.order:
-        across = [{ring.unit(k): gradients[i][j] for k, j in enumerate(free)} for i in solved]
-        for j, linear in zip(columns, product_of(inverse, across, modulus), strict=True):
-            ring.add(images[j], linear, -1)
-    for degree in range(2, ring.order):
-        values = composed(chosen, images, SeriesRing(ring.m, degree, modulus))
-        for j, step in zip(columns, product_of(inverse, values, modulus), strict=True):
-            ring.add(images[j], step, -1)
-    values = composed([*chosen, *rest_rows], images, ring)
-    rest = values[len(chosen) :]
-    # What the last step changes in the equations that remain is linear in it, to this order.
-    steps = product_of(inverse, values[: len(chosen)], modulus)
-    for j, step in zip(columns, steps, strict=True):
-        ring.add(images[j], step, -1)
+    images, rest = _images(centre, free, ring), [{} for _ in rest_rows]
     outer = [[gradients[i][j] for j in columns] for i in others]
-    for value, change in zip(rest, product_of(outer, steps, modulus), strict=True):
-        ring.add(value, change, -1)
-    size = 0.0 if modulus else log_norm(c for row in inverse for c in row)
-    return Reduction(ring, images, rest, size)
+    composition = Composition.of([*chosen, *rest_rows], len(centre), ring)
+    for degree in range(ring.order + 1):
+        known = [{k: c for k, c in image.items() if ring.degree(k) == degree} for image in images]
+        values = composition.extended(known)
+        for series, value in zip(rest, values[len(chosen) :], strict=True):
+            series.update(value)
+        if not degree:
+            continue
+        # What a step changes in terms of its degree is linear in it.
+        steps = product_of(inverse, values[: len(chosen)], modulus)
+        for j, step in zip(columns, steps, strict=True):
+            ring.add(images[j], step, -1)
+        for series, change in zip(rest, product_of(outer, steps, modulus), strict=True):
+            ring.add(series, change, -1)
+        if degree < ring.order:
+            composition.lower(dict(zip(columns, steps, strict=True)))
+    return Reduction(ring, images, rest, 0.0 if modulus else _size(inverse))
 
 
 def _images(centre: Sequence[Any], free: Sequence[int], ring: SeriesRing) -> list[Series]:
@@ -128,31 +129,55 @@ def _images(centre: Sequence[Any], free: Sequence[int], ring: SeriesRing) -> lis
     return images
 
 
+@dataclass(frozen=True)
+class _Rows:
+    """Polynomials as functions, by series."""
+
+    rows: Sequence[Terms]
+    modulus: int
+
+    def values(self, x: Sequence[Any]) -> list[Any]:
+        ring = SeriesRing(0, 0, self.modulus)
+        constants = [{0: c} if c else {} for c in x]
+        return [value.get(0, 0) for value in composed(self.rows, constants, ring)]
+
+    def jacobian(self, x: Sequence[Any]) -> Matrix:
+        return jacobian(self.rows, x, self.modulus)
+
+
 def _at_centre(
-    chosen: Sequence[Terms],
-    slopes: Slopes,
+    functions: PointValues | _Rows,
     centre: Sequence[Any],
     solved: Sequence[int],
     columns: Sequence[int],
     modulus: int,
 ) -> tuple[list[Any], Matrix, Matrix] | None:
     """The corrected centre, the Jacobian there, and the inverse of its block."""
-    gradients = slopes(centre)
-    inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
-    if inverse is None:
-        return None
-    ring, x, moved = SeriesRing(0, 0, modulus), list(centre), False
-    for _ in range(CONSTANT_STEPS):
-        values = composed(chosen, [{0: c} if c else {} for c in x], ring)
-        steps = [value.get(0, 0) for value in product_of(inverse, values, modulus)]
+    x = list(centre)
+    for steps_left in range(CONSTANT_STEPS, -1, -1):
+        gradients = functions.jacobian(x)
+        inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
+        if inverse is None:
+            return None
+        if not steps_left:
+            break
+        values = functions.values(x)
+        column = [{0: values[i]} if values[i] else {} for i in solved]
+        steps = [value.get(0, 0) for value in product_of(inverse, column, modulus)]
         for j, step in zip(columns, steps, strict=True):
             x[j] = (x[j] - step) % modulus if modulus else middle(x[j] - flint.acb(step))
-        moved = moved or any(steps) if modulus else moved or log_norm(steps) > EXACT * flint.ctx.dps
-    if not moved:
-        return x, gradients, inverse
-    gradients = slopes(x)
-    inverse = _inverse([[gradients[i][j] for j in columns] for i in solved], modulus)
-    return None if inverse is None else (x, gradients, inverse)
+        if not any(steps) or (not modulus and log_norm(steps) < _rounding(inverse)):
+            break
+    return x, gradients, inverse
+
+
+def _rounding(inverse: Matrix) -> float:
+    return ROUNDING + max(0.0, _size(inverse)) - flint.ctx.dps
+
+
+def _size(matrix: Matrix) -> float:
+    """The decimal logarithm of the largest entry."""
+    return log_norm(c for row in matrix for c in row)
 
 
 def _inverse(block: Matrix, modulus: int) -> Matrix | None:

@@ -50,7 +50,8 @@ class LocalDimension:
             dual space does, or where it was given up. Empty where none were needed.
         arithmetic: what the matrices were made in.
         reason: what the bounds rest on, or why they do not meet.
-        digits: real and imaginary parts of the point as decimals; empty if it is not decided.
+        digits: real and imaginary parts of the point as decimals, all digits that are certain, at
+            most 100; empty if it is not decided.
     """
 
     point: np.ndarray

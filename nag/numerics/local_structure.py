@@ -324,5 +324,10 @@ def decimal(a: flint.arb) -> str:
     return a.mid().str(WRITTEN, radius=False)
 
 
+def known_digits(a: flint.arb) -> str:
+    """The digits of a ball that are certain to one unit of the last, at most `WRITTEN`."""
+    return "0" if a.contains(0) else a.str(WRITTEN, radius=False)
+
+
 def _undecided(x: np.ndarray, accuracy: float, reason: str) -> SingularEnd:
     return SingularEnd(x, Place.UNDECIDED, 0, accuracy, np.inf, reason)

@@ -21,7 +21,8 @@ from nag.numerics.exact_system import ExactSystem
 from nag.numerics.local_structure import FURTHEST, REACHES
 from nag.numerics.rational_point import rational_point
 from nag.numerics.scaling import scaled_terms, variable_scales
-from nag.numerics.sharpening import DIGITS, ZERO
+from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO
+from nag.numerics.sharpening import ROUNDING as STALLED
 
 # An exact point is known to all digits but these.
 ROUNDING = 5.0
@@ -41,6 +42,20 @@ class Zero:
     found: Deflated
     block: Round
     exact: tuple[Number, ...] | None
+
+    @property
+    def balls(self) -> list[flint.acb]:
+        """The zero to as many digits as are known of it, at the working precision.
+
+        Newton's last step is as short as the inverse lets it be, and no shorter.
+        """
+        if self.exact is not None:
+            return [number(c) for c in self.exact]
+        radius = flint.arb(10) ** max(ARRIVED, STALLED + self.found.inverse - DIGITS)
+        # Equations are real: the only zero near to a real point is real.
+        across = radius if any(c.imag for c in self.found.point) else 0
+        parts = [(c.real.mid(), c.imag.mid()) for c in self.found.point]
+        return [flint.acb(flint.arb(re, radius), flint.arb(im, across)) for re, im in parts]
 
     @property
     def tangent(self) -> int:
@@ -125,16 +140,16 @@ def _exact_zero(
     reasons = []
     # Less reach than what may hold a singular zero shows no other that stands for the point.
     least = -np.inf
-    for more in REACHES:
-        if more < least:
+    reaches = (min(error + more, max(FURTHEST, error)) for more in REACHES)
+    for reach in dict.fromkeys(max(reach, ROUNDING - DIGITS) for reach in reaches):
+        if reach < least:
             continue
-        reach = min(error + more, max(FURTHEST, error))
         try:
-            found = deflate(system, y, max(reach, ROUNDING - DIGITS), rng)
+            found = deflate(system, y, reach, rng)
         except NotDeflated as reason:
             reasons.append(str(reason))
             if isinstance(reason, SeriesTooLong):
-                least = more
+                least = reach
             continue
         if is_exact_zero(system, found):
             block = regular_block(

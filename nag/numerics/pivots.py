@@ -50,12 +50,14 @@ def _largest(
     first, *others = matrices
     best, place = floor, None
     for i in left:
+        sizes = [log_size(first[i][j]) for j in right]
+        if not any(best < size < inf for size in sizes):
+            continue
         noise = max(
             (log_size(other[i][j] - first[i][j]) for other in others for j in right),
             default=-inf,
         )
-        for j in right:
-            size = log_size(first[i][j])
+        for j, size in zip(right, sizes, strict=True):
             if best < size < inf and size > noise + CLEAR:
                 best, place = size, (i, j)
     return place

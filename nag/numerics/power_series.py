@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain, product
-from math import comb
+from itertools import chain
+from math import comb, prod
+from operator import le, sub
 from typing import Any
 
 import flint
@@ -24,6 +25,7 @@ LONG = 12
 
 Series = dict[int, Any]
 Terms = Sequence[tuple[tuple[int, ...], Any]]
+Compiled = flint.acb_mat | flint.nmod_mat
 
 
 @dataclass(frozen=True)
@@ -152,19 +154,28 @@ def shifted(rows: Sequence[Terms], centre: Sequence[Any], ring: SeriesRing) -> l
     return result
 
 
-def product_of(matrix: list[list[Any]], column: Sequence[Series], modulus: int) -> list[Series]:
+def compiled(matrix: list[list[Any]], modulus: int) -> Compiled:
+    """A matrix for products in compiled code."""
+    if not modulus:
+        return flint.acb_mat(matrix)
+    width = len(matrix[0]) if matrix else 0
+    return flint.nmod_mat(len(matrix), width, list(chain(*matrix)), modulus)
+
+
+def product_of(
+    matrix: list[list[Any]] | Compiled, column: Sequence[Series], modulus: int
+) -> list[Series]:
     """A matrix times a column of series, in compiled code."""
+    left = compiled(matrix, modulus) if isinstance(matrix, list) else matrix
     keys = sorted({k for value in column for k in value})
-    if not keys or not matrix:
-        return [{} for _ in matrix]
+    if not keys or not left.nrows():
+        return [{} for _ in range(left.nrows())]
     table = [[value.get(k, 0) for k in keys] for value in column]
-    if modulus:
-        left = flint.nmod_mat(len(matrix), len(column), list(chain(*matrix)), modulus)
-        found = left * flint.nmod_mat(len(column), len(keys), list(chain(*table)), modulus)
-        rows = [[int(c) for c in row] for row in found.tolist()]
-    else:
-        rows = (flint.acb_mat(matrix) * flint.acb_mat(table)).mid().tolist()
-    return [{k: c for k, c in zip(keys, row, strict=True) if c} for row in rows]
+    found = left * compiled(table, modulus)
+    rows = (found if modulus else found.mid()).tolist()
+    return [
+        {k: (int(c) if modulus else c) for k, c in zip(keys, row, strict=True) if c} for row in rows
+    ]
 
 
 def evaluate(series: Mapping[int, Any], ring: SeriesRing, v: Sequence[Any]) -> Any:
@@ -178,23 +189,34 @@ def evaluate(series: Mapping[int, Any], ring: SeriesRing, v: Sequence[Any]) -> A
     return total
 
 
+def exponents_of_degree(m: int, degree: int) -> list[tuple[int, ...]]:
+    """All exponents of that degree in ``m`` variables, in lexicographic order."""
+    if m < 2:
+        return [(degree,)] if m else [()] * (degree == 0)
+    return [
+        (k, *others) for k in range(degree + 1) for others in exponents_of_degree(m - 1, degree - k)
+    ]
+
+
 def derivatives(rows: Sequence[Series], ring: SeriesRing, order: int) -> list[list[Any]]:
     """All partial derivatives of that order, over factorials, as terms, also those that vanish.
 
-    They stand row by row, the directions of each in the same order.
+    They stand row by row, the directions of each as in `exponents_of_degree`.
     """
+    place = {alpha: i for i, alpha in enumerate(exponents_of_degree(ring.m, order))}
+    lowered = [exponents_of_degree(ring.m, k) for k in range(order)]
     result = []
-    choices = [a for a in product(range(order + 1), repeat=ring.m) if sum(a) == order]
     for row in rows:
-        terms = [(ring.exponents(key), c) for key, c in row.items()]
-        for alpha in choices:
-            derived = []
-            for e, c in terms:
-                factor = 1
-                for k, a in zip(e, alpha, strict=True):
-                    factor *= comb(k, a)
-                if factor:
-                    lowered = tuple(k - a for k, a in zip(e, alpha, strict=True))
-                    derived.append((lowered, c * factor))
-            result.append(derived)
+        derived: list[list[Any]] = [[] for _ in place]
+        for key, c in row.items():
+            e, left = ring.exponents(key), ring.degree(key) - order
+            if left < 0:
+                continue
+            for part in lowered[left] if left < order else place:
+                if all(map(le, part, e)):
+                    to, alpha = part, tuple(map(sub, e, part))
+                    if left >= order:
+                        to, alpha = alpha, part
+                    derived[place[alpha]].append((to, c * prod(map(comb, e, alpha))))
+        result.extend(derived)
     return result

@@ -20,19 +20,19 @@ def which_are_real(zeros: Sequence[IsolatedZero]) -> np.ndarray:
     Of a zero in doubles a little beyond its estimated error, another zero that is its conjugate
     says so.
     """
-    imaginary, errors = np.zeros(len(zeros)), np.zeros(len(zeros))
+    if not zeros:
+        return np.zeros(0, dtype=bool)
+    points = np.array([zero.point for zero in zeros])
+    sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
+    imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
+    errors = SAFETY * sizes * np.array([zero.accuracy for zero in zeros])
     in_doubles = np.array([zero.fine is None for zero in zeros], dtype=bool)
-    for i, zero in enumerate(zeros):
-        size = 1 + float(np.abs(zero.point).max(initial=0.0))
-        if zero.fine is None:
-            imaginary[i] = float(np.abs(zero.point.imag).max(initial=0.0))
-            errors[i] = SAFETY * zero.accuracy * size
-        else:
-            parts = (float(abs(z.imag).mid()) for z in zero.fine.coordinates)
-            imaginary[i] = max(parts, default=0.0)
-            errors[i] = SAFETY * max(TWO, zero.fine.error) * size
+    for i in np.flatnonzero(~in_doubles).tolist():
+        fine = zeros[i].fine
+        parts = (float(abs(z.imag).mid()) for z in fine.coordinates)
+        imaginary[i] = max(parts, default=0.0)
+        errors[i] = SAFETY * max(TWO, fine.error) * sizes[i]
     real = imaginary <= errors
-    sizes = np.array([1 + float(np.abs(zero.point).max(initial=0.0)) for zero in zeros])
     for i in np.flatnonzero(in_doubles & ~real & (imaginary <= REAL * sizes)).tolist():
         conjugate = zeros[i].point.conj()
         others = (zero.point for j, zero in enumerate(zeros) if j != i)

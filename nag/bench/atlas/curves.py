@@ -14,9 +14,11 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.bench.atlas.general_position import hidden
+from nag.bench.atlas.asked import MET, NOT_SIMPLE
+from nag.bench.atlas.general_position import hidden, mixed
 from nag.bench.atlas.points import Problem, plain
 from nag.bench.zero_set import Components
+from nag.witness.witness import Slice
 
 ONLY = ("decompose",)
 
@@ -186,6 +188,22 @@ def repeated_and_points(k: int, rng: np.random.Generator) -> Problem:
     circle = (x**2 + y**2 - 1) ** k
     truth = Counter({(1, 2, k): 1, (0, 1, k): 2})
     return Problem(plain(circle * (x - y - 3) ** k, circle * (x * y - 2)), truth)
+
+
+def tangent_slice(k: int, rng: np.random.Generator) -> Problem:
+    """A twisted cubic and a line, and a plane that all but touches the cubic; 0: that does.
+
+    On (s, s^2, s^3) the plane is (s^2 - e) (s - r) or s^3 - e, where e is 10^-k: at the origin
+    two points, or all three, are at a distance of e^(1/2) or e^(1/3).
+    """
+    x, y, z = Polynomial.variables(3)
+    cubic, line = [y - x**2, z - x * y, y**2 - x * z], [x - 1, y + 2 * z - 5]
+    e, r = 10.0**-k if k else 0.0, complex(*rng.integers(1, 7, 2))
+    plane = [-e, -r, 1] if rng.integers(2) else [0, 0, 1]
+    cut = Slice(np.array([plane]), np.array([-r * e if plane[1] else e]))
+    facts = Counter({MET: 3} if k else {NOT_SIMPLE: 1})
+    system = plain(*mixed(_union(cubic, line), rng))
+    return Problem(system, _curves((3, 1), (1, 1)), ("slice",), facts=facts, slice=cut)
 
 
 FAR = (3, 6, 9, 12, 15)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,11 +10,13 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.bench.atlas import curves, linkages, points
-from nag.bench.atlas.moved import GROUPS, moved_case
+from nag.bench.atlas.moved import DENSE, SOLVED, SPARSE, changed_case, moved_case
 from nag.bench.atlas.points import Problem
 
 Make = Callable[[Any, np.random.Generator], Problem]
 
+# Families of systems that take some ten seconds.
+PATIENCE = {"solved-hard": 4}
 DIGITS = (2, 4, 8, 12, 16, 20, 30)
 
 
@@ -26,7 +28,8 @@ class Family:
         name: short, for options and files; text: what it is; knob: what the values are.
         make: the system for a value of the knob; random numbers choose its coordinates.
         values: easy ones first.
-        method: ``"solve"`` or ``"decompose"``.
+        patience: how many times the usual limit of processor time an answer has.
+        method: what is asked for: ``"solve"``, ``"decompose"``, ``"singular"`` or ``"slice"``.
     """
 
     name: str
@@ -35,6 +38,7 @@ class Family:
     make: Make
     values: tuple[Any, ...]
     method: str = "solve"
+    patience: int = 1
 
 
 def _two(make: Make, *first: int) -> Make:
@@ -54,9 +58,14 @@ def _plain_polynomial(k: int, rng: np.random.Generator) -> Problem:
     return Problem(points.plain(Polynomial(2, terms), y - x**2 - 1), points.points((1, k)))
 
 
-def _moved_text(name: str) -> str:
-    _, dash, kind = name.partition("-")
-    return "cases in other coordinates" + (f": {kind}" if dash else "")
+def _cases(
+    groups: Mapping[str, tuple[str, ...]], how: str, make: Make, method: str
+) -> Iterator[Family]:
+    """Families of cases that ship."""
+    for name, cases in groups.items():
+        _, dash, kind = name.partition("-")
+        text = f"cases {how}" + (f": {kind}" if dash else "")
+        yield Family(name, text, "case", make, cases, method, PATIENCE.get(name, 1))
 
 
 FAMILIES: tuple[Family, ...] = (
@@ -113,6 +122,10 @@ FAMILIES: tuple[Family, ...] = (
         points.nearly_tangent, DIGITS,
     ),
     Family(
+        "tangent-slice", "a curve, and a plane that nearly touches it", "digits; 0 it does",
+        curves.tangent_slice, (0, *DIGITS), "slice",
+    ),
+    Family(
         "dependent", "conics with the same directions to k digits", "digits",
         _two(points.nearly_dependent, 1), DIGITS,
     ),
@@ -156,8 +169,9 @@ FAMILIES: tuple[Family, ...] = (
         linkages.kite, (0, 2, 4, 8, 12, 20, 30), "decompose",
     ),
     Family(
-        "slider-crank", "slider cranks near singular ones", "digits of the difference; 0 singular",
-        linkages.slider_crank, (0, 2, 4, 8, 12, 20, 30), "decompose",
+        "slider-crank", "slider cranks near singular ones: two nodes, then none",
+        "digits; 0 as it should be",
+        linkages.slider_crank, (0, 2, 4, 8, 12, 20, 30), "singular",
     ),
     Family(
         "size", "Bennett's mechanism 10^k times as large", "k",
@@ -167,8 +181,7 @@ FAMILIES: tuple[Family, ...] = (
         "lengths", "a parallelogram's lengths at 10^k", "k",
         linkages.parallelogram, (1, 2, 4, 6, 8, -2, -4, -8), "decompose",
     ),
-    *(
-        Family(name, _moved_text(name), "case", moved_case, values, "decompose")
-        for name, values in GROUPS.items()
-    ),
+    *_cases(DENSE, "in other coordinates", moved_case, "decompose"),
+    *_cases(SPARSE, "changed, still sparse", changed_case, "decompose"),
+    *_cases(SOLVED, "changed, solved", changed_case, "solve"),
 )  # fmt: skip

@@ -10,6 +10,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas.asked import SINGULAR
 from nag.bench.atlas.points import Problem
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.model import model
@@ -60,13 +61,16 @@ def _cross(a: Sequence[Fraction], b: Sequence[Fraction]) -> list[Fraction]:
 
 
 def bennett_violated(k: int, rng: np.random.Generator) -> Problem:
-    """Bennett's mechanism with one joint moved by 10^-k, so that it is rigid; 0: not moved."""
+    """Bennett's mechanism with one joint moved by 10^-k, so that it is rigid; 0: not moved.
+
+    Its closure equations are bilinear in two half-angles. Where they have rank 1 they are one
+    curve of degree 2; here they have rank 3, and one zero, which is simple.
+    """
     points, axes = _bennett()
     if k:
         points[2] = [p + s * Fraction(1, 10**k) for p, s in zip(points[2], (1, -1, 2), strict=True)]
     found = model(_loop(points, axes), "H").system
-    truth = Counter({(1, 2, 1): 1})
-    return Problem(found, truth, ONLY, dimension=0 if k else None)
+    return Problem(found, Counter({(0, 1, 1): 1} if k else {(1, 2, 1): 1}), ONLY)
 
 
 def bricard_violated(k: int, rng: np.random.Generator) -> Problem:
@@ -115,10 +119,16 @@ def kite(k: int, rng: np.random.Generator) -> Problem:
 
 
 def slider_crank(k: int, rng: np.random.Generator) -> Problem:
-    """Slider cranks whose lengths are 10^-k from those at which there are singular points."""
+    """Slider cranks of lengths b + c + 10^-k, b and c; 0: of lengths b + c, b and c.
+
+    A point is singular where all three bars stand upright; these lengths then close exactly if
+    the first is the sum of the others, in two such points, nodes of the surface.
+    """
     v = Polynomial.variables(6)
-    small = Fraction(1, 10**k) if k else Fraction(0)
-    rows = [v[1] * 2 + v[3] * (1 + small) + v[5]]
+    b, c = (Fraction(int(n), 7) for n in rng.integers(3, 22, 2))
+    a = b + c + (Fraction(1, 10**k) if k else 0)
+    rows = [v[1] * a + v[3] * b + v[5] * c]
     rows += [v[i] ** 2 + v[i + 1] ** 2 - 1 for i in (0, 2, 4)]
     system = PolynomialSystem(("c1", "s1", "c2", "s2", "c3", "s3"), rows)
-    return Problem(system, Counter({(2, 8, 1): 1}), ONLY)
+    facts = Counter({} if k else {SINGULAR.format(2, 3, 2): 2})
+    return Problem(system, Counter({(2, 8, 1): 1}), ("singular",), facts=facts)

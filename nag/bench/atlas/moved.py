@@ -9,14 +9,15 @@ import numpy as np
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.general_position import Coordinates, mixed
 from nag.bench.atlas.points import Problem, points
+from nag.bench.atlas.sparse_changes import sparsely_changed
 from nag.bench.zero_set import Components
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 
 CASES = Path("cases")
 
-# Those that take two seconds of processor time or less in coordinates in which they are dense.
-GROUPS: dict[str, tuple[str, ...]] = {
+# Cases in coordinates in which they are dense: those that take two seconds or less then.
+DENSE: dict[str, tuple[str, ...]] = {
     "moved": (
         "slider-crank", "rhombus", "four-bar", "literature/whitney-umbrella",
         "literature/plane-line-point", "literature/sphere-and-cubic", "literature/cyclic-4",
@@ -77,9 +78,56 @@ GROUPS: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 
 
+# Those that take longer, in coordinates that keep them sparse: decomposed, ..
+SPARSE: dict[str, tuple[str, ...]] = {
+    "sparse": (
+        "gonzalez", "double-rhombus", "rhombus-chain-2", "rhombus-chain-3",
+        "benchmarks/rhombus-chain-4", "literature/adjacent-minors-3x4",
+        "literature/double-watt-cusp", "spherical/orthogonal-four-bar",
+    ),
+    "sparse-linkages": (
+        "planar/burmester-focal", "planar/roberts-cognates", "planar/roberts-seven-bar",
+        "planar/slider-crank", "planar/stephenson-six-bar", "planar/watt-six-bar",
+        "spatial/four-sliders", "spatial/rccc",
+    ),
+    "sparse-frameworks": (
+        "planar/cube-graph", "planar/dixon-1-k33", "planar/dixon-1-k34", "planar/dixon-2-k44",
+        "planar/prism-parallel", "planar/wunderlich-12-bar",
+        "spatial/octahedron-line-symmetric", "spatial/octahedron-plane-symmetric",
+    ),
+    "sparse-loops": (
+        "spatial/bricard-line-symmetric", "spatial/bricard-plane-symmetric",
+        "spatial/bricard-trihedral", "spatial/bricard_cube", "spatial/general-7r",
+        "spatial/schatz", "spatial/spherical-pair-6r", "spatial/sarrus",
+    ),
+    "sparse-spatial": ("spatial/sarrus-kinematotropic", "spatial/universal-shaft"),
+}  # fmt: skip
+# .. and solved: systems with isolated zeros.
+SOLVED: dict[str, tuple[str, ...]] = {
+    "solved": (
+        "planar/henneberg-8", "planar/triangle-framework", "spatial/general-7r-held",
+        "spherical/triangle", "benchmarks/caprasse", "benchmarks/chandra-8", "benchmarks/eco-8",
+        "benchmarks/inverse-6r-clustered",
+    ),
+    "solved-families": (
+        "benchmarks/katsura-7", "benchmarks/katsura-8", "benchmarks/katsura-9",
+        "benchmarks/katsura-10", "benchmarks/katsura-11", "benchmarks/noon-6",
+    ),
+    "solved-cyclic": (
+        "benchmarks/cyclic-5", "benchmarks/cyclic-6", "benchmarks/cyclic-7",
+    ),
+    "solved-hard": (
+        "hard/cassou", "hard/chemequ", "hard/pb601", "hard/stewgou40", "benchmarks/reimer-5",
+    ),
+}  # fmt: skip
+GROUPS = DENSE | SPARSE | SOLVED
+# Cases that are in no family: those that take half a minute, or some minutes, of processor time.
+TOO_LONG = ("benchmarks/cyclic-8", "benchmarks/nine-point", "benchmarks/rhombus-chain-5")
+
+
 def moved_case(name: str, rng: np.random.Generator) -> Problem:
     """The system of one of `CASES` in other coordinates, its equations mixed."""
-    system, truth = _case(name)
+    system, truth = case_system(name)
     coordinates = Coordinates.random(system.n, rng)
     moved = [coordinates.of(f) for f in system.polynomials]
     # With more equations than unknowns, mixing would make all of them long.
@@ -88,7 +136,13 @@ def moved_case(name: str, rng: np.random.Generator) -> Problem:
     return Problem(PolynomialSystem(system.variables, equations, nonzero), truth)
 
 
-def _case(name: str) -> tuple[PolynomialSystem, Components]:
+def changed_case(name: str, rng: np.random.Generator) -> Problem:
+    """The system of one of `CASES`, changed in one of the ways that keep it sparse."""
+    system, truth = case_system(name)
+    return Problem(sparsely_changed(system, rng), truth)
+
+
+def case_system(name: str) -> tuple[PolynomialSystem, Components]:
     """The system of a case, for a mechanism that of the fewest paths, and what is known of it."""
     case = read_case(CASES / f"{name}.toml")
     system, formulation = case.system, None

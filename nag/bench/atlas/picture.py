@@ -17,8 +17,8 @@ NAMES = {
     "wrong": "wrong",
 }
 # Widths in inches.
-TEXT, CELL, HEIGHT = 4.1, 0.78, 0.27
-LONGEST = 11
+TEXT, CELL, HEIGHT = 4.5, 0.98, 0.31
+LONGEST = 13
 
 
 def draw(atlas: Atlas, path: str) -> None:
@@ -45,7 +45,7 @@ def draw(atlas: Atlas, path: str) -> None:
             y = HEIGHT * (i + 2)
             axes.text(0.1, y + HEIGHT / 2, row.text, fontsize=7.5, va="center")
             axes.text(
-                TEXT - 0.08, y + HEIGHT / 2, row.knob, fontsize=6, va="center", ha="right",
+                TEXT - 0.08, y + HEIGHT / 2, row.knob, fontsize=6.5, va="center", ha="right",
                 color="#444444",
             )  # fmt: skip
             for j, cell in enumerate(row.cells):
@@ -70,7 +70,7 @@ def _cell(axes: Any, cell: Cell, x: float, y: float) -> None:
     dark = cell.wrong > cell.answers / 2
     axes.text(
         x + room / 2, y + HEIGHT / 2, _broken(label) if long else label, ha="center", va="center",
-        fontsize=4.5 if long else 6.5, linespacing=0.95, color="white" if dark else "black",
+        fontsize=6 if long else 7, linespacing=1.1, color="white" if dark else "black",
     )  # fmt: skip
 
 

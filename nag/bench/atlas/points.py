@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import reduce
 from math import isqrt
@@ -18,6 +18,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.general_position import NAMES, hidden, mixed
 from nag.bench.verdicts import METHODS
 from nag.bench.zero_set import Components, ZeroSet
+from nag.witness.witness import Slice
 
 
 @dataclass(frozen=True)
@@ -25,21 +26,21 @@ class Problem:
     """A system and all components of its zero set.
 
     Attributes:
-        dimension: of the zero set, where nothing else is known of it.
+        facts: what else is known, in words, with how often it is so.
+        slice: one that meets the component of the largest degree.
     """
 
     system: PolynomialSystem
     truth: Components
     methods: tuple[str, ...] = METHODS
     symmetries: tuple[SignedPermutation, ...] = ()
-    dimension: int | None = None
+    facts: Counter[str] = field(default_factory=Counter)
+    slice: Slice | None = None
 
     @property
     def zero_set(self) -> ZeroSet:
-        """The zero set, as far as it is known."""
-        if self.dimension is not None:
-            return ZeroSet(dimension=self.dimension)
-        return ZeroSet.of(self.truth)
+        """What is known of the zero set."""
+        return ZeroSet.of(self.truth, self.facts)
 
 
 def points(*numbers: tuple[int, int]) -> Components:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from statistics import median
 from typing import Any
 
 import numpy as np
 
+from nag.bench.atlas.asked import asked
 from nag.bench.atlas.families import FAMILIES, Family
 from nag.bench.timed_runs import timed_runs
-from nag.bench.verdicts import Answer, answered, described, verdict
+from nag.bench.verdicts import Answer, described, verdict
 from nag.files.json_values import (
     as_count,
     as_document,
@@ -108,7 +109,7 @@ def answer(task: Task) -> Answer:
     """The answer to one task."""
     family = family_named(task.family)
     problem = family.make(task.value, np.random.default_rng([task.seed, 20]))
-    return answered(family.method, problem.system, task.seed, task.settings, problem.symmetries)
+    return asked(family.method, problem, task.seed, task.settings)
 
 
 def run_atlas(
@@ -123,7 +124,7 @@ def run_atlas(
 
     Args:
         seeds: how many, from 0.
-        limit: seconds of processor time for one answer.
+        limit: seconds of processor time for one answer, times the patience of its family.
         jobs: processes.
         progress: called with each family's answers.
     """
@@ -133,7 +134,11 @@ def run_atlas(
     named = {f.name: f for f in families}
     rows: dict[str, Row] = {}
     warm = Task("unity", 2, 0)
-    for run in timed_runs(answer, tasks, limit=limit, jobs=jobs, first=warm):
+
+    def limit_of(task: Task) -> float:
+        return limit * named[task.family].patience
+
+    for run in timed_runs(answer, tasks, limit=limit_of, jobs=jobs, first=warm):
         name = run.task.family
         found[name].append(run)
         left[name] -= 1
@@ -142,6 +147,20 @@ def run_atlas(
             if progress is not None:
                 progress(rows[name])
     return Atlas(settings, seeds, limit, tuple(rows[f.name] for f in families))
+
+
+def completed(atlas: Atlas, rest: Atlas) -> Atlas:
+    """The atlas with those of its families that were not run from another one.
+
+    Raises:
+        ValueError: if they were made with other settings, seeds or limits.
+    """
+    for name in ("settings", "seeds", "limit"):
+        ours, theirs = getattr(atlas, name), getattr(rest, name)
+        if ours != theirs:
+            raise ValueError(f"{name} there are {theirs}, not {ours}")
+    rows = {row.name: row for row in (*rest.rows, *atlas.rows)}
+    return replace(atlas, rows=tuple(rows[f.name] for f in FAMILIES if f.name in rows))
 
 
 def _row(family: Family, runs: Sequence[Any]) -> Row:

@@ -1,0 +1,103 @@
+"""Exact random changes of coordinates and of equations that keep a system sparse."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+
+# Sizes of scalings: powers of ten up to this.
+DECADES = 4
+# Unknowns, and equations, to which a multiple of another one is added.
+MIXED = 3
+# What `sparsely_changed` does, one of these at a time.
+KINDS = ("scaled", "shifted", "variables", "equations")
+
+
+def changed(system: PolynomialSystem, rng: np.random.Generator) -> PolynomialSystem:
+    """The system in other coordinates, with other equations of the same ideal.
+
+    Every variable is scaled by a power of ten and shifted, multiples of some variables are added
+    to others, and multiples of some equations to others of at least their degree.
+    """
+    n = system.n
+    x = Polynomial.variables(n)
+    forms = [_power(rng, DECADES) * x[i] + _shift(rng) for i in range(n)]
+    for i, j in _pairs(n, MIXED, rng):
+        forms[i] = forms[i] + _small(rng) * forms[j]
+    moved = _in_forms(system, forms)
+    polynomials = _combined(moved.polynomials, MIXED, rng)
+    scaled = tuple(_power(rng, DECADES) * f for f in polynomials)
+    return replace(moved, polynomials=scaled)
+
+
+def sparsely_changed(
+    system: PolynomialSystem, rng: np.random.Generator, kind: str | None = None
+) -> PolynomialSystem:
+    """The system with its variables and equations in another order, and changed in one way more.
+
+    Args:
+        kind: every variable and equation is ``"scaled"`` by 1/10, 1 or 10, one variable is
+            ``"shifted"``, multiples of one of the ``"variables"`` or of one of the
+            ``"equations"``, of no higher degree, are added to another one; by default one of
+            these at random.
+    """
+    n = system.n
+    kind = KINDS[rng.integers(len(KINDS))] if kind is None else kind
+    x = Polynomial.variables(n)
+    forms = [x[i] for i in rng.permutation(n)]
+    if kind == "scaled":
+        forms = [_power(rng, 1) * v for v in forms]
+    if kind == "shifted":
+        forms[rng.integers(n)] += _shift(rng)
+    if kind == "variables":
+        for i, j in _pairs(n, 1, rng):
+            forms[i] = forms[i] + _small(rng) * forms[j]
+    moved = _in_forms(system, forms)
+    polynomials = [moved.polynomials[i] for i in rng.permutation(len(moved.polynomials))]
+    if kind == "scaled":
+        polynomials = [_power(rng, 1) * f for f in polynomials]
+    if kind == "equations":
+        polynomials = _combined(polynomials, 1, rng)
+    # Forms of several variables do not keep a partition of these.
+    return replace(moved, polynomials=tuple(polynomials), groups=())
+
+
+def _in_forms(system: PolynomialSystem, forms: list[Polynomial]) -> PolynomialSystem:
+    """The system with affine forms put in for its variables."""
+    polynomials = tuple(f.compose(forms) for f in system.polynomials)
+    nonzero = tuple(g.compose(forms) for g in system.nonzero)
+    return replace(system, polynomials=polynomials, nonzero=nonzero)
+
+
+def _combined(
+    equations: Sequence[Polynomial], count: int, rng: np.random.Generator
+) -> list[Polynomial]:
+    """The equations, multiples of some added to others of at least their degree."""
+    found = list(equations)
+    for pair in _pairs(len(found), count, rng):
+        i, j = sorted(pair, key=lambda k: -found[k].degree)
+        found[i] = found[i] + _small(rng) * found[j]
+    return found
+
+
+def _shift(rng: np.random.Generator) -> Fraction:
+    return Fraction(int(rng.integers(-9, 10)), int(rng.integers(1, 8)))
+
+
+def _power(rng: np.random.Generator, decades: int) -> Fraction:
+    return Fraction(10) ** int(rng.integers(-decades, decades + 1))
+
+
+def _small(rng: np.random.Generator) -> Fraction:
+    return Fraction(int(rng.choice([-3, -2, -1, 1, 2, 3])), int(rng.integers(1, 4)))
+
+
+def _pairs(n: int, count: int, rng: np.random.Generator) -> list[tuple[int, int]]:
+    """Some pairs of different numbers below ``n``."""
+    return [tuple(rng.choice(n, 2, replace=False).tolist()) for _ in range(count if n > 1 else 0)]
