@@ -1,7 +1,8 @@
 """Irreducible decomposition: supersets of witness points, split into components, then judged.
 
 Read in this order: `components` (the whole); `several_equations` (what needs paths) on `isolated`
-(finite sets, solved at once) and `superset` (equation by equation) on `hypersurface` (one step);
+(finite sets, solved at once), `toric_section` (linkages, cut by a slice at once) and `superset`
+(equation by equation) on `hypersurface` (one step);
 `splitting` on `monodromy` and `trace`, `orbits` (the same up to symmetry); `final_checks` and
 `assembly`, which put the answer together.
 `discovery` and `given_points` (on `common_slices`) and `intersection` begin elsewhere and end

@@ -34,7 +34,8 @@ def decompose(
     apart; zeros of polynomials in one variable, and of two equations in two, are isolated exactly
     where they are few. Otherwise linear equations are solved exactly first. One equation that is
     left is factored over the complex numbers, and a curve that polynomials in one variable give is
-    taken as it is, exactly and without paths; other equations are intersected one by one. Where
+    taken as it is, exactly and without paths. Equations of turns in loops are cut by a slice at
+    once, if all zeros there may be are found; other equations are intersected one by one. Where
     doubts are left and only points were found, the equations are solved all at once. Nothing is
     tried again: what is left open is said to be. The same seed gives the same answer, byte for
     byte, whatever the number of threads.

@@ -13,7 +13,8 @@ from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once, with_points
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.superset import Ambient, intersection_order, witness_superset
+from nag.decomposition.superset import Ambient, Superset, intersection_order, witness_superset
+from nag.decomposition.toric_section import section_at_once
 from nag.witness.fibres import Tracker
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
@@ -35,14 +36,23 @@ def decompose_several(
         scheme: whether multiplicities are of interest.
     """
     system = reduction.system
-    if is_finite(reduction.reduced, rng, tracker):
+    intersecting = np.random.default_rng(seed)
+    flag = random_rows(intersecting, reduction.n, reduction.n, NEARER)
+    whole, spent = section_at_once(reduction, flag, np.random.default_rng([seed, 23]), tracker)
+    if whole is None and is_finite(reduction.reduced, rng, tracker):
         points = solved_at_once(system, rng, tracker, symmetries, finite=True)
         if points is not None:
-            return replace(points, seed=seed, settings=tracker.settings)
+            return replace(points, seed=seed, settings=tracker.settings, paths=points.paths + spent)
 
-    answer, only_points = _one_by_one(
-        reduction, np.random.default_rng(seed), tracker, symmetries, scheme
+    order = [] if whole else intersection_order(reduction.reduced.polynomials)
+    superset = whole or _one_by_one(reduction, order, flag, intersecting, tracker)
+    superset = replace(superset, counts=superset.counts + spent)
+    known = Known(
+        actions=[Action.of(g, reduction.frame) for g in symmetries if not g.is_identity],
+        scheme=scheme,
     )
+    answer, only_points = _put_together(reduction, superset, intersecting, tracker, known)
+    answer = replace(answer, order=tuple(order))
     if not answer.complete and answer.dimension > 0 and only_points:
         answer = with_points(answer, rng, tracker, symmetries) or answer
     if not answer.complete and answer.dimension <= 0:
@@ -50,32 +60,39 @@ def decompose_several(
         if points is not None and contains(points, answer):
             tracked = answer.paths.tracked + points.paths.tracked
             answer = replace(points, paths=replace(points.paths, tracked=tracked))
-    return counted(replace(answer, seed=seed, settings=tracker.settings), scheme)
+    # Zeros of a section that is whole were counted before.
+    if whole is None or not answer.complete:
+        answer = counted(answer, scheme)
+    return replace(answer, seed=seed, settings=tracker.settings)
 
 
 def _one_by_one(
     reduction: Reduction,
+    order: Sequence[int],
+    flag: np.ndarray,
     rng: np.random.Generator,
     tracker: Tracker,
-    symmetries: Sequence[SignedPermutation],
-    scheme: bool,
+) -> Superset:
+    """Witness points by intersecting with one equation after the other."""
+    reduced = reduction.reduced
+    equations = [reduced.polynomials[i] for i in order]
+    return witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, tracker)
+
+
+def _put_together(
+    reduction: Reduction,
+    superset: Superset,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    known: Known,
 ) -> tuple[Decomposition, bool]:
-    """The components by intersecting with one equation after the other.
+    """The components of witness points of all dimensions.
 
     Also whether all doubts of that are about isolated points.
     """
-    reduced = reduction.reduced
-    order = intersection_order(reduced.polynomials)
-    equations = [reduced.polynomials[i] for i in order]
-    flag = random_rows(rng, reduced.n, reduced.n, NEARER)
-    superset = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, tracker)
     notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
-    known = Known(
-        actions=[Action.of(g, reduction.frame) for g in symmetries if not g.is_identity],
-        scheme=scheme,
-    )
     points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
     found = assembled(points, reduction, rng, tracker, known)
     answer = Decomposition(
@@ -84,7 +101,7 @@ def _one_by_one(
         paths=superset.counts + found.counts,
         seed=0,
         settings=tracker.settings,
-        order=tuple(order),
+        order=(),
         complete=found.complete and not notes,
         notes=(*notes, *found.notes),
     )

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import prod
 
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.turns import FEWEST_LOOPS
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space
 from nag.mechanism.euler import EulerModel, euler_model
@@ -15,7 +17,7 @@ from nag.mechanism.formulation_names import FORMULATIONS
 from nag.mechanism.graph import Joint
 from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
 from nag.mechanism.loops import LoopStructure
-from nag.mechanism.path_estimates import estimated_paths, path_bound
+from nag.mechanism.path_estimates import estimated_paths, path_bound, paths_at_once
 from nag.mechanism.planar import PlanarModel, planar_model
 from nag.mechanism.rods import RodModel, rod_model
 
@@ -58,10 +60,20 @@ class Alternative:
         """Bezout's number in the variable groups, cut down to points by linear equations."""
         return path_bound(self.system)
 
+    @cached_property
+    def at_once(self) -> int | None:
+        """Number of paths to a slice where these may be all it takes: see `paths_at_once`."""
+        return paths_at_once(self.system)
+
     @property
-    def paths(self) -> int:
+    def most(self) -> int:
         """Estimated number of paths that equation by equation are tracked at most."""
         return estimated_paths(self.system)
+
+    @property
+    def paths(self) -> int:
+        """Estimated number of paths: those at once where there are such."""
+        return self.at_once or self.most
 
 
 def alternative(
@@ -109,10 +121,13 @@ def _least_euler_paths(structure: LoopStructure, space: Space) -> int:
     """What the estimate for Euler parameters is at least.
 
     Norms of the moving bodies, and two equations for each turning joint between them, are
-    independent quadrics; those of joints at the base are linear and leave fewer variables.
+    independent quadrics; those of joints at the base are linear and leave fewer variables. Several
+    loops in the plane may take fewer paths at once.
     """
     moving = len(structure.moving)
     sliding = sum(j.type == "prismatic" for j in structure.joints)
+    if space == "planar" and not sliding and len(structure.loops) >= FEWEST_LOOPS:
+        return 0
     if space == "planar" or sliding:
         return 2 ** (max(moving - sliding, 0) + 1) - 2
     turning = [j for j in structure.joints if j.type in ("revolute", "cylindrical", "planar")]

@@ -4,9 +4,9 @@ A link carries pins; links that share a pin are joined there by a revolute joint
 has (c, s), the cosine and sine of its turn, and each loop of links closes: two equations, linear in
 them (Piipponen & Tuomela 2013, section 5.3).
 
-Isotropic coordinates, z = c + is for each link, would take a tenth of the paths, as in frameworks,
-but equations with plates have coefficients in Q(i) there, and a plate of bars may be its mirror
-image.
+Isotropic coordinates, z = c + is for each link, take fewer paths, as in frameworks, but equations
+with plates have coefficients in Q(i) there, and a plate of bars may be its mirror image. So the
+model is in (c, s), and only paths are tracked in z (`nag.decomposition.toric_section`).
 """
 
 from __future__ import annotations

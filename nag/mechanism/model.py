@@ -243,7 +243,8 @@ def _reason(structure: LoopStructure, space: Space, chosen: Alternative, asked: 
     if asked != "auto":
         return f"{text}, as asked"
     unknowns = counted(chosen.system.n, "unknown")
-    return f"{text}: {unknowns} and the fewest paths, at most {chosen.paths}"
+    how = "at most" if chosen.at_once is None else "at once"
+    return f"{text}: {unknowns} and the fewest paths, {how} {chosen.paths}"
 
 
 def _cut_text(structure: LoopStructure) -> str:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from math import prod
 
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.turns import looped_turns
 
 
 def path_bound(system: PolynomialSystem) -> int:
@@ -42,6 +43,19 @@ def estimated_paths(system: PolynomialSystem) -> int:
 def fewest_estimated_paths(system: PolynomialSystem) -> int:
     """The same with the system's groups of variables or without, whichever are fewer."""
     return min(estimated_paths(s) for s in (system, replace(system, groups=())))
+
+
+def paths_at_once(system: PolynomialSystem) -> int | None:
+    """Paths to a slice that are tracked before any equation by equation; None for most systems.
+
+    They are enough where they all end at zeros; only turns in several loops are asked for them.
+    """
+    if looped_turns(system) is None:
+        return None
+    # Path tracking takes longer to load than most models take to be made.
+    from nag.decomposition import toric_section
+
+    return toric_section.paths_at_once(system)
 
 
 def intersection_number(degrees: Sequence[Sequence[int]], dimensions: Sequence[int]) -> int:

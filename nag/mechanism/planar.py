@@ -16,6 +16,7 @@ from nag.algebra.elimination import Elimination
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.turns import looped_turns
 from nag.mechanism.axes import (
     Vector,
     cross,
@@ -46,7 +47,8 @@ class PlanarModel:
     """A planar mechanism in (c, s) for each moving body, linear equations solved away.
 
     Prismatic joints have a slide each; those that are polynomials in the other variables are
-    eliminated as well.
+    eliminated as well. Several loops without slides are left as they are, for paths that are
+    tracked in isotropic coordinates (`nag.decomposition.toric_section`).
 
     Attributes:
         structure: the mechanism's part with loops.
@@ -138,7 +140,10 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
                 )
         polynomials += total
     full = PolynomialSystem(names, tuple(f for f in polynomials if f))
-    elimination = without_slides(full, parameters)
+    if looped_turns(full) is None:
+        elimination = without_slides(full, parameters)
+    else:
+        elimination = Elimination(full, names, tuple(range(n)), variables)
     reduced = elimination.system
     system = PolynomialSystem(
         reduced.variables, tuple(independent_polynomials(reduced.polynomials)), reduced.nonzero

@@ -76,6 +76,18 @@ def _formulation_lines(
     return [
         f"{what.removesuffix('s')}s; paths: at most so many, equation by equation",
         *(f"  {line}" for line in align(rows, (0, 6))),
+        *(line for a in covered for line in _at_once_lines(a)),
+    ]
+
+
+def _at_once_lines(each: Alternative | PartsCoordinates) -> list[str]:
+    """What is tracked before equations are intersected one by one, if anything is."""
+    if each.at_once is None:
+        return []
+    return [
+        f"  {each.formulation}: {large(each.at_once)} paths to a slice at once, in z = c + is and "
+        "w = c - is, as many as it may",
+        f"  have zeros; if not all end at zeros, equation by equation, at most {large(each.most)}",
     ]
 
 

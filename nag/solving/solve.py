@@ -18,6 +18,7 @@ from nag.solving.missing_zeros import with_missing_zeros
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import check_kind, choose
+from nag.solving.start.isotropic import isotropic
 from nag.solving.start.target import Start, Target
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
@@ -93,7 +94,9 @@ def _solve_whole(
     problem = SquareProblem.of(system, equations, rng)
     if progress:
         progress("solve", 0, 1)
-    begin, reason = choose(problem.target, start, system.groups, rng, threads)
+    own = np.random.default_rng([seed, 31])
+    turned = isotropic(system, problem.target, settings, own, threads) if start == "auto" else None
+    begin, reason = turned or choose(problem.target, start, system.groups, rng, threads)
     paths = track(begin.homotopy, begin.points, settings, threads, known=begin.known)
 
     def look(paths: Paths, count: ZeroCount | None = None) -> JudgedEnds:

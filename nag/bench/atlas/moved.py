@@ -100,6 +100,7 @@ SPARSE: dict[str, tuple[str, ...]] = {
         "spatial/bricard-trihedral", "spatial/bricard_cube", "spatial/general-7r",
         "spatial/schatz", "spatial/spherical-pair-6r", "spatial/sarrus",
     ),
+    "sparse-planar": ("planar/eight-bar", "planar/six-bar-placed"),
     "sparse-spatial": ("spatial/sarrus-kinematotropic", "spatial/universal-shaft"),
 }  # fmt: skip
 # .. and solved: systems with isolated zeros.

@@ -2,5 +2,6 @@
 
 Read in this order: `target` (a system made ready), `choice`, then the kinds: `total_degree` with
 `interchange` (one path for all that are its images), `multihomogeneous`, `polyhedral` on
-`mixed_cells` and `toric`, `monodromy` on `fibre_monodromy` and `pencil`, `family_monodromy`.
+`mixed_cells` and `toric`, and `isotropic`, which takes one to turns in loops; `monodromy` on
+`fibre_monodromy` and `pencil`, `family_monodromy`.
 """

@@ -39,6 +39,7 @@ class Target:
         digits: decimal digits of the coefficients of the polynomials that the rows come from.
         given: these polynomials' terms in the variables ``y``, scaled, before rows of the same
             monomials were combined.
+        in_torus: whether no coordinate of a solution vanishes.
     """
 
     n: int
@@ -47,6 +48,7 @@ class Target:
     centres: tuple[Fraction, ...] = ()
     digits: int | None = None
     given: tuple[Terms, ...] = ()
+    in_torus: bool = False
 
     def __post_init__(self) -> None:
         if len(self.rows) != self.n:
@@ -80,6 +82,12 @@ class Target:
             return points
         origins = np.array([float(b) for b in self.centres])
         return points * np.exp2(self.scales) + origins
+
+    def scaled_points(self, x: np.ndarray) -> np.ndarray:
+        """Values of ``y``, from those of the original variables, shape ``(P, n)``."""
+        if not self.scales:
+            return x
+        return (x - np.array([float(b) for b in self.centres])) * np.exp2(-np.array(self.scales))
 
     def rounding(self, points: np.ndarray) -> np.ndarray:
         """Errors that `original` adds, relative to one and the size of the result, shape ``(P,)``.
@@ -121,12 +129,12 @@ class Target:
         """Exponents of each row together with the origin, each shape ``(terms, n)``.
 
         With the origin, coefficients chosen at random have constant terms, and solutions with
-        coordinates that vanish are limits of solutions without such (Li & Wang 1996).
+        coordinates that vanish are limits of solutions without such (Li & Wang 1996). Where there
+        are none, the origin is left out.
         """
-        origin = (0,) * self.n
+        more = () if self.in_torus else ((0,) * self.n,)
         return tuple(
-            np.array(sorted({*row, origin}), dtype=np.int64).reshape(-1, self.n)
-            for row in self.rows
+            np.array(sorted({*row, *more}), dtype=np.int64).reshape(-1, self.n) for row in self.rows
         )
 
 
