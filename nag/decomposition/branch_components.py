@@ -275,7 +275,7 @@ def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) 
         multiple = _multiplicity(equations, gradients, component)
         residual = float(original.residuals(witness.points).max(initial=0.0))
         reasons = [witness.note] if witness.note else []
-        if residual > ON:
+        if residual > max(ON, witness.accuracy):
             reasons.append("a point does not satisfy all equations")
         if not multiple:
             reasons.append("its multiplicity was not found")
