@@ -260,6 +260,8 @@ decomposition.monodromy.ROUGH               1e-8    Errors that ends of loops ma
                                                     join components.
 decomposition.monodromy.NEARER              1e-3    Distance of an end from its point over that from
                                                     the next; else the loop says nothing.
+decomposition.monodromy.LEAST_SIZE          1e-8    Coordinates of a point, over its largest, that
+                                                    slices of its sizes take for larger ones.
 decomposition.trace.EVIDENCE                18      Digits to which a trace must be linear beside
                                                     the points' motion.
 decomposition.trace.ROUND_NUMBERS           6       Digits of coefficients that ask for no more;

@@ -265,6 +265,8 @@ def test_links_that_cannot_meet_are_told_from_those_that_can(tmp_path, capsys):
             "there is no real one, which is proved: link base is longer than link crank, ",
         ),
         ((6, 1, 2, "3001/1000"), "a real one was found"),
+        # Stretched between the ends of the base: the only real assembly is a node.
+        ((6, 1, 2, 3), "only singular real ones were found, which need not move"),
     ],
 )
 def test_a_mobile_linkage_says_whether_it_has_real_assemblies(tmp_path, capsys, lengths, said):
@@ -279,6 +281,15 @@ def test_a_mobile_linkage_says_whether_it_has_real_assemblies(tmp_path, capsys, 
     found = " ".join(capsys.readouterr().out.split())
     assert "mobile, mobility 1 at most" in found
     assert said in found
+    status = main(["mobility", str(path), "--quiet"])
+    captured = capsys.readouterr()
+    moves = " ".join(captured.out.split())
+    if "proved" in said:
+        assert (status, moves) == (2, "")
+        assert said.removeprefix("there is no real one, which is proved: ") in captured.err
+    else:
+        assert "it moves with 1 freedom" in moves
+        assert (said in moves) is ("singular" in said)
 
 
 def test_sides_are_compared_exactly():

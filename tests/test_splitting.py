@@ -151,3 +151,24 @@ def test_points_that_bend_by_1e_50_are_no_lines(seed: int) -> None:
     answer = decompose(system("x y w", *texts), seed=seed)
     assert answer.complete
     assert [(c.dimension, c.degree) for c in answer.components] == [(1, 20)]
+
+
+# A ring of five turns and one of four, of lengths below 10; the turn in the first ring alone has a
+# length of 1000, which no real assembly fits, and its points have sizes from 1 to 10^5.
+FAR = """
+3*c1 - 2*s1 + 2*c2 + 1000*c3 + 3*s3 + 3*c4 - 2*s4 + c5
+3*s1 + 2*c1 + 2*s2 + 1000*s3 - 3*c3 + 3*s4 + 2*c4 + s5
+3*c1 + 2*c2 - s2 + 3*c4 - 2*s4 + 3*c5 + s5 - 2
+3*s1 + 2*s2 + c2 + 3*s4 + 2*c4 + 3*s5 - c5 - 1
+"""
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_points_of_very_different_sizes_are_joined(seed: int) -> None:
+    equations = [f"c{k}^2 + s{k}^2 - 1" for k in range(1, 6)] + FAR.split("\n")[1:-1]
+    far = system(" ".join(f"c{k} s{k}" for k in range(1, 6)), *equations)
+    (component,) = decompose(far, seed=seed).components
+    assert component.status is Status.IRREDUCIBLE
+    assert (component.dimension, component.degree) == (1, 20)
+    sizes = np.abs(component.points).max(axis=1)
+    assert sizes.max() > 100 * sizes.min()

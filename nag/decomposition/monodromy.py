@@ -21,6 +21,8 @@ ROUGH = 1e-8
 NEARER = 1e-3
 # Above so many distances a tree is searched.
 MOST_DISTANCES = 100_000
+# Coordinates that are a smaller part of a point are taken for one of this size.
+LEAST_SIZE = 1e-8
 NOTHING: Mapping[int, Fine] = MappingProxyType({})
 
 
@@ -89,10 +91,24 @@ def _two_nearest(ends: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def loop(
-    points: Points, start: Sequence[int], rng: np.random.Generator, tracker: Tracker
+    points: Points,
+    start: Sequence[int],
+    rng: np.random.Generator,
+    tracker: Tracker,
+    scaled: bool = False,
 ) -> tuple[Looped, PathCounts]:
-    """Carry some points round a random loop of slices."""
+    """Carry some points round a random loop of slices.
+
+    Args:
+        scaled: whether the slice half-way is one that is generic where coordinates are divided by
+            those of one of the points. Where the points of a set are of very different sizes, so
+            are its branch points, and slices near the origin lead round none of them.
+    """
     middle = random_rows(rng, points.dimension, points.n)
+    if scaled:
+        sizes = np.abs(points.x[rng.choice(start)])
+        middle[:, 1:] /= np.maximum(sizes, LEAST_SIZE * sizes.max())
+        middle /= np.linalg.norm(middle[:, 1:], axis=1, keepdims=True)
     out, back = (complex(g) for g in unit_complex(rng, 2))
     half, origins, counts = moved_points(points, start, middle, out, tracker)
     again, order, spent = moved_points(half, range(len(half)), points.rows, back, tracker)

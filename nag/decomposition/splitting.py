@@ -21,8 +21,8 @@ from nag.witness.fibres import Tracker
 from nag.witness.points import Points
 from nag.witness.witness import PathCounts
 
-# Loops that join nothing before symmetries are given up, and loops after which to give up: the
-# worst of the measured systems needed 23.
+# Loops that join nothing before symmetries are given up, and then slices near the origin; and loops
+# after which to give up: the worst of the measured systems needed 46.
 IDLE_LOOPS = 4
 MOST_LOOPS = 100
 
@@ -129,7 +129,8 @@ def split(
             open_points = state.open_points()
         if not len(open_points):
             break
-        idle = 0 if _looped(state, open_points, rng, tracker) else idle + 1
+        scaled = idle >= IDLE_LOOPS
+        idle = 0 if _looped(state, open_points, rng, tracker, scaled) else idle + 1
     known = state.points if state.trace is None else state.trace.sharper(state.points)
     return Split(known, state.labels, tuple(_classes(state)), state.counts)
 
@@ -209,11 +210,15 @@ def _doubted(state: _State, open_points: np.ndarray) -> None:
 
 
 def _looped(
-    state: _State, open_points: np.ndarray, rng: np.random.Generator, tracker: Tracker
+    state: _State,
+    open_points: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    scaled: bool,
 ) -> bool:
     """Track a random loop from one point of each orbit; whether it joined or found any."""
     start = open_points[np.unique(state.orbits[open_points], return_index=True)[1]]
-    found, spent = loop(state.points, start, rng, tracker)
+    found, spent = loop(state.points, start, rng, tracker, scaled)
     state.counts += spent
     if found.places is None or (len(state.permutations) and (found.places < 0).any()):
         return False

@@ -28,6 +28,7 @@ from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model, model
 from nag.mechanism.parts_decomposition import decompose_parts
 from nag.mechanism.pins import PinModel
+from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import local_dimension
 from nag.witness.expansion import expanded
 from nag.witness.witness import Decomposition, WitnessSet
@@ -57,8 +58,8 @@ class Subject:
     space: str
     counted: int
     formulation: str
-    free: tuple[tuple[int, str], ...] = ()
-    model: object = None
+    free: tuple[tuple[int, str], ...]
+    model: Model | AssemblyModel
 
     @property
     def freedoms(self) -> int:
@@ -208,6 +209,9 @@ def _in_general(subject: Subject, detail: str, options: dict[str, Any]) -> Mobil
     known = general if found.complete else None
     free = subject.freedoms
     curves = [c for c in components if c.dimension == 1] if detail == "curves" else []
+    doubt, parts = "", subject.model
+    if known is not None and known.dimension and not isinstance(parts, Model):
+        doubt = real_doubt(parts, {c.corank for c in components if c.dimension})
     return MobilityReport(
         **subject.described,
         tangent_dimension=None if known is None else known.corank + free,
@@ -220,6 +224,7 @@ def _in_general(subject: Subject, detail: str, options: dict[str, Any]) -> Mobil
         local=None,
         curves=tuple(_curve(subject, c, **options) for c in curves),
         general=known,
+        doubt=doubt,
     )
 
 

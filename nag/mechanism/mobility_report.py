@@ -83,6 +83,8 @@ class MobilityReport:
         free_of: whose the ``free`` ones are, as text; empty where there are none.
         general: of parts that are not assembled, a component of the largest dimension: the report
             is of a general configuration on it, and ``components`` are all that there are.
+        doubt: of such parts that move, why it is not known that they do with real coordinates;
+            empty where it is.
     """
 
     space: str
@@ -100,6 +102,7 @@ class MobilityReport:
     curves: tuple[CurveOfMotion, ...] = ()
     free_of: str = ""
     general: WitnessSet | None = None
+    doubt: str = ""
 
     @property
     def local_dimension(self) -> int | None:
@@ -230,7 +233,8 @@ def _sentence(report: MobilityReport) -> str:
         return _meaning(report)
     if status is MobilityStatus.RIGID:
         return "no configuration moves, not even infinitesimally"
-    return f"at a general configuration of those with the most freedoms {_meaning(report)}"
+    text = f"at a general configuration of those with the most freedoms {_meaning(report)}"
+    return f"{text}; {report.doubt}" if report.doubt else text
 
 
 def _meaning(report: MobilityReport) -> str:

@@ -7,7 +7,7 @@ for by Newton's method from random real points; where none is found, nothing is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import sqrt
@@ -19,7 +19,7 @@ from nag.algebra.number import Number, square_root
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel, cartesian_model
 from nag.mechanism.linkage import LinkageModel
-from nag.witness.gauss_newton import descend, polish
+from nag.witness.gauss_newton import Zero, descend, polish
 
 STARTS = 24
 
@@ -62,8 +62,8 @@ def obstacle(parts: AssemblyModel) -> str:
     return ""
 
 
-def real_assembly(parts: AssemblyModel, seed: int = 0) -> np.ndarray | None:
-    """A real assembly that may move, found by Newton's method; None if none was.
+def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[Zero]:
+    """Real assemblies that may move, found by Newton's method from some random starts.
 
     The Jacobian's rank is not full there, as it is nowhere where assemblies move. In the variables
     of equations with real coordinates; accurate to rounding.
@@ -82,18 +82,38 @@ def real_assembly(parts: AssemblyModel, seed: int = 0) -> np.ndarray | None:
             continue
         zero = polish(evaluator, near)
         if zero.converged and zero.corank and (nonzero.residuals(zero.x[None] + 0j) > 1e-8).all():
-            return zero.x
-    return None
+            yield zero
 
 
-def real_text(parts: AssemblyModel) -> str:
-    """One clause: whether there are real assemblies that move, and what that rests on."""
+def real_doubt(parts: AssemblyModel, coranks: Collection[int]) -> str:
+    """Why it is not known that assemblies move with real coordinates, in one clause.
+
+    Empty where a real one was found that is not singular: the others may be isolated among real
+    ones, as a node with complex tangents is.
+
+    Args:
+        coranks: of the Jacobian at general points of the sets of assemblies that move.
+    """
     reason = obstacle(parts)
     if reason:
         return f"there is no real one, which is proved: {reason}"
-    if real_assembly(parts) is not None:
-        return "a real one was found"
+    found = False
+    for zero in real_assemblies(parts):
+        if zero.corank in coranks:
+            return ""
+        found = True
+    if found:
+        return "only singular real ones were found, which need not move"
     return f"no real one was found from {STARTS} starting points, which proves nothing"
+
+
+def real_text(parts: AssemblyModel, coranks: Collection[int]) -> str:
+    """One clause: whether there are real assemblies that move, and what that rests on.
+
+    Args:
+        coranks: as for `real_doubt`.
+    """
+    return real_doubt(parts, coranks) or "a real one was found"
 
 
 def _squares(parts: FrameworkModel) -> tuple[Number, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from nag.witness.witness import Decomposition
+from nag.witness.witness import Decomposition, WitnessSet
 
 if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel
@@ -64,7 +64,7 @@ def assembly_rows(kind: str, assembly: AssemblyModel, decomposition: Decompositi
         largest = max(c.dimension for c in moving) + _free_links(assembly)
         count = sum(c.orbit for c in moving)
         on = f"{count} component{'' if count == 1 else 's'}"
-        parts.append(f"mobile, mobility {largest} at most, on {on}{_reality(assembly)}")
+        parts.append(f"mobile, mobility {largest} at most, on {on}{_reality(assembly, moving)}")
     if isolated:
         each = _points_of_each(assembly)
         count = sum(c.orbit * len(c.points) for c in isolated) // each
@@ -86,10 +86,12 @@ def _free_links(assembly: AssemblyModel) -> int:
     return len(assembly.free) if isinstance(assembly, LinkageModel) else 0
 
 
-def _reality(assembly: AssemblyModel) -> str:
+def _reality(assembly: AssemblyModel, moving: Iterable[WitnessSet]) -> str:
     from nag.mechanism.real_assemblies import real_text
 
-    return "" if assembly.reference is not None else f"; {real_text(assembly)}"
+    if assembly.reference is not None:
+        return ""
+    return f"; {real_text(assembly, {c.corank for c in moving})}"
 
 
 def real_row(kind: str, assembly: AssemblyModel, points: Iterable[Sequence[complex]]) -> Rows:
