@@ -32,7 +32,7 @@ from nag.numerics.digits import log_norm, log_size, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import jacobian
 from nag.numerics.pivots import pivots
-from nag.numerics.power_series import Series, SeriesRing, derivatives
+from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives
 from nag.numerics.sharpening import ARRIVED, DIGITS, ROUNDING, ZERO, sharpen
 
 # Orders of the series in which the lowest terms of what remains are looked for, one after the
@@ -41,6 +41,8 @@ from nag.numerics.sharpening import ARRIVED, DIGITS, ROUNDING, ZERO, sharpen
 ORDERS = (3, 6, 12, 17, 24, 34, 48, 68, 96, 136, 192, 272, 384)
 # Digits that rounding may have taken from coefficients beside those that each degree loses.
 SPARE = 20.0
+# Newton's steps after the first may take back half of it, hardly more (decimal logarithm).
+TURNS_BACK = 0.5
 # Lines on which the sizes of forms are looked at before all of their coefficients are.
 LINES = 3
 MOST_WORK, MOST_WORK_ROUGHLY = 1e6, 1.5e5
@@ -200,11 +202,15 @@ def deflate(
         rounds: list[Round] = []
         slopes: Callable[[Point], list[list[Any]]] = system.values_at(DIGITS).jacobian
         point, centre = list(x), list(x)
+        farthest = max(reach + 1, ARRIVED)
+        rows: list[Terms] = []
         while True:
             this = regular_block(slopes, centre, reach, rng)
             left = len(centre) - len(this.columns)
             if rounds and left == len(centre):
                 raise NotDeflated("its error is too large to see which derivatives vanish there")
+            if rounds and _first_step(rows, this, left) > farthest + TURNS_BACK:
+                raise NotDeflated("Newton's method leads away from there")
             if rounds and rounds[-1].order == 1:
                 # What remained has a linear part, at the sharpened point: both are one block.
                 rounds[-1] = rounds[-1].joined(this)
@@ -214,7 +220,7 @@ def deflate(
             if found is None:
                 raise NotDeflated("Newton's method does not converge to a zero there")
             point, descent = found
-            if log_norm(a - b for a, b in zip(point, x, strict=True)) > max(reach + 1, ARRIVED):
+            if log_norm(a - b for a, b in zip(point, x, strict=True)) > farthest:
                 raise NotDeflated("the zero found is further away than the error of the point")
             if not left:
                 return _regular(system, point, rounds, descent)
@@ -226,6 +232,20 @@ def deflate(
             rows = derivatives(descent.remaining, descent.ring, order - 1)
             slopes = partial(jacobian, rows)
             centre = [flint.acb(0)] * left
+
+
+def _first_step(rows: Sequence[Terms], this: Round, n: int) -> float:
+    """Decimal logarithm of Newton's first step from the origin, for a block of equations."""
+    n += len(this.columns)
+    origin = [flint.acb(0)] * n
+    chosen = [rows[i] for i in this.rows]
+    slopes = [[row[j] for j in this.columns] for row in jacobian(chosen, origin)]
+    values = [next((c for e, c in row if not any(e)), 0) for row in chosen]
+    try:
+        step = flint.acb_mat(slopes).solve(flint.acb_mat(len(values), 1, values))
+    except ZeroDivisionError:
+        return inf
+    return log_norm(step.mid().entries())
 
 
 def _regular(
