@@ -196,9 +196,7 @@ def _followed(
     return 0 if zero is None else 1 + zero.free
 
 
-def _begun(
-    scaled: ScaledSeries, plane: np.ndarray, rng: np.random.Generator
-) -> np.ndarray | None:
+def _begun(scaled: ScaledSeries, plane: np.ndarray, rng: np.random.Generator) -> np.ndarray | None:
     """A zero on the hyperplane, from one of several starts: most of the work is done with it."""
     for _ in range(STARTS):
         u = rng.normal(size=len(plane)) + 1j * rng.normal(size=len(plane))

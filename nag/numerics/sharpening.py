@@ -130,7 +130,9 @@ def sharpen_regular(system: ExactSystem, x: Sequence[flint.acb], within: float) 
     with working(DIGITS):
         for step in range(NEWTON_STEPS):
             slopes = functions.jacobian(point)
-            adjoint = flint.acb_mat([[c.conjugate() for c in column] for column in zip(*slopes)])
+            adjoint = flint.acb_mat(
+                [[c.conjugate() for c in column] for column in zip(*slopes, strict=True)]
+            )
             values = flint.acb_mat(len(slopes), 1, functions.values(point))
             try:
                 change = (adjoint * flint.acb_mat(slopes)).solve(adjoint * values).mid().entries()
