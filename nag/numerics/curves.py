@@ -37,8 +37,6 @@ PATIENCE = 0.05
 # How many digits less than it has a zero on a hyperplane is known to.
 CLOSE = 5.0
 # Binary logarithms of distances at which hyperplanes pass a singular point.
-# Starts for a zero there.
-STARTS = 4
 DISTANCES = (5, 9, 13, 17, 21)
 
 
@@ -175,11 +173,11 @@ def _followed(
     plane: np.ndarray,
     rng: np.random.Generator,
 ) -> int:
-    u: np.ndarray | None = None
+    u = rng.normal(size=found.corank) + 1j * rng.normal(size=found.corank)
     zero: Deflated | None = None
     for k in [k for k in DISTANCES if k >= begin]:
         scaled = ScaledSeries.of(series.ring, series.rest, -k * LOG10_2)
-        u = _begun(scaled, plane, rng) if u is None else scaled.newton(u / (plane @ u), plane)
+        u = scaled.newton(u / (plane @ u), plane)
         if u is None or np.abs(u).max() > 1e3:
             return 0
         along = [flint.acb(complex(c)) / 2**k for c in u]
@@ -194,16 +192,6 @@ def _followed(
         elif not _continues(sliced, start, k, zero):
             return 0
     return 0 if zero is None else 1 + zero.free
-
-
-def _begun(scaled: ScaledSeries, plane: np.ndarray, rng: np.random.Generator) -> np.ndarray | None:
-    """A zero on the hyperplane, from one of several starts: most of the work is done with it."""
-    for _ in range(STARTS):
-        u = rng.normal(size=len(plane)) + 1j * rng.normal(size=len(plane))
-        found = scaled.newton(u / (plane @ u), plane)
-        if found is not None:
-            return found
-    return None
 
 
 def _on_hyperplane(system: ExactSystem, found: Deflated, k: int, plane: np.ndarray) -> ExactSystem:
