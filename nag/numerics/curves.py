@@ -173,11 +173,11 @@ def _followed(
     plane: np.ndarray,
     rng: np.random.Generator,
 ) -> int:
-    u = rng.normal(size=found.corank) + 1j * rng.normal(size=found.corank)
+    u: np.ndarray | None = None
     zero: Deflated | None = None
     for k in [k for k in DISTANCES if k >= begin]:
         scaled = ScaledSeries.of(series.ring, series.rest, -k * LOG10_2)
-        u = scaled.newton(u / (plane @ u), plane)
+        u = _begun(scaled, plane, rng) if u is None else scaled.newton(u / (plane @ u), plane)
         if u is None or np.abs(u).max() > 1e3:
             return 0
         along = [flint.acb(complex(c)) / 2**k for c in u]
@@ -192,6 +192,16 @@ def _followed(
         elif not _continues(sliced, start, k, zero):
             return 0
     return 0 if zero is None else 1 + zero.free
+
+
+def _begun(scaled: ScaledSeries, plane: np.ndarray, rng: np.random.Generator) -> np.ndarray | None:
+    """A zero on the hyperplane; in many variables, where all else costs most, from more starts."""
+    for _ in range(max(1, len(plane) // 2)):
+        u = rng.normal(size=len(plane)) + 1j * rng.normal(size=len(plane))
+        found = scaled.newton(u / (plane @ u), plane)
+        if found is not None:
+            return found
+    return None
 
 
 def _on_hyperplane(system: ExactSystem, found: Deflated, k: int, plane: np.ndarray) -> ExactSystem:
