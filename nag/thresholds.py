@@ -292,13 +292,13 @@ Other values of these give the same answers, sooner or later: sizes of steps and
 rounding, digits that are taken, where random numbers come from.
 
 numerics.certified_points: FLAT; numerics.curves: CLOSE, CLOSER, PATIENCE; numerics.deflated_system:
-MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY; numerics.digits: LOG10_2, SMALLEST,
-LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST, LEAST, GOOD;
-numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: ROUNDING;
+MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK; numerics.digits:
+LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST,
+LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: ROUNDING;
 numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: REACHES;
 numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
 numerics.rounds_in_doubles: APART; numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
-numerics.sharpening: ROUNDING, NEARLY; numerics.small_values: LEAST;
+numerics.sharpening: ROUNDING, NEARLY, GAIN; numerics.small_values: LEAST;
 tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
 ENDGAME; tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE;
 tracking.ends.branch: LONGEST; tracking.ends.corrector:

@@ -10,7 +10,9 @@ import nag
 from nag.bench.atlas.curves import close_skew_lines
 from nag.decomposition import decompose, witness_at
 from nag.files.export import read_decomposition, write_decomposition
+from nag.tracking.paths import Ball
 from nag.witness.close_points import Fine, distance, in_words, rated
+from nag.witness.fibres import _words
 from nag.witness.membership import UndecidedError
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import WitnessSet
@@ -170,3 +172,12 @@ def test_distances_of_close_points_are_those_of_all_digits() -> None:
     assert isinstance(x, Fine) and np.array_equal(x.rounded, y.rounded)
     assert distance(x.rounded, None, y.rounded, None) == 0
     assert abs(distance(x.rounded, x, y.rounded, y) - 3e-30) < 1e-40
+
+
+def test_ends_in_more_words_than_are_compared_keep_the_leading_ones() -> None:
+    """The last arithmetic has eight words."""
+    words = 2.0 ** (-60.0 * np.arange(8))
+    centre = np.tile(words, (3, 2, 1))
+    assert (_words(Ball(centre, np.zeros(3))) == centre[..., :4]).all()
+    padded = _words(Ball(centre[..., :2], np.zeros(3)))
+    assert (padded[..., :2] == centre[..., :2]).all() and not padded[..., 2:].any()

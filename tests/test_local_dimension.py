@@ -125,6 +125,13 @@ def test_a_singular_zero_that_costs_too_much_is_not_passed_over(seed: int) -> No
     assert right(point, found)
 
 
+def test_curves_at_a_small_angle_are_followed() -> None:
+    """In these coordinates it is 0.3 degrees, and the inverse of a Jacobian between them 1e14."""
+    point = ZEROS["an umbrella's handle and a line"]
+    found, _ = judged(point, seed=79)
+    assert right(point, found) and found.decided, found.reason
+
+
 @pytest.mark.parametrize("digits", [30, 50, 90])
 def test_what_only_long_coefficients_tell_from_zero_is_not_zero(digits: int) -> None:
     x, y, small = "(2*u - v - 1/3)", "(u + 3*v + 2/3)", f"1/10^{digits}"
@@ -258,10 +265,16 @@ def test_points_of_cases_have_the_published_multiplicities(name: str, tmp_path) 
 
 @pytest.mark.parametrize(
     ("name", "point", "tangent", "dimension"),
-    [("four-bar-kite", "fold", 2, 1), ("wunderlich-12-bar", "all on a line", 6, 2)],
+    [
+        ("planar/four-bar-kite", "fold", 2, 1),
+        ("planar/wunderlich-12-bar", "all on a line", 6, 2),
+        ("rhombus", "stretched", 2, 1),
+        ("rhombus", "sides folded back", 2, 1),
+        ("rhombus", "coupler folded back", 2, 1),
+    ],
 )
 def test_points_of_links_and_bars_have_names(name, point, tangent, dimension) -> None:
-    case = nag.read_case(CASES / "planar" / f"{name}.toml")
+    case = nag.read_case(CASES / f"{name}.toml")
     (at,) = (p.at for p in case.points if p.name == point)
     found = nag.local_dimension(case.system, at)
     assert (found.tangent_dimension, found.dimension) == (tangent, dimension)

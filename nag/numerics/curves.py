@@ -17,7 +17,7 @@ from nag.numerics.implicit_function import Reduction, eliminate
 from nag.numerics.pivots import pivots
 from nag.numerics.power_series import evaluate
 from nag.numerics.series_zeros import ScaledSeries
-from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO, predicted, sharpen
+from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO, predicted, sharpen, sharpen_regular
 
 # Binary logarithms of distances at which a smooth set of zeros is followed; the smaller ones where
 # it bends too much.
@@ -173,11 +173,11 @@ def _followed(
     plane: np.ndarray,
     rng: np.random.Generator,
 ) -> int:
-    u = rng.normal(size=found.corank) + 1j * rng.normal(size=found.corank)
+    u: np.ndarray | None = None
     zero: Deflated | None = None
     for k in [k for k in DISTANCES if k >= begin]:
         scaled = ScaledSeries.of(series.ring, series.rest, -k * LOG10_2)
-        u = scaled.newton(u / (plane @ u), plane)
+        u = _begun(scaled, plane, rng) if u is None else scaled.newton(u / (plane @ u), plane)
         if u is None or np.abs(u).max() > 1e3:
             return 0
         along = [flint.acb(complex(c)) / 2**k for c in u]
@@ -192,6 +192,16 @@ def _followed(
         elif not _continues(sliced, start, k, zero):
             return 0
     return 0 if zero is None else 1 + zero.free
+
+
+def _begun(scaled: ScaledSeries, plane: np.ndarray, rng: np.random.Generator) -> np.ndarray | None:
+    """A zero on the hyperplane; in many variables, where all else costs most, from more starts."""
+    for _ in range(max(1, len(plane) // 2)):
+        u = rng.normal(size=len(plane)) + 1j * rng.normal(size=len(plane))
+        found = scaled.newton(u / (plane @ u), plane)
+        if found is not None:
+            return found
+    return None
 
 
 def _on_hyperplane(system: ExactSystem, found: Deflated, k: int, plane: np.ndarray) -> ExactSystem:
@@ -211,9 +221,13 @@ def _zero_near(
     sliced: ExactSystem, start: Point, k: int, rng: np.random.Generator
 ) -> Deflated | None:
     """The zero on the hyperplane at distance 2^-k beside a point, if it is one to all digits."""
-    for closer in CLOSER:
+    tries = [(start, -k * LOG10_2 - closer) for closer in CLOSER]
+    regular = sharpen_regular(sliced, start, tries[-1][1])
+    if regular is not None:
+        tries.insert(0, (regular, ARRIVED + CLOSE))
+    for point, reach in tries:
         try:
-            zero = deflate(sliced, start, -k * LOG10_2 - closer, rng, PATIENCE)
+            zero = deflate(sliced, point, reach, rng, PATIENCE)
         except NotDeflated:
             continue
         if zero.exact:
@@ -232,12 +246,16 @@ def _on_set(system: ExactSystem, zero: Deflated, rng: np.random.Generator) -> bo
 
 def _continues(sliced: ExactSystem, start: Point, k: int, zero: Deflated) -> bool:
     """Whether there is a zero of the same kind by ``start`` on the hyperplane at distance 2^-k."""
+    within = 1 - k * LOG10_2 - CLOSER[-1]
     with working(DIGITS):
-        there = sharpen(sliced, start, zero.rounds)
-        if there is None or there[1].defect > ZERO:
+        if len(zero.rounds) == 1 and not zero.free:
+            there = sharpen_regular(sliced, start, within)
+            values = [] if there is None else sliced.values_at(DIGITS).values(there)
+            return there is not None and log_norm(values) < ZERO
+        found = sharpen(sliced, start, zero.rounds)
+        if found is None or found[1].defect > ZERO:
             return False
-        moved = log_norm(a - b for a, b in zip(there[0], start, strict=True))
-    return moved < 1 - k * LOG10_2 - CLOSER[-1]
+        return log_norm(a - b for a, b in zip(found[0], start, strict=True)) < within
 
 
 def _vanishes(system: ExactSystem, zero: Deflated, digits: int) -> bool:

@@ -32,7 +32,7 @@ from nag.numerics.digits import log_norm, log_size, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import jacobian
 from nag.numerics.pivots import pivots
-from nag.numerics.power_series import Series, SeriesRing, derivatives
+from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives
 from nag.numerics.sharpening import ARRIVED, DIGITS, ROUNDING, ZERO, sharpen
 
 # Orders of the series in which the lowest terms of what remains are looked for, one after the
@@ -41,6 +41,10 @@ from nag.numerics.sharpening import ARRIVED, DIGITS, ROUNDING, ZERO, sharpen
 ORDERS = (3, 6, 12, 17, 24, 34, 48, 68, 96, 136, 192, 272, 384)
 # Digits that rounding may have taken from coefficients beside those that each degree loses.
 SPARE = 20.0
+# Newton's steps after the first may take back half of it, hardly more (decimal logarithm).
+TURNS_BACK = 0.5
+# Lines on which the sizes of forms are looked at before all of their coefficients are.
+LINES = 3
 MOST_WORK, MOST_WORK_ROUGHLY = 1e6, 1.5e5
 
 
@@ -78,7 +82,11 @@ class SeriesTooLong(NotDeflated):
 
 
 def lowest_order(
-    ring: SeriesRing, series: Sequence[Series], reach: float, inverse: float = 0.0
+    ring: SeriesRing,
+    series: Sequence[Series],
+    reach: float,
+    inverse: float = 0.0,
+    first: int = 1,
 ) -> int | None:
     """The degree of the lowest terms at a zero no further from the origin than ``reach``.
 
@@ -90,19 +98,55 @@ def lowest_order(
         reach: decimal logarithm.
         inverse: of the blocks that were solved for, decimal logarithm: each degree of the series
             loses as many digits.
+        first: the first degree that is looked at.
     """
     norms = [-inf] * (ring.order + 1)
     for s in series:
         for key, c in s.items():
             degree = ring.degree(key)
             norms[degree] = max(norms[degree], log_size(c))
-    for j in range(1, ring.order):
+    for j in range(first, ring.order):
         shadow = max(
             norms[e] + log10(comb(e, j)) + (e - j) * reach for e in range(j + 1, len(norms))
         )
         if norms[j] > max(_noise(j, inverse), shadow + 0.5):
             return j
     return None
+
+
+def _lowest_on_lines(
+    system: ExactSystem, point: Point, this: Round, degrees: tuple[int, int], reach: float
+) -> int | None:
+    """The degree in a range of the lowest terms as lines through the point show it.
+
+    What remains has the same orders on them as everywhere, and its series cost little.
+    """
+    first, order = degrees
+    series: list[Series] = []
+    inverse = 0.0
+    for turn in range(LINES):
+        seen = _on_line(system, point, this, order, np.exp(1j * (0.3 + 2.0 * turn)))
+        if seen is None:
+            return order - 1
+        series += seen.remaining
+        inverse = max(inverse, seen.inverse)
+    return lowest_order(SeriesRing(1, order), series, reach, inverse, first)
+
+
+def _on_line(
+    system: ExactSystem, point: Point, this: Round, order: int, turn: complex
+) -> Descent | None:
+    """What remains on a line, along which each free variable is ``turn`` times the one before."""
+    free = [i for i in range(system.n) if i not in this.columns]
+    slope, n = flint.acb(turn), system.n
+    lines = system
+    for i, j in zip(free[1:], free[:-1], strict=True):
+        units = [tuple(int(k == v) for k in range(n)) for v in (i, j)]
+        constant = middle(slope * point[j] - point[i])
+        terms = [((0,) * n, constant), (units[0], flint.acb(1)), (units[1], -slope)]
+        lines = lines.with_row(terms)
+    rows = (*this.rows, *range(len(system.rows), len(lines.rows)))
+    return descend(lines, DIGITS, point, [Round(rows, (*this.columns, *free[1:]))], order)
 
 
 def _noise(degree: int, inverse: float) -> float:
@@ -158,11 +202,15 @@ def deflate(
         rounds: list[Round] = []
         slopes: Callable[[Point], list[list[Any]]] = system.values_at(DIGITS).jacobian
         point, centre = list(x), list(x)
+        farthest = max(reach + 1, ARRIVED)
+        rows: list[Terms] = []
         while True:
             this = regular_block(slopes, centre, reach, rng)
             left = len(centre) - len(this.columns)
             if rounds and left == len(centre):
                 raise NotDeflated("its error is too large to see which derivatives vanish there")
+            if rounds and _first_step(rows, this, left) > farthest + TURNS_BACK:
+                raise NotDeflated("Newton's method leads away from there")
             if rounds and rounds[-1].order == 1:
                 # What remained has a linear part, at the sharpened point: both are one block.
                 rounds[-1] = rounds[-1].joined(this)
@@ -172,7 +220,7 @@ def deflate(
             if found is None:
                 raise NotDeflated("Newton's method does not converge to a zero there")
             point, descent = found
-            if log_norm(a - b for a, b in zip(point, x, strict=True)) > max(reach + 1, ARRIVED):
+            if log_norm(a - b for a, b in zip(point, x, strict=True)) > farthest:
                 raise NotDeflated("the zero found is further away than the error of the point")
             if not left:
                 return _regular(system, point, rounds, descent)
@@ -184,6 +232,20 @@ def deflate(
             rows = derivatives(descent.remaining, descent.ring, order - 1)
             slopes = partial(jacobian, rows)
             centre = [flint.acb(0)] * left
+
+
+def _first_step(rows: Sequence[Terms], this: Round, n: int) -> float:
+    """Decimal logarithm of Newton's first step from the origin, for a block of equations."""
+    n += len(this.columns)
+    origin = [flint.acb(0)] * n
+    chosen = [rows[i] for i in this.rows]
+    slopes = [[row[j] for j in this.columns] for row in jacobian(chosen, origin)]
+    values = [next((c for e, c in row if not any(e)), 0) for row in chosen]
+    try:
+        step = flint.acb_mat(slopes).solve(flint.acb_mat(len(values), 1, values))
+    except ZeroDivisionError:
+        return inf
+    return log_norm(step.mid().entries())
 
 
 def _regular(
@@ -207,12 +269,17 @@ def _lowest_terms(
     from nag.numerics.curves import smooth_set
 
     left = len(point) - sum(len(r.columns) for r in rounds)
-    least, most = 0.0, patience * MOST_WORK
+    least, most, known = 0.0, patience * MOST_WORK, 0
     for order in ORDERS:
         if order < min(least, ORDERS[-1]):
             continue
         if total_work(system, rounds, order) > most:
             raise SeriesTooLong(f"its series in {left} variables are too long at order {order}")
+        if known and len(rounds) == 1 and left > 2:
+            seen = _lowest_on_lines(system, point, rounds[0], (known, order), reach)
+            if seen is None:
+                continue
+            order = seen + 1
         descent = descend(system, DIGITS, point, rounds, order)
         assert descent is not None
         found = lowest_order(descent.ring, descent.remaining, reach, descent.inverse)
@@ -221,7 +288,7 @@ def _lowest_terms(
         ring, noisy = descent.ring, _noise(order, descent.inverse) > 0
         sizes = ((log_size(c), ring.degree(k)) for s in descent.remaining for k, c in s.items())
         if any(size > _noise(degree, descent.inverse) for size, degree in sizes):
-            most = patience * MOST_WORK_ROUGHLY
+            most, known = patience * MOST_WORK_ROUGHLY, order
         elif not least:
             # Each round's equations are derivatives, of lower order along the set.
             least = smooth_set(system, point, rounds, descent.inverse)

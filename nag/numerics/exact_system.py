@@ -61,7 +61,11 @@ class ExactSystem:
 
     def with_row(self, row: Sequence[tuple[tuple[int, ...], Any]]) -> ExactSystem:
         """The system with one more polynomial in the scaled variables."""
-        return ExactSystem(self.n, (*self.rows, tuple(row)), self.scales)
+        made = ExactSystem(self.n, (*self.rows, tuple(row)), self.scales)
+        for digits, rows in self._known.items():
+            with flint.ctx.workdps(digits):
+                made._known[digits] = [*rows, [(e, number(c)) for e, c in row]]
+        return made
 
     def at(self, digits: int) -> list[Terms]:
         """The rows with coefficients of so many digits."""

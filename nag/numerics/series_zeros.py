@@ -38,12 +38,12 @@ class ScaledSeries:
         """At the scale ``r = 10^size``, which may be far below the range of doubles' squares."""
         keys = sorted({k for s in series for k in s}) or [0]
         place = {k: i for i, k in enumerate(keys)}
-        scale = flint.arb(10) ** flint.arb(size)
+        powers = [flint.arb(10) ** (flint.arb(size) * d) for d in range(ring.order + 1)]
         rows = []
         for s in series:
             if log_norm(s.values()) <= ZERO:
                 continue
-            values = {k: flint.acb(c) * scale ** ring.degree(k) for k, c in s.items()}
+            values = {k: flint.acb(c) * powers[ring.degree(k)] for k, c in s.items()}
             largest = max(v.abs_upper() for v in values.values())
             row = np.zeros(len(keys), dtype=complex)
             for k, v in values.items():

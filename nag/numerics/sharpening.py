@@ -23,6 +23,9 @@ LARGEST_INVERSE = 70.0
 ROUNDING = 10.0
 # A step below this share of the digits leaves a point that more digits can go on from.
 NEARLY = 0.4
+# Least gain of a step of Gauss and Newton's method (decimal logarithm), after the first two: less
+# is no progress, while by two zeros that are close together each step halves the distance.
+GAIN = 0.2
 
 
 def sharpen(
@@ -111,6 +114,37 @@ def _sharpened_block(
             remaining = [{0: c} if c else {} for c in rest]
             return point, Descent(displacement, ring, remaining, log_norm(rest), size)
         last = moved
+    return None
+
+
+def sharpen_regular(system: ExactSystem, x: Sequence[flint.acb], within: float) -> Point | None:
+    """The zero of all equations next to ``x`` where their Jacobian has full rank, or None.
+
+    By the method of Gauss and Newton: a part of the equations may have other zeros nearby, or
+    nearly the same tangents, where all of them together do not.
+
+    Args:
+        within: decimal logarithm of how far the zero may be.
+    """
+    functions, last, point = system.values_at(DIGITS), inf, list(x)
+    with working(DIGITS):
+        for step in range(NEWTON_STEPS):
+            slopes = functions.jacobian(point)
+            adjoint = flint.acb_mat(
+                [[c.conjugate() for c in column] for column in zip(*slopes, strict=True)]
+            )
+            values = flint.acb_mat(len(slopes), 1, functions.values(point))
+            try:
+                change = (adjoint * flint.acb_mat(slopes)).solve(adjoint * values).mid().entries()
+            except ZeroDivisionError:
+                return None
+            size = log_norm(change)
+            point = [middle(a - b) for a, b in zip(point, change, strict=True)]
+            if size > within or (step > 2 and size > last - GAIN):
+                return None
+            if size < ARRIVED:
+                return point
+            last = size
     return None
 
 

@@ -194,8 +194,8 @@ def _fine(paths: Paths, points: np.ndarray, regular: np.ndarray) -> dict[int, Fi
 
 
 def _words(ball: Ball) -> np.ndarray:
-    spare = WORDS - ball.centre.shape[-1]
-    return np.pad(ball.centre, ((0, 0), (0, 0), (0, spare)))
+    leading = ball.centre[..., :WORDS]
+    return np.pad(leading, ((0, 0), (0, 0), (0, WORDS - leading.shape[-1])))
 
 
 def move(

@@ -1,0 +1,71 @@
+"""Deflation from points that are known roughly, and the zeros that are regular all the same."""
+
+from __future__ import annotations
+
+import flint
+import numpy as np
+import pytest
+from singular_zeros import polynomials
+
+from nag.numerics import deflation
+from nag.numerics.deflation import NotDeflated, deflate
+from nag.numerics.digits import log_norm, working
+from nag.numerics.exact_system import ExactSystem
+from nag.numerics.sharpening import ARRIVED, DIGITS, sharpen_regular
+
+QUARTICS = "x^4 - 2*y^2*z^2 + x^5, y^4 + 3*x*z^3 - z^5, z^4 - x^2*y*z + y^6"
+
+
+def test_the_order_at_a_rough_point_needs_no_longer_series(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = []
+
+    def recorded(system, digits, centre, rounds, order, along=None):
+        made.append((system.n - len(rounds[0].columns), order))
+        return descend(system, digits, centre, rounds, order, along)
+
+    descend = deflation.descend
+    monkeypatch.setattr(deflation, "descend", recorded)
+    system = ExactSystem.of(polynomials("x y z", *QUARTICS.split(", ")), np.zeros(3))
+    with working(DIGITS):
+        rough = [flint.acb(c) for c in (1e-3, -2e-3, 1.5e-3)]
+        found = deflate(system, rough, -2.5, np.random.default_rng(0))
+    assert (found.rounds[0].order, found.free, found.exact) == (4, 0, True)
+    assert log_norm(found.point) < ARRIVED
+    assert max(order for m, order in made if m == 3) == 5
+
+
+def test_newton_s_method_that_leads_away_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Their double zero is 40 times as far as it may be, which only both together tell."""
+    pair = [f"(x + y)^2 {sign} (x - y - 8/100)^2/100" for sign in "+-"]
+    system = ExactSystem.of(polynomials("x y", *pair), np.zeros(2))
+    sharpened = []
+
+    def recorded(system, x, rounds, digits=DIGITS):
+        sharpened.append(len(rounds))
+        return sharpen(system, x, rounds, digits)
+
+    sharpen = deflation.sharpen
+    monkeypatch.setattr(deflation, "sharpen", recorded)
+    with working(DIGITS):
+        with pytest.raises(NotDeflated, match="away"):
+            deflate(system, [flint.acb(0)] * 2, -3.0, np.random.default_rng(0))
+        assert sharpened == [1]
+        assert deflate(system, [flint.acb(0)] * 2, -2.0, np.random.default_rng(0)).exact
+
+
+def test_all_equations_together_lead_to_their_common_zero() -> None:
+    """From there, Newton's method for the first one alone leads to another zero of it."""
+    with working(DIGITS):
+        two = polynomials("x", "x*(x - 1/10^6)", "x*(x - 2/10^6)")
+        start = [flint.acb("6e-7")]
+        found = sharpen_regular(ExactSystem.of(two, np.zeros(1)), start, -6.0)
+        assert found is not None and log_norm(found) < ARRIVED
+        assert sharpen_regular(ExactSystem.of(two, np.zeros(1)), start, -6.5) is None
+        alone = sharpen_regular(ExactSystem.of(two[:1], np.zeros(1)), start, -5.0)
+        assert alone is not None and log_norm(alone) > -6.1
+
+
+def test_a_multiple_zero_is_none_that_all_equations_make_regular() -> None:
+    with working(DIGITS):
+        double = ExactSystem.of(polynomials("x y", "x^2", "x*y", "y - x^2"), np.zeros(2))
+        assert sharpen_regular(double, [flint.acb("1e-3"), flint.acb("1e-4")], -1.0) is None
