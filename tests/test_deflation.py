@@ -25,9 +25,10 @@ def test_the_order_at_a_rough_point_needs_no_longer_series(monkeypatch: pytest.M
 
     descend = deflation.descend
     monkeypatch.setattr(deflation, "descend", recorded)
-    system = ExactSystem.of(polynomials("x y z", *QUARTICS.split(", ")), np.zeros(3))
+    given = polynomials("x y z w", *QUARTICS.split(", "), "w + w^2 - x*y*z")
+    system = ExactSystem.of(given, np.zeros(4))
     with working(DIGITS):
-        rough = [flint.acb(c) for c in (1e-3, -2e-3, 1.5e-3)]
+        rough = [flint.acb(c) for c in (1e-3, -2e-3, 1.5e-3, 1e-4)]
         found = deflate(system, rough, -2.5, np.random.default_rng(0))
     assert (found.rounds[0].order, found.free, found.exact) == (4, 0, True)
     assert log_norm(found.point) < ARRIVED

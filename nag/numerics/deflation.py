@@ -275,7 +275,8 @@ def _lowest_terms(
             continue
         if total_work(system, rounds, order) > most:
             raise SeriesTooLong(f"its series in {left} variables are too long at order {order}")
-        if known and len(rounds) == 1 and left > 2:
+        # Where nothing is solved for, series are the polynomials, which lines do not shorten.
+        if known and len(rounds) == 1 and rounds[0].columns and left > 2:
             seen = _lowest_on_lines(system, point, rounds[0], (known, order), reach)
             if seen is None:
                 continue
