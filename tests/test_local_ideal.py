@@ -77,3 +77,8 @@ def test_gradients_that_depend_on_each_other_show_no_multiplicity() -> None:
     assert independent_gradients(of.polynomials, np.array([1, 2], dtype=complex), 1e-12)
     nearly = np.array([1e-14, 1e-15], dtype=complex)
     assert not independent_gradients(of.polynomials, nearly, 1e-12)
+
+
+def test_gradients_whose_squares_leave_the_range_of_doubles_are_independent() -> None:
+    of = system("x y", "x^20 - y", "x^19 + y^2")
+    assert independent_gradients(of.polynomials, np.array([1e9, 1e9], dtype=complex), 0.0)

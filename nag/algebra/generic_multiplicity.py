@@ -110,6 +110,9 @@ class Gradients:
         gradients = np.where(np.abs(values) > NOT_ZERO * sizes + doubt, values, 0)
         gradients = (gradients * self.scales).reshape(self.rows, len(x))
         for axis in (1, 0, 1):
+            # Squares of large derivatives leave the range of doubles.
+            largest = np.abs(gradients).max(axis=axis, keepdims=True, initial=0.0)
+            gradients = gradients / np.where(largest == 0, 1.0, largest)
             lengths = np.linalg.norm(gradients, axis=axis, keepdims=True)
             gradients = gradients / np.where(lengths == 0, 1.0, lengths)
         return int(np.sum(np.linalg.svd(gradients, compute_uv=False) > INDEPENDENT))
