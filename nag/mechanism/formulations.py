@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from math import prod
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import FEWEST_LOOPS
@@ -17,7 +15,7 @@ from nag.mechanism.formulation_names import FORMULATIONS
 from nag.mechanism.graph import Joint
 from nag.mechanism.half_angles import HalfAngleModel, half_angle_model
 from nag.mechanism.loops import LoopStructure
-from nag.mechanism.path_estimates import estimated_paths, path_bound, paths_at_once
+from nag.mechanism.path_estimates import PathNumbers
 from nag.mechanism.planar import PlanarModel, planar_model
 from nag.mechanism.rods import RodModel, rod_model
 
@@ -29,7 +27,7 @@ class ModelError(ValueError):
 
 
 @dataclass(frozen=True)
-class Alternative:
+class Alternative(PathNumbers):
     """A formulation of a mechanism, or why it does not cover it.
 
     Attributes:
@@ -48,32 +46,6 @@ class Alternative:
         if self.form is None:
             raise ModelError(f"formulation {self.formulation}: {self.problem}")
         return self.form.system
-
-    @property
-    def bezout(self) -> int:
-        """Product of the degrees of as many equations as there are variables, the lowest."""
-        degrees = sorted(f.degree for f in self.system.polynomials)
-        return prod(degrees[: self.system.n])
-
-    @property
-    def bound(self) -> int:
-        """Bezout's number in the variable groups, cut down to points by linear equations."""
-        return path_bound(self.system)
-
-    @cached_property
-    def at_once(self) -> int | None:
-        """Number of paths to a slice where these may be all it takes: see `paths_at_once`."""
-        return paths_at_once(self.system)
-
-    @property
-    def most(self) -> int:
-        """Estimated number of paths that equation by equation are tracked at most."""
-        return estimated_paths(self.system)
-
-    @property
-    def paths(self) -> int:
-        """Estimated number of paths: those at once where there are such."""
-        return self.at_once or self.most
 
 
 def alternative(

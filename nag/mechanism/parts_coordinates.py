@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import prod
 
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel, in_each_coordinates
 from nag.mechanism.linkage import LinkageModel
-from nag.mechanism.path_estimates import fewest_estimated_paths, path_bound, paths_at_once
+from nag.mechanism.path_estimates import PathNumbers, fewest_estimated_paths, paths_at_once
 from nag.mechanism.pins import pin_model
 
 
 @dataclass(frozen=True)
-class PartsCoordinates:
+class PartsCoordinates(PathNumbers):
     """Coordinates of parts that are to be assembled.
 
     Attributes:
@@ -31,16 +30,6 @@ class PartsCoordinates:
     system: PolynomialSystem
     taken: bool
 
-    @property
-    def bezout(self) -> int:
-        """Product of the degrees of as many equations as there are variables, the lowest."""
-        return prod(sorted(f.degree for f in self.system.polynomials)[: self.system.n])
-
-    @property
-    def bound(self) -> int:
-        """Bezout's number in the variable groups, cut down to points by linear equations."""
-        return path_bound(self.system)
-
     @cached_property
     def at_once(self) -> int | None:
         """Number of paths to a slice where these may be all it takes: see `paths_at_once`."""
@@ -50,11 +39,6 @@ class PartsCoordinates:
     def most(self) -> int:
         """Estimated number of paths that equation by equation are tracked at most."""
         return fewest_estimated_paths(self.system)
-
-    @property
-    def paths(self) -> int:
-        """Estimated number of paths: those at once where there are such."""
-        return self.at_once or self.most
 
 
 def coordinates_of_parts(parts: AssemblyModel) -> tuple[PartsCoordinates, ...]:

@@ -4,10 +4,42 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 from math import prod
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import looped_turns
+
+
+class PathNumbers:
+    """How many paths a system may ask for, by several counts."""
+
+    system: PolynomialSystem
+
+    @property
+    def bezout(self) -> int:
+        """Product of the degrees of as many equations as there are variables, the lowest."""
+        return prod(sorted(f.degree for f in self.system.polynomials)[: self.system.n])
+
+    @property
+    def bound(self) -> int:
+        """Bezout's number in the variable groups, cut down to points by linear equations."""
+        return path_bound(self.system)
+
+    @cached_property
+    def at_once(self) -> int | None:
+        """Number of paths to a slice where these may be all it takes: see `paths_at_once`."""
+        return paths_at_once(self.system)
+
+    @property
+    def most(self) -> int:
+        """Estimated number of paths that equation by equation are tracked at most."""
+        return estimated_paths(self.system)
+
+    @property
+    def paths(self) -> int:
+        """Estimated number of paths: those at once where there are such."""
+        return self.at_once or self.most
 
 
 def path_bound(system: PolynomialSystem) -> int:
