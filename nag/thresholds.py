@@ -230,6 +230,10 @@ witness.cutting.NEAR                        1e-7    Distance, relative to its si
                                                     an end of a path that is this zero; estimates of
                                                     the error of a singular end are themselves
                                                     uncertain.
+witness.cutting.DOUBLE                      1e-7    Singular values that may be a double zero's, as
+                                                    rounding errors of values and slopes go; larger
+                                                    ones are a regular zero's. Others are looked for
+                                                    in more digits.
 witness.cutting.VANISHING                   1e-11   Values at a point where Newton's method arrived.
 witness.exact_points.RESIDUAL               1e-31   Error of residuals in double-double: a bound, no
                                                     decision.

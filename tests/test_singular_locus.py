@@ -17,6 +17,7 @@ from singular_zeros import polynomials
 import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.expression import parse_number
+from nag.bench.atlas.linkages import slider_crank
 from nag.cli import main
 from nag.decomposition.linear_hull import within_hull
 from nag.decomposition.reduction import Reduction
@@ -48,6 +49,17 @@ def test_the_slider_crank_has_two_cones() -> None:
         assert (one.local.tangent_dimension, one.local.dimension) == (3, 2)
         assert one.cone is not None and one.cone.dimension == 2
         assert one.cone.text(system.variables) == "2*c1^2 - c2^2 - c3^2 = 0"
+
+
+@pytest.mark.parametrize("seed", [0, 11, 13, 15])
+def test_nodes_of_slider_cranks_are_all_found(seed: int) -> None:
+    # On the way, a double zero meets its equations in doubles 1.5e-8 beside it.
+    problem = slider_crank(0, np.random.default_rng([seed, 20]))
+    whole = nag.decompose(problem.system, seed=seed)
+    locus = singular_locus(whole, seed=seed)
+    assert (locus.complete, locus.notes) == (True, ())
+    found = sorted(tuple(np.round(one.points[0].real).astype(int)) for one in locus.sets)
+    assert found == [(0, -1, 0, 1, 0, 1), (0, 1, 0, -1, 0, -1)]
 
 
 def test_the_curves_of_the_rhombus_are_smooth_and_meet_in_pairs() -> None:

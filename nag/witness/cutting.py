@@ -37,6 +37,9 @@ FLAT = 1e-4
 NEWTON_STEPS = 12
 # Steps that are rounding errors, and residuals at points that are known.
 ROUNDING, VANISHING = 1e-14, 1e-11
+# Smaller singular values than this may be a double zero's: rounding errors of the values move a
+# point so far that its slopes change by as much as they are.
+DOUBLE = 1e-7
 # Sizes are very unequal if they, and 1, differ by more than two to this power.
 UNEQUAL = 10
 # Rows of larger matrices are chosen by LAPACK, which takes longer to load than smaller ones take.
@@ -206,13 +209,16 @@ def _null_basis(rows: np.ndarray, columns: int) -> np.ndarray:
 
 
 def regular_on(evaluator: Evaluator, rows: np.ndarray, sharpened: Sharpened) -> bool:
-    """Whether a sharpened zero is regular on the slice: its singular values against its error."""
+    """Whether a sharpened zero is regular on the slice: its singular values against its error.
+
+    The last step says nothing where rounding alone makes the values at a double zero vanish.
+    """
     basis = _null_basis(rows, len(sharpened.z))
     matrix = evaluator.balanced_jacobian(sharpened.z) @ basis
     s = np.zeros(basis.shape[1])
     values = np.linalg.svd(matrix, compute_uv=False)
     s[: len(values)] = values[: len(s)]
-    limit = max(SLACK * sharpened.step, VANISHING) * max(1.0, s.max(initial=0.0))
+    limit = max(SLACK * sharpened.step, DOUBLE) * max(1.0, s.max(initial=0.0))
     return len(s) == 0 or bool(s[-1] > limit)
 
 

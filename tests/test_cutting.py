@@ -1,0 +1,32 @@
+"""Square systems that cut a set regularly, at points known in doubles."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.witness.cutting import Sharpened, regular_on, sharpen
+
+NO_SLICE = np.zeros((0, 3), dtype=complex)
+
+
+@pytest.mark.parametrize("k", range(24, 30))
+def test_a_double_zero_that_rounding_hides_is_not_regular(k: int) -> None:
+    # A line that touches a circle: at 2^-27 beside the point, values in doubles may vanish.
+    x, y = Polynomial.variables(2)
+    evaluator = Evaluator.of([x**2 + y**2 - 1, y - 1], 2)
+    arrived = Sharpened(np.array([2.0**-k, 1.0], dtype=complex), 1e-16, True)
+    assert not regular_on(evaluator, NO_SLICE, arrived)
+
+
+@pytest.mark.parametrize("k", range(1, 6))
+def test_simple_zeros_side_by_side_are_regular(k: int) -> None:
+    x, y = Polynomial.variables(2)
+    evaluator = Evaluator.of([x**2 - Fraction(1, 10 ** (2 * k)), y - 1], 2)
+    sharpened = sharpen(evaluator, NO_SLICE, np.array([10.0**-k, 1.0], dtype=complex))
+    assert sharpened.converged
+    assert regular_on(evaluator, NO_SLICE, sharpened)
