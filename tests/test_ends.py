@@ -135,9 +135,27 @@ def test_zeros_that_are_not_regular_are_not_proved() -> None:
     errors = np.full(2, 1e-30)
     double, starts = homotopy_of([(x - 1) ** 2])
     simple, _ = homotopy_of([(x - 1) * (x + 1)])
-    assert not proved(Terms(double), centre, errors)
-    assert proved(Terms(simple), centre, errors)
+    assert proved(Terms(double), centre, errors) is None
+    assert proved(Terms(simple), centre, errors) is not None
     assert len(starts) == 2
+
+
+@pytest.mark.parametrize("k", [8, 12, 14, 20, 24])
+def test_the_radii_of_close_ends_hold_one_zero_each(k: int) -> None:
+    # Zeros at 1/3 +- 10^-k.
+    (x,) = Polynomial.variables(1)
+    paths = followed([(x - Fraction(1, 3)) ** 2 - Fraction(1, 10 ** (2 * k))])
+    assert (paths.status == PathStatus.REGULAR).all()
+    signs = set()
+    for ball in paths.balls.values():
+        (a, b), (c, d) = ball.fractions()
+        real, imaginary = (a * c + b * d) / (a * a + b * b), (a * d - b * c) / (a * a + b * b)
+        sign = 1 if real > Fraction(1, 3) else -1
+        error = 4 * Fraction(ball.radii.max())
+        assert abs(real - Fraction(1, 3) - sign * Fraction(1, 10**k)) < error < Fraction(1, 10**k)
+        assert abs(imaginary) < error
+        signs.add(sign)
+    assert signs == {1, -1}
 
 
 def test_a_box_without_a_zero_is_not_proved() -> None:
@@ -145,8 +163,8 @@ def test_a_box_without_a_zero_is_not_proved() -> None:
     homotopy, _ = homotopy_of([x**2 - 2])
     centre = np.zeros((2, 2, 2))
     centre[0, 0, 0], centre[1, 0, 0] = 1.0, 1.4142135623730951
-    assert not proved(Terms(homotopy), centre, np.full(2, 1e-30))
-    assert proved(Terms(homotopy), centre, np.full(2, 1e-15))
+    assert proved(Terms(homotopy), centre, np.full(2, 1e-30)) is None
+    assert proved(Terms(homotopy), centre, np.full(2, 1e-15)) is not None
 
 
 def test_evidence_grows_with_the_digits_of_the_coefficients() -> None:

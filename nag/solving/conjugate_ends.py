@@ -55,7 +55,7 @@ def _all_proved(begin: Start, ends: Paths) -> bool:
         if ball is None:
             parts = np.stack([np.stack([x.real, x.imag], axis=1), np.zeros((len(x), 2))], axis=2)
             ball = Ball(parts, np.full(len(x), accuracy))
-        if not proved(terms, ball.centre, ball.radii):
+        if proved(terms, ball.centre, ball.radii) is None:
             return False
     return True
 

@@ -105,11 +105,15 @@ class States:
         )
 
     def lengthen(self, words: int) -> None:
-        """Numbers of so many words; the next arithmetic starts from what is known well."""
+        """Numbers of so many words; the next arithmetic starts from what is known well.
+
+        How far in a limit is to be looked for was said by points that are left.
+        """
         room = ((0, 0), (0, 0), (0, 0), (0, words - self.where.shape[-1]))
         self.ends, self.safe = np.pad(self.ends, room), np.pad(self.safe, room)
         self.safe_t = np.pad(self.safe_t, room[2:])
         self.where, self.t = self.safe.copy(), self.safe_t.copy()
+        self.latest[:] = 1.0
 
     def from_its_start(self, path: int, words: int) -> bool:
         """Put a path to its start, if it was lost where doubles left it: that is no point of it."""
@@ -271,20 +275,23 @@ def _follow_in(
             elif outcome == end_run.REGULAR:
                 centre = states.found[path]
                 trusted = states.regular[path] and states.steps[path] == 1
-                if not trusted and not proved(terms, centre, states.errors[path]):
+                box = None if trusted else proved(terms, centre, states.errors[path])
+                if box is not None:
+                    states.errors[path] = np.minimum(states.errors[path], box)
+                elif not trusted:
                     # Newton's method converged, but not to a regular zero: go on without it.
                     states.straight[path] = 0
                     states.outcome[path] = end_run.LIMIT if at_limit else end_run.LOST
                     if not at_limit:
                         again.append(path)
-                elif _ambiguous(homotopy, states, path, needs[0], fine):
+                    del states.found[path]
+                    continue
+                if _ambiguous(homotopy, states, path, needs[0], fine):
                     states.ends[path], states.tried[path] = centre, 0
                     states.limits.pop(path, None)
                     states.outcome[path] = end_run.LOST
                     later.append(path)
-                else:
-                    continue
-                del states.found[path]
+                    del states.found[path]
         pending = np.array(again, dtype=np.int64)
     return np.array(sorted(later), dtype=np.int64)
 

@@ -23,13 +23,16 @@ WIDER, STEPS = 64.0, 16.0
 TINY = 1e-12
 
 
-def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> bool:
-    """Whether a box of some rounding errors about a point, or less, holds one, regular zero only.
+def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray | None:
+    """Radii of a box about a point that holds one zero only, a regular one; None if none is proved.
 
     Args:
         terms: the homotopy's.
         centre: coordinates, shape ``(N, 2, words)``.
         errors: of the coordinates, shape ``(N,)``.
+
+    Returns:
+        Half sides, some rounding errors of the coordinates or less, shape ``(N,)``.
     """
     import flint
 
@@ -41,10 +44,10 @@ def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> bool:
         flint.ctx.prec = before
 
 
-def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) -> bool:
+def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray | None:
     N = terms.homotopy.N
     if not np.isfinite(centre).all() or not np.isfinite(errors).all():
-        return False
+        return None
     x = [number(c) for c in centre]
     floor = np.abs(centre[:, :, 0]).max(initial=0.0) * 2.0 ** -(BITS[centre.shape[-1]] // 2 + 8)
     radii = [WIDER * float(e) + floor * 2.0**-32 for e in errors]
@@ -53,7 +56,7 @@ def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) ->
     try:
         Y = jacobian.mid().inv().mid()
     except ZeroDivisionError:
-        return False
+        return None
     newton = Y * values
     # Slopes over a box do not see that errors in the coordinates of a badly conditioned zero go
     # together: it must not be larger than Newton's step asks for.
@@ -65,7 +68,8 @@ def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) ->
     rest = flint.acb_mat(N, N, [int(i == j) for i in range(N) for j in range(N)]) - Y * slopes
     moved = flint.acb_mat(N, 1, [b - z for b, z in zip(box, x, strict=True)])
     image = rest * moved - newton
-    return all(bool(image[j, 0].abs_upper() < flint.arb(r)) for j, r in enumerate(radii))
+    inside = all(bool(image[j, 0].abs_upper() < flint.arb(r)) for j, r in enumerate(radii))
+    return np.array(radii) if inside else None
 
 
 def patches_through(flint: Any, terms: Terms, x: list[Any]) -> list[list[Any]]:
