@@ -54,7 +54,7 @@ def _mixed_volume(problem: SquareProblem, begin: Start) -> int | None:
     from nag.solving.start.mixed_cells import mixed_cells
 
     try:
-        return mixed_cells(problem.target.supports, np.random.default_rng(0)).mixed_volume
+        return mixed_cells(problem.target.sparsest.supports, np.random.default_rng(0)).mixed_volume
     except StartError:
         return None
 

@@ -66,12 +66,13 @@ def _chosen(
         from nag.solving.start.mixed_cells import mixed_cells
         from nag.solving.start.polyhedral import polyhedral
 
-        start = polyhedral(target, mixed_cells(target.supports, rng), rng, threads)
+        sparse = target.sparsest
+        start = polyhedral(sparse, mixed_cells(sparse.supports, rng), rng, threads)
         return start, f"polyhedral, as asked: {_paths(len(start.points))}; {start.detail}"
     if kind == "monodromy":
         from nag.solving.start.monodromy import monodromy
 
-        start = monodromy(target, rng, threads)
+        start = monodromy(target.sparsest, rng, threads)
         return start, f"monodromy, as asked: {_paths(len(start.points))}; {start.detail}"
     if kind == "multihomogeneous":
         groups, number = _usable_groups(target, given)
@@ -104,17 +105,18 @@ def _least_work(
         from nag.solving.start.mixed_cells import mixed_cells
         from nag.solving.start.polyhedral import polyhedral
 
+        sparse = target.sparsest
         try:
-            cells = mixed_cells(target.supports, rng)
+            cells = mixed_cells(sparse.supports, rng)
             volume = bound = cells.mixed_volume
             counts.append(f"mixed volume {volume}")
             if 0 < WORK * volume <= least:
-                start = polyhedral(target, cells, rng, threads)
+                start = polyhedral(sparse, cells, rng, threads)
                 return start, f"polyhedral, the least work: {', '.join(counts)}"
             # Zeros in a system's polytopes' directions make them fewer than the mixed volume
             # (Bernshtein, The number of roots of a system of equations, 1975, theorem B); with
             # constant terms, also those on coordinate hyperplanes are among these.
-            most = volume if target.has_constants and volume else None
+            most = volume if sparse.has_constants and volume else None
             if 0 < volume < least:
                 counts.append("whose start system would take more work than it saves")
         except StartError as error:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from nag.algebra.fewest_terms import of_fewest_terms
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
@@ -113,6 +114,16 @@ class Target:
     def degrees(self) -> tuple[int, ...]:
         """Total degrees."""
         return tuple(max(map(sum, row), default=0) for row in self.rows)
+
+    @cached_property
+    def sparsest(self) -> Target:
+        """The same target with equations of fewer terms, as far as combinations have these."""
+        rows = [Polynomial(self.n, dict(row)) for row in self.rows]
+        found = of_fewest_terms(rows)
+        if all(f is g for f, g in zip(rows, found, strict=True)):
+            return self
+        plain = np.zeros(self.n, dtype=np.int64)
+        return replace(self, rows=tuple(scaled_terms(f, plain) for f in found))
 
     @cached_property
     def stack(self) -> StackedExponents:
