@@ -153,7 +153,6 @@ def _attempt(
     raw = run_in_doubles(homotopy, starts, settings, threads, endgame)
     paths, regular = _judged(homotopy, raw)
     doubtful = paths.where(PathStatus.FAILED)
-    doubtful = doubtful[raw.reason[doubtful] != Reason.START]
     if len(doubtful) and settings.digits >= 32:
         every = paths if orbits is None else orbits.expanded(paths, homotopy.groups)
         if known.most is not None and _all_are_found(homotopy, every, known.most):

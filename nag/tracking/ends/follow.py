@@ -373,6 +373,7 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
     if len(regular):
         condition[regular] = refine(homotopy, None, points[regular], iterations=0).condition
     failed = status == PathStatus.FAILED
+    reason = np.where(states.t[:, 0] == 1, Reason.START, Reason.ENDGAME) * failed
     return Paths(
         points,
         status,
@@ -381,7 +382,7 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
         condition,
         states.steps,
         states.digits.astype(np.int16),
-        np.where(failed, Reason.ENDGAME, Reason.NONE).astype(np.int8),
+        reason.astype(np.int8),
         states.outcome == end_run.REGULAR,
         balls,
         branches,
