@@ -230,10 +230,10 @@ witness.cutting.NEAR                        1e-7    Distance, relative to its si
                                                     an end of a path that is this zero; estimates of
                                                     the error of a singular end are themselves
                                                     uncertain.
-witness.cutting.DOUBLE                      1e-7    Singular values that may be a double zero's, as
-                                                    rounding errors of values and slopes go; larger
-                                                    ones are a regular zero's. Others are looked for
-                                                    in more digits.
+witness.cutting.CHANGED                     0.1     Part of the smallest singular value by which it
+                                                    may change as far from a zero as rounding errors
+                                                    of the values say: more may be a double zero's,
+                                                    which is looked for in more digits.
 witness.cutting.VANISHING                   1e-11   Values at a point where Newton's method arrived.
 witness.exact_points.RESIDUAL               1e-31   Error of residuals in double-double: a bound, no
                                                     decision.
@@ -318,7 +318,7 @@ solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_cl
 solving.start.centring: FAR, CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy:
 SHARP; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.target:
 HALF_UNIT; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt:
-EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDING;
+EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDED, ROUNDING;
 witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT;
 witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE;
 witness.real_points: SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR,

@@ -37,9 +37,9 @@ FLAT = 1e-4
 NEWTON_STEPS = 12
 # Steps that are rounding errors, and residuals at points that are known.
 ROUNDING, VANISHING = 1e-14, 1e-11
-# Smaller singular values than this may be a double zero's: rounding errors of the values move a
-# point so far that its slopes change by as much as they are.
-DOUBLE = 1e-7
+# Relative rounding errors of values, and the change that they may make of the smallest singular
+# value for it to be a regular zero's.
+ROUNDED, CHANGED = 1e-15, 0.1
 # Sizes are very unequal if they, and 1, differ by more than two to this power.
 UNEQUAL = 10
 # Rows of larger matrices are chosen by LAPACK, which takes longer to load than smaller ones take.
@@ -211,15 +211,38 @@ def _null_basis(rows: np.ndarray, columns: int) -> np.ndarray:
 def regular_on(evaluator: Evaluator, rows: np.ndarray, sharpened: Sharpened) -> bool:
     """Whether a sharpened zero is regular on the slice: its singular values against its error.
 
-    The last step says nothing where rounding alone makes the values at a double zero vanish.
+    The last step says nothing where rounding alone makes the values beside a double zero vanish.
     """
     basis = _null_basis(rows, len(sharpened.z))
     matrix = evaluator.balanced_jacobian(sharpened.z) @ basis
     s = np.zeros(basis.shape[1])
     values = np.linalg.svd(matrix, compute_uv=False)
     s[: len(values)] = values[: len(s)]
-    limit = max(SLACK * sharpened.step, DOUBLE) * max(1.0, s.max(initial=0.0))
-    return len(s) == 0 or bool(s[-1] > limit)
+    limit = max(SLACK * sharpened.step, VANISHING) * max(1.0, s.max(initial=0.0))
+    return len(s) == 0 or (
+        bool(s[-1] > limit) and not _perhaps_double(evaluator, basis, sharpened.z)
+    )
+
+
+def _perhaps_double(evaluator: Evaluator, basis: np.ndarray, z: np.ndarray) -> bool:
+    """Whether rounding errors of the values move ``z`` so far that it may be a double zero.
+
+    Slopes vanish at a double zero in one direction. In that of the smallest singular value, slopes
+    change by about themselves over as far as rounding errors leave the point unknown.
+    """
+    scales = np.exp2((1 - evaluator.degrees) * np.log2(max(1.0, float(np.abs(z).max(initial=1.0)))))
+    jacobian = scales[:, None] * (evaluator.jacobian(z) @ basis)
+    if not np.isfinite(jacobian).all():
+        return False
+    left, s, right = np.linalg.svd(jacobian, full_matrices=False)
+    u, direction = np.abs(left[:, -1]), basis @ right[-1].conj()
+    errors = ROUNDED * evaluator.absolute(z[None])[0] * scales
+    far = float(u @ errors) / s[-1] * direction
+    changes = [
+        left[:, -1].conj() @ (scales * (evaluator.jacobian(z + sign * far) @ direction)) - s[-1]
+        for sign in (1, -1)
+    ]
+    return not float(np.abs(changes).max()) <= CHANGED * s[-1]
 
 
 def _square_rows(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> list[int] | None:
