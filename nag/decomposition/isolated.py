@@ -14,6 +14,7 @@ from math import prod
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.generic_rank import is_dependent
 from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
@@ -46,6 +47,9 @@ def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Track
     hardest = max(range(n), key=lambda i: (system.polynomials[i].degree, -i))
     others = [f for i, f in enumerate(system.polynomials) if i != hardest]
     if prod(f.degree for f in others) > MOST_PATHS:
+        return False
+    # A generator of its own, so that what follows does not depend on this.
+    if is_dependent(system.polynomials, np.random.default_rng(n)):
         return False
     plane = Polynomial.constant(n, Fraction(float(dyadic(rng, (1,))[0])))
     for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
