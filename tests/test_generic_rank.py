@@ -4,15 +4,18 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from linkages import general_loop
 
 from nag.algebra.generic_rank import is_dependent
 from nag.algebra.number import Irrational
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition import isolated
+from nag.decomposition import decompose, isolated
 from nag.decomposition.isolated import is_finite
 from nag.mechanism.framework import placed_framework
 from nag.mechanism.framework_model import framework_model
+from nag.mechanism.model import model
 from nag.witness.fibres import Tracker
+from nag.witness.witness import PathCounts
 
 X, Y, Z = Polynomial.variables(3)
 DEPENDENT = (X * X + Y * Y - 1, (X * X + Y * Y) ** 2 + Z * Z, Z - Fraction(1, 3))
@@ -54,4 +57,12 @@ def test_no_paths_are_tracked_to_isolated_realisations_where_there_are_none(monk
         raise AssertionError("paths were tracked")
 
     monkeypatch.setattr(isolated, "_solved", tracked)
-    assert not is_finite(system, np.random.default_rng(0), Tracker("default", 1))
+    assert is_finite(system, np.random.default_rng(0), Tracker()) == (False, PathCounts())
+
+
+def test_paths_that_only_said_that_a_set_is_finite_are_counted():
+    system = model(general_loop(6, 4), "H").system
+    finite, spent = is_finite(system, np.random.default_rng(0), Tracker())
+    points = isolated.solved_at_once(system, np.random.default_rng(0), Tracker(), (), True)
+    assert finite and points is not None and spent.tracked > 0
+    assert decompose(system).paths.tracked == spent.tracked + points.paths.tracked
