@@ -353,6 +353,24 @@ def test_a_sweep_follows_general_values_and_decomposes_special_ones(tmp_path, ca
     assert "by itself" in rows["3/5"]
 
 
+def test_a_table_whose_closure_equations_collapse_says_so(capsys):
+    assert main(["decompose", str(CASES / "spatial" / "bennett.toml"), "--quiet"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "the 4 closure equations have rank 1 in 2 unknowns, by exact linear algebra" in said
+    assert main(["model", str(CASES / "spatial" / "general-6r.toml")]) == 0
+    assert "rank " not in capsys.readouterr().out
+
+
+def test_a_sweep_through_a_value_with_other_joints_eliminated_decomposes_it_by_itself(capsys):
+    # At m2 = 1 two pairs of Bennett's axes coincide, and each pair turns freely.
+    path = CASES / "bennett.toml"
+    assert main(["decompose", str(path), "--quiet", "--sweep", "m2=1/2:3/2:3"]) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    found = {line[0]: " ".join(line[1:]) for line in lines if line and line[0] in ("1/2", "1")}
+    assert "followed" in found["1/2"] and "dimension 1, degree 2" in found["1/2"]
+    assert "by itself" in found["1"] and "dimension 2, degree 1" in found["1"]
+
+
 def test_a_component_that_falls_apart_at_one_value_is_split_there(tmp_path):
     from nag.decomposition.sweep import sweep
 

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from singular_zeros import polynomials
 
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.given_points import components_through_points
 from nag.numerics import deflation
 from nag.numerics.deflation import NotDeflated, deflate
 from nag.numerics.digits import log_norm, working
@@ -70,3 +72,10 @@ def test_a_multiple_zero_is_none_that_all_equations_make_regular() -> None:
     with working(DIGITS):
         double = ExactSystem.of(polynomials("x y", "x^2", "x*y", "y - x^2"), np.zeros(2))
         assert sharpen_regular(double, [flint.acb("1e-3"), flint.acb("1e-4")], -1.0) is None
+
+
+def test_deflation_of_no_equations_comes_to_an_end() -> None:
+    plane = PolynomialSystem(("x", "y"), ())
+    found = components_through_points(plane, [(1, np.array([0.25, 0.5]))])
+    assert not found.complete
+    assert found.notes == ("a point of dimension 1 led to no component",)

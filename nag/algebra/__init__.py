@@ -3,6 +3,6 @@
 Read in this order: `number`, `polynomial`, `system` (the data); `expression` and `from_python`
 (text and Python's numbers in); `evaluation` (in doubles) and `high_precision`; `elimination` and
 `symmetry`; `factoring`, `branches` (on `branch_search` and `consequences`) and `algebraic_zeros`
-(what exact algebra decides before any path is tracked); `division`, `groebner` and `hilbert`
-(ideals).
+(what exact algebra decides before any path is tracked); `generic_rank` (that no zero is isolated);
+`division`, `groebner` and `hilbert` (ideals).
 """

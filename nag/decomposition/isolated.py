@@ -14,6 +14,7 @@ from math import prod
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.generic_rank import is_dependent
 from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
@@ -33,34 +34,41 @@ from nag.witness.witness import Decomposition, PathCounts, Slice, Status, Witnes
 MOST_PATHS = 20_000
 
 
-def is_finite(system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker) -> bool:
-    """Whether the zero set of as many equations as variables is seen to be finite.
+def is_finite(
+    system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker
+) -> tuple[bool, PathCounts]:
+    """Whether the zero set of as many equations as variables is seen to be finite, by which paths.
 
     A set of positive dimension meets a generic hyperplane. What all equations but one leave there
     must be finite too, and the last equation must vanish nowhere on it. What `system.nonzero`
     excludes does not count.
     """
-    n = system.n
+    n, none = system.n, PathCounts()
     if n < 2 or len(system.polynomials) != n:
-        return False
+        return False, none
     hardest = max(range(n), key=lambda i: (system.polynomials[i].degree, -i))
     others = [f for i, f in enumerate(system.polynomials) if i != hardest]
     if prod(f.degree for f in others) > MOST_PATHS:
-        return False
+        return False, none
+    # A generator of its own, so that what follows does not depend on this.
+    if is_dependent(system.polynomials, np.random.default_rng(n)):
+        return False, none
     plane = Polynomial.constant(n, Fraction(float(dyadic(rng, (1,))[0])))
     for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
         plane = plane + x * Fraction(float(weight))
     cut = PolynomialSystem(system.variables, (*others, plane), system.nonzero)
     found = _solved(cut, rng, tracker, True)
     if found is None or found.pathless:
-        return False
+        return False, none
+    # What failed here leaves nothing open: the set is intersected equation by equation then.
+    spent = PathCounts(found.paths.tracked, 0, found.paths.at_infinity)
     last = system.polynomials[hardest]
     near = Evaluator.of([last], n).residuals(found.points)[:, 0] <= NONZERO
     met = any(_met(cut, last, x) for x in found.points[near])
     if found.complete and not found.positive_dimensional and not met:
-        return True
+        return True, spent
     # What paths leave open may be proved.
-    return not met and most_zeros(system.polynomials) is not None
+    return not met and most_zeros(system.polynomials) is not None, spent
 
 
 def _met(cut: PolynomialSystem, last: Polynomial, x: np.ndarray) -> bool:

@@ -39,8 +39,10 @@ def decompose_several(
     intersecting = np.random.default_rng(seed)
     flag = random_rows(intersecting, reduction.n, reduction.n, NEARER)
     whole, spent = section_at_once(reduction, flag, np.random.default_rng([seed, 23]), tracker)
-    if whole is None and is_finite(reduction.reduced, rng, tracker):
-        points = solved_at_once(system, rng, tracker, symmetries, finite=True)
+    if whole is None:
+        finite, asked = is_finite(reduction.reduced, rng, tracker)
+        spent = spent + asked
+        points = solved_at_once(system, rng, tracker, symmetries, finite=True) if finite else None
         if points is not None:
             return replace(points, seed=seed, settings=tracker.settings, paths=points.paths + spent)
 

@@ -59,6 +59,7 @@ class _General:
     """The components for a random complex value, each as a family of square systems."""
 
     value: complex
+    variables: tuple[str, ...]
     members: tuple[tuple[Family, np.ndarray, int], ...]
 
 
@@ -134,7 +135,7 @@ def _general(
         if len(regular) < component.degree:
             return None, "a component could not be followed to a complex value"
         members.append((family, line.affine(paths.points), component.dimension))
-    return _General(target, tuple(members)), ""
+    return _General(target, system.variables, tuple(members)), ""
 
 
 def _cut_family(
@@ -168,6 +169,8 @@ def _followed(
     general: _General, system: PolynomialSystem, value: Fraction, options: dict
 ) -> tuple[list[tuple[int, np.ndarray]], int, str]:
     """The components' points at a value; the number of paths; why it is special, if it is."""
+    if system.variables != general.variables:
+        return [], 0, "special value: it has equations in other variables"
     evaluator = Evaluator.of(system.polynomials, system.n)
     starts: list[tuple[int, np.ndarray]] = []
     count = 0

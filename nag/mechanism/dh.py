@@ -126,6 +126,8 @@ class DHModel:
         charts: for each kept joint the k of its chart (c : s) = (1 - k x : k + x).
         system: the equations; one group a variable; points of norm zero are excluded.
         coordinates: rows that give conj(A) in the basis that the eliminated joints span.
+        product: the links after the kept joints.
+        rank: number of closure equations and how many are independent, by exact linear algebra.
     """
 
     loop: DHLoop
@@ -135,6 +137,7 @@ class DHModel:
     system: PolynomialSystem
     coordinates: tuple[tuple[Number, ...], ...]
     product: tuple[DualQuaternion, ...]
+    rank: tuple[int, int]
 
     reference = None
     symmetries = ()
@@ -222,7 +225,7 @@ def dh_model(loop: DHLoop) -> DHModel:
     )
     return DHModel(
         loop, numbers[:-2], (numbers[-2], numbers[-1]), charts, system, coordinates,
-        tuple(links[:n]),
+        tuple(links[:n]), (len(equations), len(system.polynomials)),
     )  # fmt: skip
 
 

@@ -33,8 +33,11 @@ class Loop:
 class LoopStructure:
     """What is left of a mechanism when rigid bodies are merged and dangling trees are cut off.
 
+    A joint between two parts with loops that belongs to none, a bridge, moves freely as well. It is
+    held, which merges its two bodies, as if it were rigid.
+
     Attributes:
-        mechanism: the mechanism, each group of bodies that are tied rigidly as one body.
+        mechanism: the mechanism, each group of bodies that are tied rigidly or held as one body.
         groups: what was tied.
         base: the body taken as fixed: the ground, or, where the ground hangs on a tree, the body
             with loops that is nearest to it.
@@ -42,6 +45,7 @@ class LoopStructure:
         joints: the joints between these bodies.
         cut: the joints of the trees; each moves freely, whatever the others do.
         loops: a minimum cycle basis.
+        bridges: the joints that are held, between the bodies that they were given.
     """
 
     mechanism: Mechanism
@@ -51,11 +55,17 @@ class LoopStructure:
     joints: tuple[Joint, ...]
     cut: tuple[Joint, ...]
     loops: tuple[Loop, ...]
+    bridges: tuple[Joint, ...] = ()
+
+    @property
+    def outside(self) -> tuple[Joint, ...]:
+        """The joints of no loop, each of which moves freely."""
+        return self.cut + self.bridges
 
     @property
     def cut_freedoms(self) -> int:
-        """Freedoms of the joints that were cut off."""
-        return sum(JOINT_FREEDOMS[j.type] for j in self.cut)
+        """Freedoms of the joints of no loop."""
+        return sum(JOINT_FREEDOMS[j.type] for j in self.outside)
 
     @property
     def single(self) -> Loop | None:
@@ -87,18 +97,25 @@ def loop_structure(mechanism: Mechanism) -> LoopStructure:
 
     A mechanism without loops gives a structure without moving bodies.
     """
-    groups = rigid_groups(mechanism)
+    given, groups = mechanism, rigid_groups(mechanism)
     mechanism = groups.merged
     if groups.is_one_body:
         return LoopStructure(mechanism, groups, mechanism.ground, (), (), (), ())
     kept, left_out = _looped(mechanism.joints)
+    names = _bridges(kept)
+    if names:
+        groups = rigid_groups(given, names)
+        mechanism = groups.merged
+        kept, left_out = _looped(mechanism.joints)
+    bridges = tuple(j for j in given.joints if j.name in names)
     if not kept:
         return LoopStructure(mechanism, groups, mechanism.ground, (), (), left_out, ())
     looped = {b for j in kept for b in j.bodies}
     distance = _distances(mechanism)
     base = min((b for b in mechanism.body_names if b in looped), key=lambda b: distance[b])
     moving = tuple(b for b in mechanism.body_names if b in looped and b != base)
-    return LoopStructure(mechanism, groups, base, moving, kept, left_out, _cycle_basis(kept))
+    loops = _cycle_basis(kept)
+    return LoopStructure(mechanism, groups, base, moving, kept, left_out, loops, bridges)
 
 
 def loop_bases(structure: LoopStructure) -> Iterator[tuple[Loop, ...]]:
@@ -127,6 +144,17 @@ def _looped(joints: Sequence[Joint]) -> tuple[tuple[Joint, ...], tuple[Joint, ..
             names = {j.name for j in kept}
             return kept, tuple(j for j in joints if j.name not in names)
         kept = inner
+
+
+def _bridges(joints: Sequence[Joint]) -> set[str]:
+    """Names of the joints that belong to no loop, where none is dangling."""
+    if len(joints) == len({b for j in joints for b in j.bodies}):
+        # One loop, and nothing else.
+        return set()
+    import networkx
+
+    edges = networkx.bridges(_bipartite(tuple(joints)))
+    return {name for edge in edges for kind, name in edge if kind == "joint"}
 
 
 def _distances(mechanism: Mechanism) -> dict[str, int]:

@@ -120,8 +120,8 @@ class Model:
 
     @property
     def cut(self) -> tuple[Joint, ...]:
-        """Joints of dangling trees; each adds its own freedom to every component's dimension."""
-        return self.structure.cut
+        """Joints of no loop; each adds its own freedoms to every component's dimension."""
+        return self.structure.outside
 
     @property
     def freedoms_left_out(self) -> tuple[tuple[int, str], ...]:
@@ -248,8 +248,8 @@ def _reason(structure: LoopStructure, space: Space, chosen: Alternative, asked: 
 
 
 def _cut_text(structure: LoopStructure) -> str:
-    if not structure.cut:
+    if not structure.outside:
         return ""
-    names = ", ".join(j.name for j in structure.cut)
+    names = ", ".join(j.name for j in structure.outside)
     freedoms = counted(structure.cut_freedoms, "freedom")
     return f"; cut off, moving freely with {freedoms}: joints {names}"

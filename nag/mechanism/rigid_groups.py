@@ -6,7 +6,7 @@ components. In half-angles a planar triangle's equation factors, so that exact a
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
@@ -42,22 +42,26 @@ class RigidGroups:
         return RigidGroups, (self.original, self.merged, dict(self.leader), self.idle)
 
 
-def rigid_groups(mechanism: Mechanism) -> RigidGroups:
-    """Tie the bodies of rigid joints together.
+def rigid_groups(mechanism: Mechanism, held: Collection[str] = ()) -> RigidGroups:
+    """Tie the bodies of rigid joints together, and of those that are held.
 
     Joints are in global coordinates of the reference configuration, so that they stay as they are;
     only the names of their bodies change.
+
+    Args:
+        held: names of joints.
     """
+    ties = {j.name for j in mechanism.joints if j.type == "rigid" or j.name in held}
     leader = {b: b for b in mechanism.body_names}
     order = {b: i for i, b in enumerate(mechanism.body_names)}
     for joint in mechanism.joints:
-        if joint.type == "rigid":
+        if joint.name in ties:
             first, second = sorted((leader[b] for b in joint.bodies), key=order.__getitem__)
             leader = {b: first if name == second else name for b, name in leader.items()}
     kept, idle = [], []
     for joint in mechanism.joints:
         bodies = tuple(leader[b] for b in joint.bodies)
-        if joint.type == "rigid":
+        if joint.name in ties:
             continue
         if bodies[0] == bodies[1]:
             idle.append(joint)

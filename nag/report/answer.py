@@ -13,7 +13,7 @@ from nag.decomposition.through import Through
 from nag.files.dh_case import is_table
 from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
-from nag.report.assemblies import assembly_rows, parts_rows
+from nag.report.assemblies import assembly_rows, parts_rows, rank_rows
 from nag.report.formulations import alternative_lines, joint_lines, parts_lines, table_lines
 from nag.report.table import (
     component_table,
@@ -38,21 +38,9 @@ def _model_rows(model: Model) -> list[tuple[str, str]]:
     if model.sign_group > 1:
         text = f"{model.sign_group} sign changes of Euler parameters keep the equations; "
         rows.append(("signs", text + "components that they exchange are counted one by one"))
-    if model.rank is not None and model.rank[1] < model.rank[0]:
-        rows.append(("rank", _rank_text(*model.rank, model.system.n, bool(model.reference))))
+    if model.rank is not None:
+        rows += rank_rows(model.rank, model.system.n, bool(model.reference))
     return rows
-
-
-def _rank_text(equations: int, rank: int, variables: int, assembled: bool) -> str:
-    text = f"the {equations} closure equations have rank {rank}"
-    if rank >= variables:
-        return f"{text}, by exact linear algebra"
-    free = variables - rank
-    unknowns = f"{variables} unknown" + ("s" if variables > 1 else "")
-    return (
-        f"{text} in {unknowns}, by exact linear algebra: every component has dimension {free} or "
-        f"more{', so it moves' if assembled else ''}"
-    )
 
 
 def _exact_rows(system: PolynomialSystem) -> list[tuple[str, str]]:

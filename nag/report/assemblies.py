@@ -18,15 +18,40 @@ _WHAT = {"dh": "closing", "framework": "realisation", "linkage": "assembly"}
 
 def parts_rows(assembly: AssemblyModel) -> Rows:
     """What was made of the parts, and what counting and ranks say of them."""
+    from nag.mechanism.dh import DHModel
     from nag.mechanism.framework_model import FrameworkModel
     from nag.mechanism.linkage import LinkageModel
 
     rows = [("model", assembly.reason)]
+    if isinstance(assembly, DHModel):
+        rows += rank_rows(assembly.rank, assembly.system.n, False)
     if isinstance(assembly, FrameworkModel):
         rows += _framework_rows(assembly.framework)
     if isinstance(assembly, LinkageModel):
         rows.append(("counting", f"Gruebler-Kutzbach counts {assembly.linkage.gruebler_kutzbach}"))
     return rows
+
+
+def rank_rows(rank: tuple[int, int], variables: int, assembled: bool) -> Rows:
+    """What the rank of closure equations says, if some of them depend on the others.
+
+    Args:
+        rank: number of closure equations, and how many of them are independent.
+        assembled: whether there is a configuration.
+    """
+    equations, independent = rank
+    if independent == equations:
+        return []
+    text = f"the {equations} closure equations have rank {independent}"
+    free = variables - independent
+    if free <= 0:
+        return [("rank", f"{text}, by exact linear algebra")]
+    unknowns = f"{variables} unknown" + ("s" if variables > 1 else "")
+    text = (
+        f"{text} in {unknowns}, by exact linear algebra: every component has dimension {free} or "
+        f"more{', so it moves' if assembled else ''}"
+    )
+    return [("rank", text)]
 
 
 def _framework_rows(framework: Framework) -> Rows:

@@ -320,7 +320,8 @@ def _deflated_cut(
         if m == 0:
             return None
         steps += free > m
-        if steps > MOST_DEFLATIONS or system.too_large(free, m):
+        # Without equations nothing that deflation adds would ever end this.
+        if not system.polynomials or steps > MOST_DEFLATIONS or system.too_large(free, m):
             return None
         system = system.once_more(q[:, :m], q[:, m:])
         z = np.concatenate([z, system.levels[-1].unknowns(z)])
