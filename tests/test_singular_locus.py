@@ -162,6 +162,18 @@ def _values(multiplicities: dict[int, int]) -> frozenset[int]:
     return frozenset(multiplicities.values())
 
 
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("third", ["f", "(a + b + c)"])
+def test_a_cone_that_more_equations_cut_than_its_codimension(third: str, seed: int) -> None:
+    """Matrices of rank one: random combinations of minors are singular along sets through 0."""
+    minors = [f"a*{third} - c*d", f"b*{third} - c*e", "a*e - b*d"]
+    locus = singular_locus(nag.decompose(minors, seed=seed), seed=seed)
+    assert locus.complete
+    (vertex,) = locus.sets
+    assert (vertex.dimension, vertex.multiplicities) == (0, {0: 3})
+    assert np.abs(vertex.points).max() < 1e-12
+
+
 def test_tangent_cones_are_the_terms_of_lowest_order() -> None:
     def cone(equations: Iterable[str], point: list, variables: str = "x y z") -> str:
         system = plain(polynomials(variables, *equations))
