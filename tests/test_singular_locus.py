@@ -190,11 +190,33 @@ def test_tangent_cones_are_the_terms_of_lowest_order() -> None:
     assert cone([moved], ["sqrt(2)", 1], "x y") == "x*y = 0"
 
 
+def test_tangent_cones_with_irrational_coefficients_have_them_in_decimals() -> None:
+    """A node at sqrt(2), where y^2 = 8 (sqrt(2) + 5) x^2 to lowest order, and one at i."""
+    found = tangent_cone(nag.system("y^2 - (x^2 - 2)^2*(x + 5)"), [parse_number("sqrt(2)"), 0])
+    assert found is not None
+    assert found.text("xy") == f"x^2 - {1 / (8 * (2**0.5 + 5)):.8g}*y^2 = 0"
+    found = tangent_cone(nag.system("y^2 + (x^2 + 1)^2*(x + 5)/4"), np.array([1e-9 + 1j, 0]))
+    assert found is not None
+    assert found.text("xy") == "x^2 + (-0.19230769+0.038461538i)*y^2 = 0"
+
+
+def test_equations_of_the_tangent_space_are_those_of_first_order() -> None:
+    system = nag.system(["y^2 - x^2*(x + 1)", "z - 3*x + x*y"], "x y z")
+    found = tangent_cone(system, [0, 0, 0])
+    assert found is not None
+    assert (found.text("xyz"), found.tangent_text("xyz")) == ("9*y^2 - z^2 = 0", "3*x - z = 0")
+    crank = nag.read_case(CASES / "slider-crank.toml").system
+    assert crank is not None
+    found = tangent_cone(crank, [0, 1, 0, -1, 0, -1])
+    assert found is not None
+    assert found.tangent_text(crank.variables) == "s1 = 0, s2 = 0, s3 = 0"
+
+
 def test_a_rounded_singular_point_has_the_same_cone() -> None:
     system = plain(polynomials("x y", "(x - 1/3)^2 - 5*(y - 2)^2 + (y - 2)^5"))
     found = tangent_cone(system, np.array([1 / 3 + 1e-10, 2]))
     assert found is not None and found.text(["x", "y"]) == "x^2 - 5*y^2 = 0"
-    assert found.forms[0].terms[(2, 0)] == Fraction(1)
+    assert found.forms[0][(2, 0)] == Fraction(1)
 
 
 def test_the_lengths_with_singular_slider_cranks_are_found(tmp_path, capsys) -> None:

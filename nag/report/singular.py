@@ -66,6 +66,8 @@ def set_lines(one: SingularSet, variables: Sequence[str]) -> list[tuple[str, str
     if one.cone is not None:
         text = f"tangent cone {one.cone.text(variables)} to lowest order, in distances from it"
         rows.append(("", text))
+        if one.cone.linear:
+            rows.append(("", f"tangent space {one.cone.tangent_text(variables)}"))
     return rows
 
 
