@@ -23,6 +23,7 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.singular_locus import SingularLocus, singular_locus
 from nag.files.schemas import schema
 from nag.numerics.tangent_cone import tangent_cone
+from nag.report.singular import set_lines
 from nag.witness.fibres import Tracker
 
 
@@ -198,6 +199,16 @@ def test_tangent_cones_with_irrational_coefficients_have_them_in_decimals() -> N
     found = tangent_cone(nag.system("y^2 + (x^2 + 1)^2*(x + 5)/4"), np.array([1e-9 + 1j, 0]))
     assert found is not None
     assert found.text("xy") == "x^2 + (-0.19230769+0.038461538i)*y^2 = 0"
+
+
+def test_it_is_said_that_a_tangent_cone_has_equations_of_higher_degree() -> None:
+    """The cone of x y = 0, z^3 = x^4 + y^4 is x y = 0, z^3 = 0."""
+    equations = ["x*y", "z^3 - x^4 - y^4"]
+    (origin,) = singular_locus(nag.decompose(equations)).sets
+    lines = [text for _, text in set_lines(origin, "xyz")]
+    assert any("x*y = 0" in text and "further equations" in text for text in lines)
+    (node,) = singular_locus(nag.decompose("y^2 - x^2*(x + 1)")).sets
+    assert not any("further" in text or "not found" in text for _, text in set_lines(node, "xy"))
 
 
 def test_equations_of_the_tangent_space_are_those_of_first_order() -> None:
