@@ -177,6 +177,16 @@ def test_a_cone_that_more_equations_cut_than_its_codimension(
     assert np.abs(vertex.points).max() < 1e-12
 
 
+def test_a_singular_line_that_is_found_twice_is_one() -> None:
+    """The cone over the twisted cubic times a line."""
+    equations = ["x*z - y^2 + 0*v", "y*w - z^2", "x*w - y*z"]
+    locus = singular_locus(nag.decompose(nag.system(equations, "x y z w v")))
+    assert [(one.dimension, one.degree, one.multiplicities) for one in locus.sets] == [
+        (1, 1, {0: 3})
+    ]
+    assert locus.complete
+
+
 def test_tangent_cones_are_the_terms_of_lowest_order() -> None:
     def cone(equations: Iterable[str], point: list, variables: str = "x y z") -> str:
         system = plain(polynomials(variables, *equations))

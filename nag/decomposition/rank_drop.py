@@ -116,7 +116,7 @@ def rank_drop(
     rng = np.random.default_rng(seed)
     search.cut(_left_null_space(own, search.rank, rng), rng)
     if search.regular:
-        search.cut(_right_null_space(own, search.rank, rng), rng)
+        search = search.joined(_right_null_space(own, search.rank, rng), rng)
     sets = [
         SetOfPoints(one.dimension, one.degree, frame.points(y), frame.error(y, one.error))
         for one in search.sets
@@ -164,6 +164,17 @@ class _Search:
         self.notes += found.notes
         for one in found.components:
             self._judge(found, one)
+
+    def joined(self, conditions: PolynomialSystem, rng: np.random.Generator) -> _Search:
+        """A search by conditions that leave nothing out, beside what is known of larger sets."""
+        again = _Search(self.own, self.component, self.options)
+        again.cut(conditions, rng)
+        again.paths += self.paths
+        if again.notes:
+            # A set that both found cannot be told from two of them.
+            points = [one for one in again.sets if one.dimension == 0]
+            again.sets, again.notes = self.sets + points, self.notes + again.notes
+        return again
 
     def _judge(self, found: Intersection, one: WitnessSet) -> None:
         """Keep a set of pairs if the rank of all equations is not known to be the usual one."""
