@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from fractions import Fraction
 
 import jsonschema
@@ -278,3 +279,10 @@ def test_points_of_links_and_bars_have_names(name, point, tangent, dimension) ->
     (at,) = (p.at for p in case.points if p.name == point)
     found = nag.local_dimension(case.system, at)
     assert (found.tangent_dimension, found.dimension) == (tangent, dimension)
+
+
+def test_points_that_went_astray_along_a_set_are_no_warnings() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = nag.local_dimension(nag.system(["x^64 + y^2", "y - x^61*z", "z - x^2"]), [0, 0, 0])
+    assert (found.dimension, found.multiplicity) == (0, 64)

@@ -24,6 +24,7 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.singular_locus import SingularLocus, singular_locus
 from nag.files.schemas import schema
 from nag.numerics.tangent_cone import tangent_cone
+from nag.report.singular import set_lines
 from nag.witness.fibres import Tracker
 
 
@@ -174,6 +175,30 @@ def _values(multiplicities: dict[int, int]) -> frozenset[int]:
     return frozenset(multiplicities.values())
 
 
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("third", "settings"), [("f", "default"), ("(a + b + c)", "careful")])
+def test_a_cone_that_more_equations_cut_than_its_codimension(
+    third: str, settings: str, seed: int
+) -> None:
+    """Matrices of rank one: random combinations of minors are singular along sets through 0."""
+    minors = [f"a*{third} - c*d", f"b*{third} - c*e", "a*e - b*d"]
+    locus = singular_locus(nag.decompose(minors, seed=seed), seed=seed, settings=settings)
+    assert locus.complete
+    (vertex,) = locus.sets
+    assert (vertex.dimension, vertex.multiplicities) == (0, {0: 3})
+    assert np.abs(vertex.points).max() < 1e-12
+
+
+def test_a_singular_line_that_is_found_twice_is_one() -> None:
+    """The cone over the twisted cubic times a line."""
+    equations = ["x*z - y^2 + 0*v", "y*w - z^2", "x*w - y*z"]
+    locus = singular_locus(nag.decompose(nag.system(equations, "x y z w v")))
+    assert [(one.dimension, one.degree, one.multiplicities) for one in locus.sets] == [
+        (1, 1, {0: 3})
+    ]
+    assert locus.complete
+
+
 def test_tangent_cones_are_the_terms_of_lowest_order() -> None:
     def cone(equations: Iterable[str], point: list, variables: str = "x y z") -> str:
         system = plain(polynomials(variables, *equations))
@@ -188,11 +213,43 @@ def test_tangent_cones_are_the_terms_of_lowest_order() -> None:
     assert cone([moved], ["sqrt(2)", 1], "x y") == "x*y = 0"
 
 
+def test_tangent_cones_with_irrational_coefficients_have_them_in_decimals() -> None:
+    """A node at sqrt(2), where y^2 = 8 (sqrt(2) + 5) x^2 to lowest order, and one at i."""
+    found = tangent_cone(nag.system("y^2 - (x^2 - 2)^2*(x + 5)"), [parse_number("sqrt(2)"), 0])
+    assert found is not None
+    assert found.text("xy") == f"x^2 - {1 / (8 * (2**0.5 + 5)):.8g}*y^2 = 0"
+    found = tangent_cone(nag.system("y^2 + (x^2 + 1)^2*(x + 5)/4"), np.array([1e-9 + 1j, 0]))
+    assert found is not None
+    assert found.text("xy") == "x^2 + (-0.19230769+0.038461538i)*y^2 = 0"
+
+
+def test_it_is_said_that_a_tangent_cone_has_equations_of_higher_degree() -> None:
+    """The cone of x y = 0, z^3 = x^4 + y^4 is x y = 0, z^3 = 0."""
+    equations = ["x*y", "z^3 - x^4 - y^4"]
+    (origin,) = singular_locus(nag.decompose(equations)).sets
+    lines = [text for _, text in set_lines(origin, "xyz")]
+    assert any("x*y = 0" in text and "further equations" in text for text in lines)
+    (node,) = singular_locus(nag.decompose("y^2 - x^2*(x + 1)")).sets
+    assert not any("further" in text or "not found" in text for _, text in set_lines(node, "xy"))
+
+
+def test_equations_of_the_tangent_space_are_those_of_first_order() -> None:
+    system = nag.system(["y^2 - x^2*(x + 1)", "z - 3*x + x*y"], "x y z")
+    found = tangent_cone(system, [0, 0, 0])
+    assert found is not None
+    assert (found.text("xyz"), found.tangent_text("xyz")) == ("9*y^2 - z^2 = 0", "3*x - z = 0")
+    crank = nag.read_case(CASES / "slider-crank.toml").system
+    assert crank is not None
+    found = tangent_cone(crank, [0, 1, 0, -1, 0, -1])
+    assert found is not None
+    assert found.tangent_text(crank.variables) == "s1 = 0, s2 = 0, s3 = 0"
+
+
 def test_a_rounded_singular_point_has_the_same_cone() -> None:
     system = plain(polynomials("x y", "(x - 1/3)^2 - 5*(y - 2)^2 + (y - 2)^5"))
     found = tangent_cone(system, np.array([1 / 3 + 1e-10, 2]))
     assert found is not None and found.text(["x", "y"]) == "x^2 - 5*y^2 = 0"
-    assert found.forms[0].terms[(2, 0)] == Fraction(1)
+    assert found.forms[0][(2, 0)] == Fraction(1)
 
 
 def test_the_lengths_with_singular_slider_cranks_are_found(tmp_path, capsys) -> None:

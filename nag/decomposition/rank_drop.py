@@ -3,12 +3,14 @@
 With r the component's codimension, the rank of J drops at x exactly when w^T J(x) = 0 for some
 w that is not zero, where J has r rows (Theorem 7.1 of PT13 asks for the vanishing of all r x r
 minors instead). Of more equations, r random combinations are taken: their rank drops wherever that
-of all of them does, and further points are told by the rank of all. Linear equations are solved
-before, exactly: each would cost a coordinate of w. Where the minors and the equations are quickly
-proved to have no common zeros, there is nothing to look for.
+of all of them does, and on further sets, of one dimension less than the component, which are told
+by the rank of all. Points where that drops may lie in such a set, unseen. Where there is one,
+J(x) N = 0 is solved as well, with all equations and one more column than the component's dimension.
+Linear equations are solved before, exactly: each would cost a coordinate of w. Where the minors and
+the equations are quickly proved to have no common zeros, there is nothing to look for.
 
 The pairs (x, w), w in an affine chart, are cut out of the product of the component with the space
-of w, equation by equation.
+of w, equation by equation; so are (x, N).
 
 Reference:
     Bates, Hauenstein, Peterson & Sommese, Numerical decomposition of the rank-deficiency set of a
@@ -18,24 +20,28 @@ Reference:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.smoothness import is_regular_everywhere
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.intersection import intersect_equations
+from nag.decomposition.intersection import Intersection, intersect_equations
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import clusters
+from nag.numerics.local_dimension import local_dimension
 from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
-from nag.witness.projection import ProjectionError, project
+from nag.witness.projection import Projection, ProjectionError, project
 from nag.witness.witness import PathCounts, Slice, WitnessSet
 
 # Bits of random numbers: a chart must leave out no vector that turns up, be it as simple as it may.
 BITS = 24
+# Relative error of points that are known to the last digit of doubles.
+ROUNDED = 1e-15
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,29 +111,89 @@ def rank_drop(
         return RankDrop((), PathCounts(), (), system.n)
     if is_regular_everywhere(own.polynomials, n - component.dimension):
         return RankDrop((), PathCounts(), (), system.n, proved=True)
-    component = _restricted(component, reduction)
-    product, start, conditions = _null_space_system(own, component, np.random.default_rng(seed))
-    found = intersect_equations(
-        product, start, conditions, seed=seed, threads=threads, settings=settings
-    )
-    sets: list[SetOfPoints] = []
-    notes = list(found.notes)
-    for one in found.components:
-        if one.dimension == 0:
-            y = one.points[:, :n]
-            sets.append(SetOfPoints(0, one.degree, frame.points(y), frame.error(y, one.accuracy)))
-            continue
-        try:
-            image = project(
-                found.system, one, range(n), seed=seed, threads=threads, settings=settings
-            )
-        except (ProjectionError, ValueError) as reason:
-            notes.append(f"a set of points of dimension {one.dimension} at most: {reason}")
-            continue
-        y = image.points[:, :n]
-        error = frame.error(y, image.accuracy)
-        sets.append(SetOfPoints(image.dimension, image.degree, frame.points(y), error))
-    return RankDrop(tuple(sets), found.paths, tuple(notes), system.n)
+    options = {"seed": seed, "threads": threads, "settings": settings}
+    search = _Search(own, _restricted(component, reduction), options)
+    rng = np.random.default_rng(seed)
+    search.cut(_left_null_space(own, search.rank, rng), rng)
+    if search.regular:
+        search = search.joined(_right_null_space(own, search.rank, rng), rng)
+    sets = [
+        SetOfPoints(one.dimension, one.degree, frame.points(y), frame.error(y, one.error))
+        for one in search.sets
+        for y in [one.points]
+    ]
+    return RankDrop(tuple(sets), search.paths, tuple(dict.fromkeys(search.notes)), system.n)
+
+
+@dataclass(eq=False)
+class _Search:
+    """What was found of the points where the rank of a component's equations is less than usual.
+
+    Attributes:
+        regular: whether sets of positive dimension were met where it is not.
+    """
+
+    own: PolynomialSystem
+    component: WitnessSet
+    options: dict[str, Any]
+    sets: list[SetOfPoints] = field(default_factory=list)
+    paths: PathCounts = field(default=PathCounts())
+    notes: list[str] = field(default_factory=list)
+    regular: bool = False
+
+    @property
+    def rank(self) -> int:
+        """The usual rank: the codimension."""
+        return self.own.n - self.component.dimension
+
+    def cut(self, conditions: PolynomialSystem, rng: np.random.Generator) -> None:
+        """Where the component's product with an affine space, of more variables, meets conditions.
+
+        Raises:
+            nag.decomposition.factor.IntersectionError: if the witness points are no regular zeros.
+        """
+        own, total = self.own, conditions.n
+        lifted, nonzero = (
+            tuple(f.with_variables(total, range(own.n)) for f in polynomials)
+            for polynomials in (own.polynomials, own.nonzero)
+        )
+        product = PolynomialSystem(conditions.variables, lifted, nonzero)
+        start = _times_space(self.component, total - own.n, rng)
+        found = intersect_equations(product, start, conditions, **self.options)
+        self.paths += found.paths
+        self.notes += found.notes
+        for one in found.components:
+            self._judge(found, one)
+
+    def joined(self, conditions: PolynomialSystem, rng: np.random.Generator) -> _Search:
+        """A search by conditions that leave nothing out, beside what is known of larger sets."""
+        again = _Search(self.own, self.component, self.options)
+        again.cut(conditions, rng)
+        again.paths += self.paths
+        if again.notes:
+            # A set that both found cannot be told from two of them.
+            points = [one for one in again.sets if one.dimension == 0]
+            again.sets, again.notes = self.sets + points, self.notes + again.notes
+        return again
+
+    def _judge(self, found: Intersection, one: WitnessSet) -> None:
+        """Keep a set of pairs if the rank of all equations is not known to be the usual one."""
+        n = self.own.n
+        image: WitnessSet | Projection = one
+        if one.dimension:
+            try:
+                image = project(found.system, one, range(n), **self.options)
+            except (ProjectionError, ValueError) as reason:
+                self.notes.append(f"a set of points of dimension {one.dimension} at most: {reason}")
+                return
+        points = image.points[:, :n]
+        if image.dimension and len(self.own.polynomials) > self.rank:
+            accuracy = max(image.accuracy, ROUNDED)
+            local = local_dimension(self.own, points[0], accuracy=accuracy)
+            if local.tangent_dimension == n - self.rank:
+                self.regular = True
+                return
+        self.sets.append(SetOfPoints(image.dimension, image.degree, points, image.accuracy))
 
 
 def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:
@@ -139,30 +205,43 @@ def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:
     return replace(component, slice=here, points=points, radii=radii, multidegree=None, fibres=())
 
 
-def _null_space_system(
-    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator
-) -> tuple[PolynomialSystem, WitnessSet, PolynomialSystem]:
-    """The component times the space of w, its equations there, and the conditions w^T J = 0."""
-    n, m = system.n, len(system.polynomials)
-    r = n - component.dimension
+def _left_null_space(own: PolynomialSystem, r: int, rng: np.random.Generator) -> PolynomialSystem:
+    """w^T J = 0 for r equations, or as many random combinations, in the variables x and w."""
+    n, m = own.n, len(own.polynomials)
     total = n + r - 1
-    jacobian = [[g.with_variables(total, range(n)) for g in row] for row in system.jacobian]
+    jacobian = _jacobian(own, total)
     if m > r:
         columns = list(zip(*jacobian, strict=True))
         jacobian = [[_combined(column, row) for column in columns] for row in _random(rng, r, m)]
-    free = [Polynomial.variable(total, i) for i in range(n, total)]
-    one = Polynomial.constant(total, 1)
-    w = [_combined([one, *free], row) for row in _random(rng, r, r)]
-    conditions = [product(w, column) for column in zip(*jacobian, strict=True)]
-    names = (*system.variables, *new_names(system.variables, total - n))
-    lifted, nonzero = (
-        tuple(f.with_variables(total, range(n)) for f in polynomials)
-        for polynomials in (system.polynomials, system.nonzero)
-    )
-    base = PolynomialSystem(names, lifted, nonzero)
-    start = _times_space(component, total - n, rng)
-    kept = tuple(f for f in dict.fromkeys(conditions) if f)
-    return base, start, PolynomialSystem(names, kept)
+    ones = [Polynomial.constant(total, 1), *Polynomial.variables(total)[n:]]
+    w = [_combined(ones, row) for row in _random(rng, r, r)]
+    return _conditions(own, [product(w, column) for column in zip(*jacobian, strict=True)])
+
+
+def _right_null_space(own: PolynomialSystem, r: int, rng: np.random.Generator) -> PolynomialSystem:
+    """J N = 0 for all equations, in the variables x and those of N: n - r + 1 independent columns.
+
+    In random coordinates the first rows of N are those of the unit matrix.
+    """
+    n, wide = own.n, own.n - r + 1
+    total = n + (r - 1) * wide
+    free = Polynomial.variables(total)[n:]
+    jacobian, turn = _jacobian(own, total), _random(rng, n, n)
+    conditions = []
+    for j in range(wide):
+        column = [Polynomial.constant(total, int(i == j)) for i in range(wide)]
+        column = [_combined([*column, *free[j::wide]], row) for row in turn]
+        conditions += [product(row, column) for row in jacobian]
+    return _conditions(own, conditions)
+
+
+def _jacobian(own: PolynomialSystem, total: int) -> list[list[Polynomial]]:
+    return [[g.with_variables(total, range(own.n)) for g in row] for row in own.jacobian]
+
+
+def _conditions(own: PolynomialSystem, polynomials: Sequence[Polynomial]) -> PolynomialSystem:
+    names = (*own.variables, *new_names(own.variables, polynomials[0].n - own.n))
+    return PolynomialSystem(names, tuple(f for f in dict.fromkeys(polynomials) if f))
 
 
 def _random(rng: np.random.Generator, rows: int, columns: int) -> list[list[Fraction]]:

@@ -8,6 +8,7 @@ from typing import Any
 from nag.decomposition.singular_locus import SingularLocus, SingularSet
 from nag.files.json_text import pairs
 from nag.files.local_document import local_document
+from nag.numerics.tangent_cone import form_text
 
 
 def singular_document(locus: SingularLocus, variables: Sequence[str]) -> dict[str, Any]:
@@ -33,5 +34,9 @@ def _set_document(one: SingularSet, variables: Sequence[str]) -> dict[str, Any]:
         "local": local_document(one.local),
         "tangent_cone": None
         if cone is None
-        else {"degree": cone.degree, "forms": [f.text(variables) for f in cone.forms]},
+        else {
+            "degree": cone.degree,
+            "forms": [form_text(f, variables) for f in cone.forms],
+            "linear": [form_text(f, variables) for f in cone.linear],
+        },
     }

@@ -91,9 +91,11 @@ def _in_doubles(known: RoundsInDoubles, direction: np.ndarray, start: _Place) ->
         if gone >= FAR or np.abs(x).max() >= AT_MOST:
             break
         try:
-            ahead = known.ahead(x, direction, h)
-            first = known.newton(ahead)
-            second = known.newton(ahead - first)
+            # Powers of a point that went astray overflow; the step is taken again, shorter.
+            with np.errstate(all="ignore"):
+                ahead = known.ahead(x, direction, h)
+                first = known.newton(ahead)
+                second = known.newton(ahead - first)
         except np.linalg.LinAlgError:
             break
         moved, one, two = (float(np.abs(v).max()) for v in (ahead - x, first, second))

@@ -1,7 +1,8 @@
 """The terms of lowest order of equations at a singular point: its tangent cone.
 
 In the coordinates of the tangent space the equations have no linear part; their parts of lowest
-order are the equations of lowest degree of the tangent cone, and all of them if there is one.
+order are the equations of lowest degree of the tangent cone, and all of them if there is one. They
+hold on the tangent space, which linear equations cut out.
 
 Reference:
     Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, chapter 9, section 7.
@@ -12,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain
 from math import gcd, lcm
 from typing import Any
 
@@ -34,6 +36,13 @@ HIGHEST = 8
 NOTHING = -90.0
 
 
+# Digits of coefficients that are not rational, as they are printed.
+SHOWN = 8
+
+# Coefficients by exponents in all variables; complex if they are not all rational.
+Form = dict[tuple[int, ...], Fraction | complex]
+
+
 @dataclass(frozen=True, eq=False)
 class TangentCone:
     """The lowest-order part of a zero set at a point, in the coordinates ``u = x - p``.
@@ -42,19 +51,47 @@ class TangentCone:
         coordinates: indices of the variables that are coordinates of the tangent space; the others
             depend on them in first order.
         degree: of the forms.
-        forms: a basis of the equations of that degree, in all variables; rational.
-        dimension: of their zero set in the tangent space, not less than that of the tangent cone;
-            None if it is not decided.
+        forms: a basis of the equations of that degree, in all variables: with coprime integers as
+            coefficients, or with complex numbers, the first of them one.
+        linear: equations of the tangent space, one for each of the other variables.
+        dimension: of the zero set of the forms in the tangent space, not less than that of the
+            tangent cone; None if it is not decided.
     """
 
     coordinates: tuple[int, ...]
     degree: int
-    forms: tuple[Polynomial, ...]
+    forms: tuple[Form, ...]
+    linear: tuple[Form, ...]
     dimension: int | None
 
     def text(self, variables: Sequence[str]) -> str:
-        """The equations, with the variables' names for their distances from the point."""
-        return ", ".join(f"{f.text(variables)} = 0" for f in self.forms)
+        """The forms, with the variables' names for their distances from the point."""
+        return _equations(self.forms, variables)
+
+    def tangent_text(self, variables: Sequence[str]) -> str:
+        """The equations of the tangent space, empty if it is the whole space."""
+        return _equations(self.linear, variables)
+
+
+def _equations(forms: Sequence[Form], variables: Sequence[str]) -> str:
+    return ", ".join(f"{form_text(f, variables)} = 0" for f in forms)
+
+
+def form_text(form: Form, variables: Sequence[str]) -> str:
+    """A form; coefficients that are not rational with some digits."""
+    n = len(variables)
+    if all(isinstance(c, Fraction) for c in form.values()):
+        return Polynomial(n, form).text(variables)
+    text = ""
+    for e, c in form.items():
+        z = complex(c)
+        one = Polynomial(n, {e: Fraction(1)}).text(variables)
+        sign = "-" if not z.imag and z.real < 0 else "+"
+        size = -z if sign == "-" else z
+        number = f"{size.real:.{SHOWN}g}" if not z.imag else f"({size:.{SHOWN}g})".replace("j", "i")
+        part = one if size == 1 else f"{number}*{one}"
+        text += f" {sign} {part}" if text else part if sign == "+" else f"-{part}"
+    return text
 
 
 def tangent_cone(
@@ -64,12 +101,13 @@ def tangent_cone(
     accuracy: float = 1e-8,
     seed: int = 0,
 ) -> TangentCone | None:
-    """The tangent cone at a singular point; None where its equations are not found rational.
+    """The tangent cone at a singular point; None where its equations are not found.
 
     Args:
         point: exact numbers, or doubles, which are sharpened first.
         accuracy: of a point of doubles, as for `nag.local_dimension`.
     """
+    n = system.n
     with working(DIGITS):
         zero, factors = exact_zero(system.polynomials, point, accuracy, np.random.default_rng(seed))
         if zero is None or not zero.tangent:
@@ -85,14 +123,33 @@ def tangent_cone(
                 break
         else:
             return None
-        free = tuple(i for i in range(system.n) if i not in block.columns)
-        forms = _rational_forms(parts, [factors[i] for i in free])
-    if forms is None:
-        return None
-    inner = PolynomialSystem(tuple(f"u{i}" for i in range(len(free))), tuple(forms))
-    dimension = local_dimension(inner, [0] * len(free), seed=seed).dimension
-    outer = tuple(f.with_variables(system.n, free) for f in forms)
-    return TangentCone(free, order, outer, dimension)
+        free = tuple(i for i in range(n) if i not in block.columns)
+        # The units of the scaled variables are put back.
+        forms = _independent([_scaled(part, [factors[i] for i in free]) for part in parts])
+        linear = []
+        for i in sorted(block.columns):
+            slopes = _part(found.ring, found.images[i], 1)
+            slopes = {free[e.index(1)]: factors[i] * c for e, c in slopes.items()}
+            line = {_unit(n, j): -c / factors[j] for j, c in slopes.items()}
+            linear.append({_unit(n, i): flint.acb(1), **line})
+        inner = _recognised(forms)
+    dimension = None
+    if all(isinstance(c, Fraction) for form in inner for c in form.values()):
+        forms_of_tangent_space = tuple(Polynomial(len(free), form) for form in inner)
+        names = tuple(f"u{i}" for i in range(len(free)))
+        cone = PolynomialSystem(names, forms_of_tangent_space)
+        dimension = local_dimension(cone, [0] * len(free), seed=seed).dimension
+    outer = tuple({_within(n, free, e): c for e, c in form.items()} for form in inner)
+    return TangentCone(free, order, outer, tuple(_recognised(linear)), dimension)
+
+
+def _unit(n: int, i: int) -> tuple[int, ...]:
+    return tuple(int(j == i) for j in range(n))
+
+
+def _within(n: int, free: Sequence[int], exponents: Sequence[int]) -> tuple[int, ...]:
+    placed = dict(zip(free, exponents, strict=True))
+    return tuple(placed.get(i, 0) for i in range(n))
 
 
 def _part(ring: SeriesRing, series: Series, order: int) -> dict[tuple[int, ...], flint.acb]:
@@ -103,27 +160,33 @@ def _part(ring: SeriesRing, series: Series, order: int) -> dict[tuple[int, ...],
     }
 
 
-def _rational_forms(
-    parts: Sequence[dict[tuple[int, ...], flint.acb]], factors: Sequence[Any]
-) -> list[Polynomial] | None:
-    """Independent combinations of forms with coprime integer coefficients, or None."""
+def _scaled(
+    part: dict[tuple[int, ...], flint.acb], factors: Sequence[Any]
+) -> dict[tuple[int, ...], flint.acb]:
+    found = {}
+    for e, c in part.items():
+        for k, factor in zip(e, factors, strict=True):
+            c = c / factor**k
+        found[e] = c
+    return found
+
+
+def _independent(
+    parts: Sequence[dict[tuple[int, ...], flint.acb]],
+) -> list[dict[tuple[int, ...], flint.acb]]:
+    """A basis of the span of forms, their leading coefficients one."""
     monomials = sorted({e for part in parts for e in part}, reverse=True)
-    left = []
-    for part in parts:
-        row = []
-        for e in monomials:
-            c = part.get(e, flint.acb(0))
-            for k, factor in zip(e, factors, strict=True):
-                c = c / factor**k
-            row.append(c)
-        left.append(row)
-    forms = []
-    for row in _reduced(left):
-        numbers = [rational(c, DIGITS - 30) for c in row]
-        if None in numbers:
-            return None
-        forms.append(_primitive({e: q for e, q in zip(monomials, numbers, strict=True) if q}))
-    return forms
+    rows = _reduced([[part.get(e, flint.acb(0)) for e in monomials] for part in parts])
+    nonzero = [[(e, c) for e, c in zip(monomials, row, strict=True)] for row in rows]
+    return [{e: c for e, c in row if log_size(c) > NOTHING} for row in nonzero]
+
+
+def _recognised(forms: Sequence[dict[tuple[int, ...], flint.acb]]) -> list[Form]:
+    """The forms with coprime integers, or all of them with complex doubles."""
+    numbers = [{e: rational(c, DIGITS - 30) for e, c in form.items()} for form in forms]
+    if any(q is None for q in chain.from_iterable(form.values() for form in numbers)):
+        return [{e: _rounded(complex(c)) for e, c in form.items()} for form in forms]
+    return [_primitive({e: q for e, q in form.items() if q}) for form in numbers]
 
 
 def _reduced(rows: list[list[flint.acb]]) -> list[list[flint.acb]]:
@@ -148,9 +211,13 @@ def _minus(row: list[flint.acb], pivot: list[flint.acb], column: int) -> list[fl
     return [a - factor * b for a, b in zip(row, pivot, strict=True)]
 
 
-def _primitive(terms: dict[tuple[int, ...], Fraction]) -> Polynomial:
+def _rounded(z: complex) -> complex:
+    real, imag = (x if abs(x) > 10.0**NOTHING else 0.0 for x in (z.real, z.imag))
+    return complex(real, imag)
+
+
+def _primitive(terms: dict[tuple[int, ...], Fraction]) -> Form:
     denominator = lcm(*(q.denominator for q in terms.values()))
     divisor = gcd(*(int(q * denominator) for q in terms.values()))
     scale = Fraction(denominator, divisor)
-    n = len(next(iter(terms)))
-    return Polynomial(n, {e: q * scale for e, q in terms.items()})
+    return {e: q * scale for e, q in terms.items()}

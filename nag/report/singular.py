@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from nag.decomposition.singular_locus import SingularLocus, SingularSet
+    from nag.numerics.tangent_cone import TangentCone
     from nag.witness.witness import Decomposition
 
 # What is smaller than this, in a point that is known to rounding, is written as zero.
@@ -64,9 +65,20 @@ def set_lines(one: SingularSet, variables: Sequence[str]) -> list[tuple[str, str
         head = ("point", at)
     rows = [head, ("", _kind_text(one))]
     if one.cone is not None:
-        text = f"tangent cone {one.cone.text(variables)} to lowest order, in distances from it"
-        rows.append(("", text))
+        rows.append(("", _cone_text(one, one.cone, variables)))
+        if one.cone.linear:
+            rows.append(("", f"tangent space {one.cone.tangent_text(variables)}"))
+    elif not one.dimension:
+        rows.append(("", "tangent cone not found"))
     return rows
+
+
+def _cone_text(one: SingularSet, cone: TangentCone, variables: Sequence[str]) -> str:
+    text = f"tangent cone {cone.text(variables)} to lowest order, in distances from it"
+    more = None not in (cone.dimension, one.local.dimension)
+    if more and cone.dimension != one.local.dimension:
+        text += "; further equations of it are of higher degree"
+    return text
 
 
 def _kind_text(one: SingularSet) -> str:
