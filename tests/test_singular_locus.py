@@ -176,13 +176,11 @@ def _values(multiplicities: dict[int, int]) -> frozenset[int]:
 
 
 @pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize(("third", "settings"), [("f", "default"), ("(a + b + c)", "careful")])
-def test_a_cone_that_more_equations_cut_than_its_codimension(
-    third: str, settings: str, seed: int
-) -> None:
+@pytest.mark.parametrize("third", ["f", "(a + b + c)"])
+def test_a_cone_that_more_equations_cut_than_its_codimension(third: str, seed: int) -> None:
     """Matrices of rank one: random combinations of minors are singular along sets through 0."""
     minors = [f"a*{third} - c*d", f"b*{third} - c*e", "a*e - b*d"]
-    locus = singular_locus(nag.decompose(minors, seed=seed), seed=seed, settings=settings)
+    locus = singular_locus(nag.decompose(minors, seed=seed), seed=seed)
     assert locus.complete
     (vertex,) = locus.sets
     assert (vertex.dimension, vertex.multiplicities) == (0, {0: 3})
