@@ -325,6 +325,28 @@ def test_an_axis_may_be_a_line_of_two_points_or_of_pluecker_coordinates(tmp_path
     assert first.system == second.system
 
 
+SHAFT = (CASES / "spatial/universal-shaft.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("point = [1, 1, 0]\naxis = [0, 0, 1]", "second_through = [[1, -5, 0], [1, -4, 0]]"),
+        ("through = [[1, 1, 2], [1, 1, 3]]", "second_through = [[1, 7, 0], [1, 8, 0]]"),
+        (
+            "through = [[1, 1, 2], [1, 1, 3]]",
+            "second_line = { direction = [0, 1, 0], moment = [0, 0, 1] }",
+        ),
+    ],
+)
+def test_the_axes_of_a_universal_joint_may_be_lines_that_meet(tmp_path, first, second):
+    both = "point = [1, 1, 0]\naxis = [0, 0, 1]\nsecond_axis = [0, 1, 0]"
+    changed = SHAFT.replace(both, f"{first}\n{second}")
+    assert changed != SHAFT
+    one, other = (model(read(tmp_path, text).mechanism) for text in (SHAFT, changed))
+    assert one.system == other.system
+
+
 # Parameters
 
 

@@ -48,6 +48,11 @@ def line(text: str) -> str:
     return MECHANISM.replace(LINE, text)
 
 
+def universal(text: str) -> str:
+    between = '", bodies = ["A", "B"], '
+    return MECHANISM.replace(f"revolute{between}{LINE}", f"universal{between}{text}")
+
+
 def table(old: str, new: str) -> str:
     return DH.replace(old, new, 1)
 
@@ -212,6 +217,18 @@ BROKEN: dict[str, tuple[str, str]] = {
     "axis twice": (
         line(LINE + ", through = [[0, 0, 0], [0, 0, 1]]"),
         "[[joint]] 2 'K': point: 'through' gives the axis already; leave one of them out",
+    ),
+    "axes of a universal joint that do not meet": (
+        universal("point = [0, 0, 0], axis = [0, 0, 1], second_through = [[0, 3, 0], [4, 3, 1]]"),
+        "[[joint]] 2 'K': second_through: passes the first axis at a distance of 3; the axes of a "
+        "universal joint meet",
+    ),
+    "second axis twice": (
+        universal(
+            "point = [0, 0, 0], axis = [0, 0, 1], second_axis = [1, 0, 0], "
+            "second_line = { direction = [1, 0, 0], moment = [0, 0, 0] }"
+        ),
+        "[[joint]] 2 'K': second_axis: 'second_line' gives the axis already; leave one of them out",
     ),
     "the same joint twice": (
         line("point = [0, 0, 0], axis = [0, 0, -2]"),

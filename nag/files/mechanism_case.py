@@ -7,7 +7,7 @@ from typing import Any
 
 from nag.algebra.number import Number
 from nag.files.axis_forms import KEYS as LINE_KEYS
-from nag.files.axis_forms import read_line
+from nag.files.axis_forms import SECOND_KEYS, read_line, read_second_line
 from nag.files.case_table import Table
 from nag.mechanism.graph import ORIGIN, Body, Joint, Mechanism, MechanismError
 from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS
@@ -38,19 +38,27 @@ def read_mechanism(top: Table, number: ReadNumber) -> Mechanism:
 
 
 def _read_joint(name: str, table: Table, number: ReadNumber) -> Joint:
-    table.allow(("name", "type", "bodies", *VECTORS, *LINE_KEYS))
+    kind = table.text("type")
+    second_keys = SECOND_KEYS if SYNONYMS.get(kind, kind) == "universal" else ()
+    table.allow(("name", "type", "bodies", *VECTORS, *LINE_KEYS, *second_keys))
     bodies = table.texts("bodies", "names of bodies", 2)
     if not all(b.strip() and b.isprintable() for b in bodies):
         table.fail("bodies", "holds an empty or unprintable name; write names of bodies")
-    kind = table.text("type")
     known = JOINT_TYPES.get(SYNONYMS.get(kind, kind))
     # What the type needs is asked for here; what does not belong to it, the joint itself refuses.
     needed = () if known is None else known.fields
     line = read_line(table, number)
     vectors = dict(zip(("point", "axis"), line, strict=True)) if line else {}
+    as_line = any(key in table.values for key in second_keys)
     for key in VECTORS:
-        if key not in vectors and (key in needed or key in table.values):
+        wanted = key in table.values or (key in needed and not (as_line and key == "second_axis"))
+        if key not in vectors and wanted:
             vectors[key] = table.vector(key, 3, number)
+    second = (
+        read_second_line(table, number, (vectors["point"], vectors["axis"])) if as_line else None
+    )
+    if second is not None:
+        vectors["point"], vectors["second_axis"] = second
     return Joint(
         name=name,
         type=kind,
