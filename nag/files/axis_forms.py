@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from nag.algebra.number import Number, is_zero, number_text
 from nag.files.case_table import ReadNumber, Table
-from nag.mechanism.axes import Vector, cross, difference, dot, vanishes
+from nag.mechanism.axes import Vector, cross, difference, dot, nearest, vanishes
 
 KEYS = ("through", "line")
 SECOND_KEYS = ("second_through", "second_line")
@@ -43,8 +43,7 @@ def read_second_line(table: Table, number: ReadNumber, first: Line) -> Line | No
             f"passes the first axis at a distance of {distance:.6g}; the axes of a universal joint "
             "meet",
         )
-    along = dot(cross(apart, v), normal) / squared
-    return tuple(x + along * y for x, y in zip(p, u, strict=True)), v
+    return nearest(first, line), v
 
 
 def _read(

@@ -82,12 +82,27 @@ def on_axis(point: Sequence[Number], joint: Joint) -> bool:
 
 def meeting_point(first: Joint, second: Joint) -> Vector | None:
     """The point in which two axes that are not parallel meet, or None."""
-    normal = cross(first.axis, second.axis)
-    if vanishes(normal) or skew(first, second):
+    if parallel(first, second) or skew(first, second):
         return None
-    gap = difference(second.point, first.point)
-    t = dot(cross(gap, second.axis), normal) / dot(normal, normal)
-    return tuple(p + t * x for p, x in zip(first.point, first.axis, strict=True))
+    return nearest((first.point, first.axis), (second.point, second.axis))
+
+
+def nearest(first: tuple[Vector, Vector], second: tuple[Vector, Vector]) -> Vector:
+    """The point of a line, a point and a direction, that is nearest to one not parallel to it."""
+    (p, u), (q, v) = first, second
+    normal = cross(u, v)
+    t = dot(cross(difference(q, p), v), normal) / dot(normal, normal)
+    return tuple(x + t * y for x, y in zip(p, u, strict=True))
+
+
+def same_line(first: Joint, second: Joint) -> bool:
+    """Whether both have one and the same axis."""
+    return parallel(first, second) and on_axis(second.point, first)
+
+
+def zero_length(link: str, first: str, second: str) -> str:
+    """What is said of a link whose two joints have one axis."""
+    return f"; {link} has length zero: {first} and {second} turn about one line"
 
 
 def across(axis: Sequence[Number]) -> tuple[Vector, Vector]:

@@ -17,6 +17,7 @@ from typing import Any
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.mechanism.axes import zero_length
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.quaternion import (
     DualQuaternion,
@@ -151,10 +152,16 @@ class DHModel:
         if held:
             text += f", {held} of them held at a given angle"
         names = " and ".join(self.loop.rows[i].name for i in self.eliminated)
-        return (
-            f"{text}; {open_joints} open angles, half-angles with {names} eliminated leave "
+        text += (
+            f"; {open_joints} open angles, half-angles with {names} eliminated leave "
             f"{len(self.kept)} unknown{'' if len(self.kept) == 1 else 's'}"
         )
+        rows = self.loop.rows
+        for first, second in zip(rows, (*rows[1:], rows[0]), strict=True):
+            # The half twist is 0 or a right angle.
+            if is_zero(first.a) and any(map(is_zero, first.alpha)):
+                text += zero_length(f"link after {first.name}", first.name, second.name)
+        return text
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real closing, to within rounding."""

@@ -11,7 +11,7 @@ from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import REFERENCE, Modes
-from nag.mechanism.axes import Space, space_of
+from nag.mechanism.axes import Space, same_line, space_of, zero_length
 from nag.mechanism.configuration import Configuration
 from nag.mechanism.euler import EulerModel
 from nag.mechanism.formulation_names import FORMULATIONS
@@ -184,7 +184,9 @@ def model(
         mechanism=mechanism,
         formulation=chosen.formulation,
         space=space,
-        reason=_reason(structure, space, chosen, formulation) + _cut_text(structure),
+        reason=_reason(structure, space, chosen, formulation)
+        + _outside_text(structure)
+        + _zero_text(structure),
         system=form.system,
         reference=form.reference,
         sign_group=2 ** len(symmetries),
@@ -247,9 +249,19 @@ def _reason(structure: LoopStructure, space: Space, chosen: Alternative, asked: 
     return f"{text}: {unknowns} and the fewest paths, {how} {chosen.paths}"
 
 
-def _cut_text(structure: LoopStructure) -> str:
+def _outside_text(structure: LoopStructure) -> str:
     if not structure.outside:
         return ""
     names = ", ".join(j.name for j in structure.outside)
     freedoms = counted(structure.cut_freedoms, "freedom")
     return f"; cut off, moving freely with {freedoms}: joints {names}"
+
+
+def _zero_text(structure: LoopStructure) -> str:
+    """What is said of links of length zero: both of their joints turn about one line."""
+    text = ""
+    for body in (structure.base, *structure.moving):
+        own = [j for j in structure.joints if body in j.bodies]
+        if len(own) == 2 and all(j.type == "revolute" for j in own) and same_line(*own):
+            text += zero_length(body, own[0].name, own[1].name)
+    return text
