@@ -102,7 +102,7 @@ def same_line(first: Joint, second: Joint) -> bool:
 
 def zero_length(link: str, first: str, second: str) -> str:
     """What is said of a link whose two joints have one axis."""
-    return f"; {link} has length zero: {first} and {second} turn about one line"
+    return f"{link} has length zero: {first} and {second} turn about one line"
 
 
 def across(axis: Sequence[Number]) -> tuple[Vector, Vector]:

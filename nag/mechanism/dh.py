@@ -152,16 +152,21 @@ class DHModel:
         if held:
             text += f", {held} of them held at a given angle"
         names = " and ".join(self.loop.rows[i].name for i in self.eliminated)
-        text += (
-            f"; {open_joints} open angles, half-angles with {names} eliminated leave "
+        return (
+            f"{text}; {open_joints} open angles, half-angles with {names} eliminated leave "
             f"{len(self.kept)} unknown{'' if len(self.kept) == 1 else 's'}"
         )
+
+    @property
+    def zero_links(self) -> tuple[str, ...]:
+        """Which links have length zero, as both of their joints turn about one line."""
         rows = self.loop.rows
-        for first, second in zip(rows, (*rows[1:], rows[0]), strict=True):
-            # The half twist is 0 or a right angle.
-            if is_zero(first.a) and any(map(is_zero, first.alpha)):
-                text += zero_length(f"link after {first.name}", first.name, second.name)
-        return text
+        # The half twist is 0 or a right angle.
+        return tuple(
+            zero_length(f"link after {first.name}", first.name, second.name)
+            for first, second in zip(rows, (*rows[1:], rows[0]), strict=True)
+            if is_zero(first.a) and any(map(is_zero, first.alpha))
+        )
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real closing, to within rounding."""

@@ -82,6 +82,7 @@ class Subject:
             "equations": len(self.system.polynomials),
             "free": self.freedoms,
             "free_of": self.free_of,
+            "zero_links": self.model.zero_links if isinstance(self.model, Model | DHModel) else (),
         }
 
     @classmethod

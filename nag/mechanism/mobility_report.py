@@ -81,6 +81,7 @@ class MobilityReport:
         local: the local dimension in the model, and what it rests on; None without loops.
         curves: the curves through the configuration, where they were asked for.
         free_of: whose the ``free`` ones are, as text; empty where there are none.
+        zero_links: which links have length zero, as text.
         general: of parts that are not assembled, a component of the largest dimension: the report
             is of a general configuration on it, and ``components`` are all that there are.
         doubt: of such parts that move, why it is not known that they do with real coordinates;
@@ -101,6 +102,7 @@ class MobilityReport:
     local: LocalDimension | None
     curves: tuple[CurveOfMotion, ...] = ()
     free_of: str = ""
+    zero_links: tuple[str, ...] = ()
     general: WitnessSet | None = None
     doubt: str = ""
 
@@ -182,6 +184,7 @@ class MobilityReport:
         return [
             ("counted", counts),
             ("model", model_text),
+            *(("besides", text) for text in self.zero_links),
             ("local", _local_text(self)),
             *([("besides", f"{self.free_of}, counted in all dimensions")] if self.free_of else []),
             ("components", _components_text(self)),

@@ -119,6 +119,16 @@ class Model:
         return model_text(self)
 
     @property
+    def zero_links(self) -> tuple[str, ...]:
+        """Which links have length zero, as both of their joints turn about one line."""
+        found = []
+        for body in (self.structure.base, *self.structure.moving):
+            own = [j for j in self.structure.joints if body in j.bodies]
+            if len(own) == 2 and all(j.type == "revolute" for j in own) and same_line(*own):
+                found.append(zero_length(body, own[0].name, own[1].name))
+        return tuple(found)
+
+    @property
     def cut(self) -> tuple[Joint, ...]:
         """Joints of no loop; each adds its own freedoms to every component's dimension."""
         return self.structure.outside
@@ -184,9 +194,7 @@ def model(
         mechanism=mechanism,
         formulation=chosen.formulation,
         space=space,
-        reason=_reason(structure, space, chosen, formulation)
-        + _outside_text(structure)
-        + _zero_text(structure),
+        reason=_reason(structure, space, chosen, formulation) + _outside_text(structure),
         system=form.system,
         reference=form.reference,
         sign_group=2 ** len(symmetries),
@@ -255,13 +263,3 @@ def _outside_text(structure: LoopStructure) -> str:
     names = ", ".join(j.name for j in structure.outside)
     freedoms = counted(structure.cut_freedoms, "freedom")
     return f"; cut off, moving freely with {freedoms}: joints {names}"
-
-
-def _zero_text(structure: LoopStructure) -> str:
-    """What is said of links of length zero: both of their joints turn about one line."""
-    text = ""
-    for body in (structure.base, *structure.moving):
-        own = [j for j in structure.joints if body in j.bodies]
-        if len(own) == 2 and all(j.type == "revolute" for j in own) and same_line(*own):
-            text += zero_length(body, own[0].name, own[1].name)
-    return text

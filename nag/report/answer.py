@@ -38,6 +38,7 @@ def _model_rows(model: Model) -> list[tuple[str, str]]:
     if model.sign_group > 1:
         text = f"{model.sign_group} sign changes of Euler parameters keep the equations; "
         rows.append(("signs", text + "components that they exchange are counted one by one"))
+    rows += [("besides", text) for text in model.zero_links]
     if model.rank is not None:
         rows += rank_rows(model.rank, model.system.n, bool(model.reference))
     return rows

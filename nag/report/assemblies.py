@@ -24,6 +24,7 @@ def parts_rows(assembly: AssemblyModel) -> Rows:
 
     rows = [("model", assembly.reason)]
     if isinstance(assembly, DHModel):
+        rows += [("besides", text) for text in assembly.zero_links]
         rows += rank_rows(assembly.rank, assembly.system.n, False)
     if isinstance(assembly, FrameworkModel):
         rows += _framework_rows(assembly.framework)
