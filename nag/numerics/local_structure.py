@@ -37,6 +37,8 @@ NUMBERS = Digits(DIGITS, -90.0, -45.0)
 # become smaller for two degrees, and the highest degree.
 SEARCHES = (6, 14, 30)
 HIGHEST = 400
+# How often such curves are looked for before that.
+FIRST_ATTEMPTS = 6
 # The most digits, beside those, in which a zero is looked at once more.
 MOST_DIGITS = 2000
 # Written digits of a point.
@@ -149,6 +151,12 @@ def _at_zero(
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
+    if found.corank > 1:
+        # Where it succeeds this is the cheapest proof, and needs neither more digits nor a dual space.
+        dimension = curve_through(system, found, rng, FIRST_ATTEMPTS)
+        if dimension:
+            reason = "a curve of zeros was followed to the point"
+            return _end(system, found, Place.ON_COMPONENT, 0, reason, dimension)
     doubtful = effort.hold and (found.corank > 0 or len(system.rows) > system.n)
     if doubtful and not _held(system, found):
         reason = "more digits show several zeros there, or none, nearer than 150 digits tell"

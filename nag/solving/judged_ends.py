@@ -75,6 +75,18 @@ class _Zeros:
         found = clusters(self.points[several], self.accuracy[several])
         return [several[group] for group in found]
 
+    def conjugate_among(self, points: Sequence[np.ndarray], group: np.ndarray) -> bool:
+        """Whether the conjugate of ends at one place is among some points.
+
+        The equations being real, it lies on a component of zeros exactly if they do.
+        """
+        if not points or self.regular[group].any():
+            return False
+        best = int(group[np.argmin(self.accuracy[group])])
+        return bool(
+            coincident(np.array(points), self.points[best].conj(), self.accuracy[best]).any()
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class _Place:
@@ -118,7 +130,10 @@ def judged_ends(
     judge = partial(_place, problem, begin, zeros, paths, evaluator, rng)
     whole = begin.complete and not problem.squared
     for group in groups:
-        best, found = _together(judge, zeros, group, whole)
+        if zeros.conjugate_among(elsewhere[Place.ON_COMPONENT], group):
+            best, found = int(group[0]), _Place(Place.ON_COMPONENT)
+        else:
+            best, found = _together(judge, zeros, group, whole)
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
         # Of a cluster with as many zeros as paths, each is the end of its own.
         met = found.place is Place.CLUSTER and whole and multiplicity == len(group)
