@@ -11,11 +11,14 @@ from nag.numerics.descent import Descent, Point, Round, descend
 from nag.numerics.digits import log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.power_series import SeriesRing
+from nag.numerics.second_round import SecondRound
 
 # Digits in which singular points are judged. What vanishes there stays below 10^ZERO, relative to
 # coefficients of one; Newton's method has arrived when its step is below 10^ARRIVED.
 DIGITS, ZERO, ARRIVED = 150, -100.0, -125.0
 NEWTON_STEPS = 24
+# A longer step (decimal logarithm) leads elsewhere.
+FURTHEST_STEP = -0.3
 # Inverse blocks with larger entries (decimal logarithm) are rounding, or the zero is not regular.
 LARGEST_INVERSE = 70.0
 # What rounding adds to a value (decimal logarithm): Newton's step cannot become smaller than this
@@ -35,16 +38,52 @@ def sharpen(
 
     It starts in `DIGITS` digits, and doubles them until they are as many as asked for.
     """
-    one = _sharpened if len(rounds) > 1 else _sharpened_block
     found: tuple[Point, Descent] | None = None
     point = list(x)
     for stage in _stages(digits):
+        last = stage == digits
         with working(stage):
-            found = one(system, point, rounds, stage, stage == digits)
+            if len(rounds) == 1:
+                found = _sharpened_block(system, point, rounds, stage, last)
+            else:
+                near = _near(system, point, rounds, stage)
+                if near is not None and not last:
+                    point = near
+                    continue
+                found = _sharpened(system, near or point, rounds, stage, last, near is not None)
         if found is None:
             return None
         point = found[0]
     return found
+
+
+def _near(system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int) -> Point | None:
+    """The zero by a way that is shorter than that of series, where there is one that leads to it."""
+    newton = SecondRound.of(system.values_at(digits), len(system.rows), rounds)
+    last, point = inf, x
+    for step in range(NEWTON_STEPS):
+        found = None if newton is None else newton.step(point, digits)
+        if found is None:
+            return None
+        move, inverse = found
+        moved, arrived = log_norm(move), _arrived(inverse) - digits
+        if not _goes_on(step, moved, last, arrived):
+            return None
+        point = [middle(a + b) for a, b in zip(point, move, strict=True)]
+        if moved < arrived:
+            return point
+        last = moved
+    return None
+
+
+def _arrived(inverse: float) -> float:
+    """Decimal logarithm of the last step beside the digits' end."""
+    return max(ARRIVED + DIGITS, ROUNDING + inverse)
+
+
+def _goes_on(step: int, moved: float, last: float, arrived: float) -> bool:
+    """Whether Newton's method stays near and converges."""
+    return moved <= FURTHEST_STEP and (step <= 3 or moved <= max(last - 1.0, arrived))
 
 
 def _stages(digits: int) -> list[int]:
@@ -55,19 +94,25 @@ def _stages(digits: int) -> list[int]:
 
 
 def _sharpened(
-    system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int, last_stage: bool
+    system: ExactSystem,
+    x: Point,
+    rounds: Sequence[Round],
+    digits: int,
+    last_stage: bool,
+    there: bool,
 ) -> tuple[Point, Descent] | None:
+    """The zero by series; ``there``: whether ``x`` is one already, as far as can be told."""
     last, point = inf, x
     # The steps converge quadratically with series of order one in the last round, and cubically,
     # but at the price of longer series, with order two.
-    order = 2 if len(point) - len(rounds[0].columns) < 3 else 1
+    order = 1 if there or len(point) - len(rounds[0].columns) > 2 else 2
     for step in range(NEWTON_STEPS):
         found = descend(system, digits, point, rounds, order)
         if found is None or found.inverse > LARGEST_INVERSE:
             return None
         size = log_norm(found.displacement)
-        arrived = max(ARRIVED + DIGITS, ROUNDING + found.inverse) - digits
-        if size > -0.3 or (step > 3 and size > last - 1.0 and size > arrived):
+        arrived = _arrived(found.inverse) - digits
+        if not _goes_on(step, size, last, arrived):
             return None
         point = [middle(a + b) for a, b in zip(point, found.displacement, strict=True)]
         if size < (arrived if last_stage else max(arrived, -NEARLY * digits)):
@@ -103,8 +148,8 @@ def _sharpened_block(
             for j, c in zip(this.columns, (inverse * column).mid().entries(), strict=True):
                 displacement[j] = -c
         moved = log_norm(displacement)
-        arrived = max(ARRIVED + DIGITS, ROUNDING + size) - digits
-        if moved > -0.3 or (step > 3 and moved > last - 1.0 and moved > arrived):
+        arrived = _arrived(size) - digits
+        if not _goes_on(step, moved, last, arrived):
             return None
         point = [middle(a + b) for a, b in zip(point, displacement, strict=True)]
         if moved < (arrived if last_stage else max(arrived, -NEARLY * digits)):
