@@ -86,9 +86,7 @@ class ExactSystem:
         with flint.ctx.workdps(digits):
             if self._above is None:
                 return PointValues.of(self.at(digits), self.n)
-            return PointValues.of(
-                self.at(digits)[-1:], self.n, above=self._above.values_at(digits)
-            )
+            return PointValues.of(self.at(digits)[-1:], self.n, above=self._above.values_at(digits))
 
     def modulo(self, p: int) -> list[Terms]:
         """The rows modulo a prime.

@@ -152,10 +152,8 @@ def _at_zero(
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
     if found.corank > 1:
-        # Where it succeeds this is the cheapest proof, and needs neither more digits nor a dual space.
-        dimension = curve_through(system, found, rng, FIRST_ATTEMPTS)
+        reason, dimension = _on_a_curve(system, found, rng)
         if dimension:
-            reason = "a curve of zeros was followed to the point"
             return _end(system, found, Place.ON_COMPONENT, 0, reason, dimension)
     doubtful = effort.hold and (found.corank > 0 or len(system.rows) > system.n)
     if doubtful and not _held(system, found):
@@ -170,6 +168,18 @@ def _at_zero(
         return _by_dual_space(system, found, rng, effort.patience)
     except (UnclearRank, _TooLarge) as reason:
         return _end(system, found, Place.UNDECIDED, 0, str(reason))
+
+
+def _on_a_curve(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> tuple[str, int]:
+    """Why a zero lies on a set of positive dimension, and of which; 0 where that is not seen soon.
+
+    Where it succeeds this is the cheapest proof: no dual space, and no further digits.
+    """
+    exact = rational_point(found.point, DIGITS) if system.rational else None
+    if exact is not None and system.vanishes_exactly(exact) and system.vanishes_on_an_axis(exact):
+        return "the equations vanish exactly on a line through it", 1
+    dimension = curve_through(system, found, rng, FIRST_ATTEMPTS)
+    return "a curve of zeros was followed to the point", dimension
 
 
 def _held(system: ExactSystem, found: Deflated) -> bool:
@@ -190,9 +200,6 @@ def _by_dual_space(
     exact = rational_point(found.point, DIGITS) if system.rational else None
     if exact is not None and not system.vanishes_exactly(exact):
         raise UnclearRank("the equations vanish to all digits, but not at the rational point there")
-    if exact is not None and system.vanishes_on_an_axis(exact):
-        reason = "the equations vanish exactly on a line through it"
-        return _end(system, found, Place.ON_COMPONENT, 0, reason, 1)
     search = CurveSearch(SEARCHES, lambda attempts: curve_through(system, found, rng, attempts))
     spaces: list[DualSpace] = []
     for field in [PrimeField(p) for p in PRIMES] if exact is not None else [NUMBERS]:

@@ -73,19 +73,21 @@ class PointValues:
             found[place] = value
         return found
 
-    def _monomials(self, x: Sequence[flint.acb]) -> list[flint.acb]:
-        one = flint.acb(1)
+    def _monomials(self, x: Sequence[flint.acb], count: int | None = None) -> list[flint.acb]:
+        """The first so many monomials; balls, as taking the middle of each costs as much again."""
         powers = self._powers(x)
+        powers[-1] = flint.acb(1)
         values: list[flint.acb] = []
-        for before, power in self.steps:
-            factor = one if power < 0 else powers[power]
-            values.append(factor if before < 0 else middle(values[before] * factor))
+        for before, power in self.steps[:count]:
+            values.append(powers[power] if before < 0 else values[before] * powers[power])
         return values
 
     def values(self, x: Sequence[flint.acb]) -> list[flint.acb]:
         """The value of each row."""
         before = [] if self.above is None else self.above.values(x)
-        return before + _product(self.coefficients, self._monomials(x))
+        # Those of the equations are made first, further ones of their derivatives after them.
+        count = 1 + max(self.coefficients[1], default=-1)
+        return before + _product(self.coefficients, self._monomials(x, count))
 
     def jacobian(self, x: Sequence[flint.acb]) -> list[list[flint.acb]]:
         """The derivatives of each row."""

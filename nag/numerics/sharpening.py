@@ -58,7 +58,7 @@ def sharpen(
 
 
 def _near(system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int) -> Point | None:
-    """The zero by a way that is shorter than that of series, where there is one that leads to it."""
+    """The zero without series, where there is such a way and it leads there."""
     newton = SecondRound.of(system.values_at(digits), len(system.rows), rounds)
     last, point = inf, x
     for step in range(NEWTON_STEPS):
