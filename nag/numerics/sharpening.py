@@ -10,6 +10,7 @@ import flint
 from nag.numerics.descent import Descent, Point, Round, descend
 from nag.numerics.digits import log_norm, middle, working
 from nag.numerics.exact_system import ExactSystem
+from nag.numerics.implicit_function import Matrix
 from nag.numerics.power_series import SeriesRing
 from nag.numerics.second_round import SecondRound
 
@@ -26,6 +27,8 @@ LARGEST_INVERSE = 70.0
 ROUNDING = 10.0
 # A step below this share of the digits leaves a point that more digits can go on from.
 NEARLY = 0.4
+# Slopes by which a step gains so many digits are kept for the next one.
+FAST = 12.0
 # Least gain of a step of Gauss and Newton's method (decimal logarithm), after the first two: less
 # is no progress, while by two zeros that are close together each step halves the distance.
 GAIN = 0.2
@@ -126,16 +129,16 @@ def _sharpened_block(
 ) -> tuple[Point, Descent] | None:
     """The zero of a regular block of the equations, by values and slopes alone.
 
-    Beyond `DIGITS` the slopes are those at ``x``, in half the digits, and the steps as long as
-    these allow.
+    Slopes are kept while steps gain many digits by them; beyond `DIGITS` they are those at ``x``,
+    in half the digits, and the steps as long as these allow.
     """
     (this,) = rounds
     values = system.values_at(digits)
     others = [i for i in range(len(system.rows)) if i not in this.rows]
-    last, point, inverse, size = inf, x, None, -inf
+    last, point, inverse, size, slow = inf, x, None, -inf, True
     for step in range(NEWTON_STEPS):
         at = values.values(point)
-        if inverse is None or digits <= DIGITS:
+        if inverse is None or (slow and digits <= DIGITS):
             inverse = _inverse_block(system, point, this, min(digits, max(DIGITS, digits // 2)))
             if inverse is None:
                 return None
@@ -158,7 +161,7 @@ def _sharpened_block(
             ring = SeriesRing(len(point) - len(this.columns), 0)
             remaining = [{0: c} if c else {} for c in rest]
             return point, Descent(displacement, ring, remaining, log_norm(rest), size)
-        last = moved
+        last, slow = moved, moved > last - FAST
     return None
 
 
@@ -172,25 +175,32 @@ def sharpen_regular(system: ExactSystem, x: Sequence[flint.acb], within: float) 
         within: decimal logarithm of how far the zero may be.
     """
     functions, last, point = system.values_at(DIGITS), inf, list(x)
+    inverse, slow = None, True
     with working(DIGITS):
         for step in range(NEWTON_STEPS):
-            slopes = functions.jacobian(point)
-            adjoint = flint.acb_mat(
-                [[c.conjugate() for c in column] for column in zip(*slopes, strict=True)]
-            )
-            values = flint.acb_mat(len(slopes), 1, functions.values(point))
-            try:
-                change = (adjoint * flint.acb_mat(slopes)).solve(adjoint * values).mid().entries()
-            except ZeroDivisionError:
-                return None
+            if inverse is None or slow:
+                inverse = _least_squares(functions.jacobian(point))
+                if inverse is None:
+                    return None
+            values = functions.values(point)
+            change = (inverse * flint.acb_mat(len(values), 1, values)).mid().entries()
             size = log_norm(change)
             point = [middle(a - b) for a, b in zip(point, change, strict=True)]
             if size > within or (step > 2 and size > last - GAIN):
                 return None
             if size < ARRIVED:
                 return point
-            last = size
+            last, slow = size, size > last - FAST
     return None
+
+
+def _least_squares(slopes: Matrix) -> flint.acb_mat | None:
+    """The inverse of Gauss and Newton's method; None where the columns depend on each other."""
+    adjoint = flint.acb_mat([[c.conjugate() for c in row] for row in zip(*slopes, strict=True)])
+    try:
+        return (adjoint * flint.acb_mat(slopes)).solve(adjoint).mid()
+    except ZeroDivisionError:
+        return None
 
 
 def predicted(
