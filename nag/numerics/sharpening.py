@@ -161,7 +161,7 @@ def _sharpened_block(
             ring = SeriesRing(len(point) - len(this.columns), 0)
             remaining = [{0: c} if c else {} for c in rest]
             return point, Descent(displacement, ring, remaining, log_norm(rest), size)
-        last, slow = moved, moved > last - FAST
+        last, slow = moved, last == inf or moved > last - FAST
     return None
 
 
@@ -190,7 +190,7 @@ def sharpen_regular(system: ExactSystem, x: Sequence[flint.acb], within: float) 
                 return None
             if size < ARRIVED:
                 return point
-            last, slow = size, size > last - FAST
+            last, slow = size, last == inf or size > last - FAST
     return None
 
 
