@@ -13,7 +13,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.clusters import close_zeros
 from nag.numerics.curve_search import CurveSearch
-from nag.numerics.curves import curve_through
+from nag.numerics.curves import curve_through, is_exact_zero
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
 from nag.numerics.descent import work
 from nag.numerics.digits import LOG10_2, doubles, log_norm, middle, point, working
@@ -151,7 +151,7 @@ def _at_zero(
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
-    if found.corank > 1:
+    if found.corank > 1 and is_exact_zero(system, found):
         reason, dimension = _on_a_curve(system, found, rng)
         if dimension:
             return _end(system, found, Place.ON_COMPONENT, 0, reason, dimension)
@@ -173,7 +173,8 @@ def _at_zero(
 def _on_a_curve(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> tuple[str, int]:
     """Why a zero lies on a set of positive dimension, and of which; 0 where that is not seen soon.
 
-    Where it succeeds this is the cheapest proof: no dual space, and no further digits.
+    Where it succeeds this is the cheapest proof: no dual space, and no more digits than long
+    coefficients ask for.
     """
     exact = rational_point(found.point, DIGITS) if system.rational else None
     if exact is not None and system.vanishes_exactly(exact) and system.vanishes_on_an_axis(exact):
