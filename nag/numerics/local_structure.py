@@ -37,8 +37,8 @@ NUMBERS = Digits(DIGITS, -90.0, -45.0)
 # become smaller for two degrees, and the highest degree.
 SEARCHES = (6, 14, 30)
 HIGHEST = 400
-# How often such curves are looked for before that.
-FIRST_ATTEMPTS = 6
+# How often curves are looked for before that, and Newton's steps for a first zero.
+FIRST_ATTEMPTS, FIRST_STEPS = 3, 15
 # The most digits, beside those, in which a zero is looked at once more.
 MOST_DIGITS = 2000
 # Written digits of a point.
@@ -179,7 +179,7 @@ def _on_a_curve(system: ExactSystem, found: Deflated, rng: np.random.Generator) 
     exact = rational_point(found.point, DIGITS) if system.rational else None
     if exact is not None and system.vanishes_exactly(exact) and system.vanishes_on_an_axis(exact):
         return "the equations vanish exactly on a line through it", 1
-    dimension = curve_through(system, found, rng, FIRST_ATTEMPTS)
+    dimension = curve_through(system, found, rng, FIRST_ATTEMPTS, FIRST_STEPS)
     return "a curve of zeros was followed to the point", dimension
 
 
