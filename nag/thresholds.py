@@ -302,7 +302,7 @@ LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_functio
 numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: REACHES;
 numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
 numerics.rounds_in_doubles: APART; numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
-numerics.sharpening: ROUNDING, NEARLY, GAIN; numerics.small_values: LEAST;
+numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP; numerics.small_values: LEAST;
 tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
 ENDGAME; tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE;
 tracking.ends.branch: LONGEST; tracking.ends.corrector:

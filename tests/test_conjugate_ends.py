@@ -10,6 +10,8 @@ from systems import system
 
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
+from nag.numerics.singular_point import Place
+from nag.solving import judged_ends
 from nag.solving import solve as solving
 from nag.solving.conjugate_ends import with_conjugate_ends
 from nag.solving.counted import counted
@@ -136,3 +138,23 @@ def test_zeros_are_counted_where_paths_were_lost_to_conjugates(
     found = solving.solve(given, start="total")
     assert found.complete and len(found.solutions) == 9
     assert counts and counts[0].bound == 9
+
+
+def test_the_conjugate_of_a_singular_end_on_a_component_is_not_judged_again() -> None:
+    on, other = np.array([1 + 2j, 3 - 1j]), np.array([1 + 2j, 3 - 1j + 1e-6])
+    points = np.array([on.conj(), other.conj(), on.conj()])
+    errors = np.full(3, 1e-15)
+    zeros = judged_ends._Zeros(
+        np.arange(3), points, errors, errors, regular=np.array([False, False, True])
+    )
+    asked = []
+
+    def judge(i: int) -> judged_ends._Place:
+        asked.append(i)
+        return judged_ends._Place(Place.UNDECIDED)
+
+    places = [
+        judged_ends._together(judge, zeros, np.array([i]), True, [on])[1].place for i in range(3)
+    ]
+    assert places == [Place.ON_COMPONENT, Place.UNDECIDED, Place.UNDECIDED]
+    assert asked == [1, 2]

@@ -11,8 +11,10 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.given_points import components_through_points
 from nag.numerics import deflation
 from nag.numerics.deflation import NotDeflated, deflate
+from nag.numerics.descent import Round, descend
 from nag.numerics.digits import log_norm, working
 from nag.numerics.exact_system import ExactSystem
+from nag.numerics.second_round import SecondRound
 from nag.numerics.sharpening import ARRIVED, DIGITS, sharpen_regular
 
 QUARTICS = "x^4 - 2*y^2*z^2 + x^5, y^4 + 3*x*z^3 - z^5, z^4 - x^2*y*z + y^6"
@@ -79,3 +81,42 @@ def test_deflation_of_no_equations_comes_to_an_end() -> None:
     found = components_through_points(plane, [(1, np.array([0.25, 0.5]))])
     assert not found.complete
     assert found.notes == ("a point of dimension 1 led to no component",)
+
+
+@pytest.mark.parametrize("left", [0, 1])
+def test_newton_s_step_of_two_rounds_is_the_same_by_jacobians_and_by_series(left: int) -> None:
+    """But for terms of second order in the error of the point, and half of the digits."""
+    given = ("w + x^2 - y*z + w^3", "x^2 - 2*y^2 + 3*z*w", "x*y + w^2 + z*x - z^2")
+    system = ExactSystem.of(polynomials("x y z w", *given), np.zeros(4))
+    rounds = [Round((0,), (3,), 2), Round((2, 1, 3)[left:], (0, 1, 2)[left:])]
+    with working(DIGITS):
+        point = [flint.acb(f"{c}e-40") for c in (1, -2, 3, 1)]
+        newton = SecondRound.of(system.values_at(DIGITS), len(system.rows), rounds)
+        assert newton is not None
+        found, series = newton.step(point, DIGITS), descend(system, DIGITS, point, rounds, 1)
+    assert found is not None and series is not None
+    pairs = list(zip(found[0], series.displacement, strict=True))
+    assert -41 < log_norm(b for _, b in pairs) < -39
+    assert log_norm(a - b for a, b in pairs) < -78
+
+
+def test_rounds_of_other_orders_are_left_to_series() -> None:
+    functions = ExactSystem.of(polynomials("x y", "x + y^3", "y^4"), np.zeros(2)).values_at(DIGITS)
+    for rounds in ([Round((0,), (0,), 3), Round((1,), (0,))], [Round((0,), (0,), 2)]):
+        assert SecondRound.of(functions, 2, rounds) is None
+
+
+def test_rows_added_to_equations_have_their_values_and_slopes_after_theirs() -> None:
+    third = polynomials("x y", "x^2 - y/3", "x*y - 1", "2*x - y/7 + 5")
+    whole = ExactSystem.of(third, np.zeros(2))
+    built = ExactSystem.of(third[:2], np.zeros(2)).with_row(whole.rows[2])
+    for digits in (50, 150):
+        with working(digits):
+            point = [flint.acb("0.3", "1.7"), flint.acb("-2.1", "0.4")]
+            one, other = whole.values_at(digits), built.values_at(digits)
+            assert (
+                log_norm(a - b for a, b in zip(one.values(point), other.values(point), strict=True))
+                < 5 - digits
+            )
+            for first, second in zip(one.jacobian(point), other.jacobian(point), strict=True):
+                assert log_norm(a - b for a, b in zip(first, second, strict=True)) < 5 - digits

@@ -149,9 +149,11 @@ def _balanced_inverse(
     if not (weights > 0).all():
         return None
     try:
-        return np.linalg.inv(scaled / weights[:, None]), columns, weights
+        inverse = np.linalg.inv(scaled / weights[:, None])
     except np.linalg.LinAlgError:
         return None
+    # Pivots below the range of doubles are not said to be zero.
+    return (inverse, columns, weights) if np.isfinite(inverse).all() else None
 
 
 def vanish(

@@ -16,7 +16,7 @@ from nag.numerics.far_along import far_value
 from nag.numerics.implicit_function import Reduction, eliminate
 from nag.numerics.pivots import pivots
 from nag.numerics.power_series import evaluate
-from nag.numerics.series_zeros import ScaledSeries
+from nag.numerics.series_zeros import STEPS, ScaledSeries
 from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO, predicted, sharpen, sharpen_regular
 
 # Binary logarithms of distances at which a smooth set of zeros is followed; the smaller ones where
@@ -128,27 +128,36 @@ def _reduced(
 
 
 def curve_through(
-    system: ExactSystem, found: Deflated, rng: np.random.Generator, attempts: int
+    system: ExactSystem,
+    found: Deflated,
+    rng: np.random.Generator,
+    attempts: int,
+    steps: int = STEPS,
 ) -> int:
     """The dimension of a set of zeros followed to a point, or 0 if none was found.
 
     On random hyperplanes at smaller and smaller distances from the point, zeros are looked for
     that continue each other; each must be an exact zero there, after a deflation of its own. The
     dimension is a lower bound, one more than that of the set on the hyperplane.
+
+    Args:
+        steps: of Newton's method for a zero of the series on the first hyperplane, at most; simple
+            ones take few.
     """
-    first = Round(found.rounds[0].rows, found.rounds[0].columns)
+    block = Round(found.rounds[0].rows, found.rounds[0].columns)
     order = max(found.rounds[0].order + 2, 4)
-    while order > 2 and work(found.corank, order, [first]) > MOST_WORK_ROUGHLY:
+    while order > 2 and work(found.corank, order, [block]) > MOST_WORK_ROUGHLY:
         order -= 1
     with working(DIGITS):
         values, rows = system.values_at(DIGITS), system.at(DIGITS)
-        series = eliminate(rows, found.point, first.rows, first.columns, order, at_points=values)
+        series = eliminate(rows, found.point, block.rows, block.columns, order, at_points=values)
         assert series is not None
         nearest = _trusted(series)
         for attempt in range(attempts):
             begin = DISTANCES[min(nearest + attempt % 3, len(DISTANCES) - 2)]
             plane = np.rint(64 * rng.normal(size=(2, found.corank))) / 64
-            dimension = _followed(system, found, series, begin, plane[0] + 1j * plane[1], rng)
+            plane = plane[0] + 1j * plane[1]
+            dimension = _followed(system, found, series, begin, plane, rng, steps)
             if dimension:
                 return dimension
     return 0
@@ -172,12 +181,17 @@ def _followed(
     begin: int,
     plane: np.ndarray,
     rng: np.random.Generator,
+    steps: int,
 ) -> int:
     u: np.ndarray | None = None
     zero: Deflated | None = None
     for k in [k for k in DISTANCES if k >= begin]:
         scaled = ScaledSeries.of(series.ring, series.rest, -k * LOG10_2)
-        u = _begun(scaled, plane, rng) if u is None else scaled.newton(u / (plane @ u), plane)
+        u = (
+            _begun(scaled, plane, rng, steps)
+            if u is None
+            else scaled.newton(u / (plane @ u), plane)
+        )
         if u is None or np.abs(u).max() > 1e3:
             return 0
         along = [flint.acb(complex(c)) / 2**k for c in u]
@@ -194,11 +208,13 @@ def _followed(
     return 0 if zero is None else 1 + zero.free
 
 
-def _begun(scaled: ScaledSeries, plane: np.ndarray, rng: np.random.Generator) -> np.ndarray | None:
+def _begun(
+    scaled: ScaledSeries, plane: np.ndarray, rng: np.random.Generator, steps: int
+) -> np.ndarray | None:
     """A zero on the hyperplane; in many variables, where all else costs most, from more starts."""
     for _ in range(max(1, len(plane) // 2)):
         u = rng.normal(size=len(plane)) + 1j * rng.normal(size=len(plane))
-        found = scaled.newton(u / (plane @ u), plane)
+        found = scaled.newton(u / (plane @ u), plane, steps)
         if found is not None:
             return found
     return None

@@ -34,6 +34,7 @@ class ExactSystem:
     scales: tuple[int, ...]
     _known: dict[int, list[Terms]] = field(default_factory=dict, repr=False)
     _values: dict[int, PointValues] = field(default_factory=dict, repr=False)
+    _above: ExactSystem | None = field(default=None, repr=False)
 
     @classmethod
     def of(
@@ -61,7 +62,7 @@ class ExactSystem:
 
     def with_row(self, row: Sequence[tuple[tuple[int, ...], Any]]) -> ExactSystem:
         """The system with one more polynomial in the scaled variables."""
-        made = ExactSystem(self.n, (*self.rows, tuple(row)), self.scales)
+        made = ExactSystem(self.n, (*self.rows, tuple(row)), self.scales, _above=self)
         for digits, rows in self._known.items():
             with flint.ctx.workdps(digits):
                 made._known[digits] = [*rows, [(e, number(c)) for e, c in row]]
@@ -77,9 +78,15 @@ class ExactSystem:
     def values_at(self, digits: int) -> PointValues:
         """The rows as functions at points of so many digits."""
         if digits not in self._values:
-            with flint.ctx.workdps(digits):
-                self._values[digits] = PointValues.of(self.at(digits), self.n)
+            exact = next((known for known in self._values.values() if known.exact), None)
+            self._values[digits] = exact or self._functions(digits)
         return self._values[digits]
+
+    def _functions(self, digits: int) -> PointValues:
+        with flint.ctx.workdps(digits):
+            if self._above is None:
+                return PointValues.of(self.at(digits), self.n)
+            return PointValues.of(self.at(digits)[-1:], self.n, above=self._above.values_at(digits))
 
     def modulo(self, p: int) -> list[Terms]:
         """The rows modulo a prime.

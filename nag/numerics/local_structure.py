@@ -13,7 +13,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.clusters import close_zeros
 from nag.numerics.curve_search import CurveSearch
-from nag.numerics.curves import curve_through
+from nag.numerics.curves import curve_through, is_exact_zero
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
 from nag.numerics.descent import work
 from nag.numerics.digits import LOG10_2, doubles, log_norm, middle, point, working
@@ -37,6 +37,8 @@ NUMBERS = Digits(DIGITS, -90.0, -45.0)
 # become smaller for two degrees, and the highest degree.
 SEARCHES = (6, 14, 30)
 HIGHEST = 400
+# How often curves are looked for before that, and Newton's steps for a first zero.
+FIRST_ATTEMPTS, FIRST_STEPS = 3, 15
 # The most digits, beside those, in which a zero is looked at once more.
 MOST_DIGITS = 2000
 # Written digits of a point.
@@ -149,6 +151,10 @@ def _at_zero(
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
         return _end(system, found, Place.ON_COMPONENT, 0, reason, missing)
+    if found.corank > 1 and is_exact_zero(system, found):
+        reason, dimension = _on_a_curve(system, found, rng)
+        if dimension:
+            return _end(system, found, Place.ON_COMPONENT, 0, reason, dimension)
     doubtful = effort.hold and (found.corank > 0 or len(system.rows) > system.n)
     if doubtful and not _held(system, found):
         reason = "more digits show several zeros there, or none, nearer than 150 digits tell"
@@ -162,6 +168,19 @@ def _at_zero(
         return _by_dual_space(system, found, rng, effort.patience)
     except (UnclearRank, _TooLarge) as reason:
         return _end(system, found, Place.UNDECIDED, 0, str(reason))
+
+
+def _on_a_curve(system: ExactSystem, found: Deflated, rng: np.random.Generator) -> tuple[str, int]:
+    """Why a zero lies on a set of positive dimension, and of which; 0 where that is not seen soon.
+
+    Where it succeeds this is the cheapest proof: no dual space, and no more digits than long
+    coefficients ask for.
+    """
+    exact = rational_point(found.point, DIGITS) if system.rational else None
+    if exact is not None and system.vanishes_exactly(exact) and system.vanishes_on_an_axis(exact):
+        return "the equations vanish exactly on a line through it", 1
+    dimension = curve_through(system, found, rng, FIRST_ATTEMPTS, FIRST_STEPS)
+    return "a curve of zeros was followed to the point", dimension
 
 
 def _held(system: ExactSystem, found: Deflated) -> bool:
@@ -182,9 +201,6 @@ def _by_dual_space(
     exact = rational_point(found.point, DIGITS) if system.rational else None
     if exact is not None and not system.vanishes_exactly(exact):
         raise UnclearRank("the equations vanish to all digits, but not at the rational point there")
-    if exact is not None and system.vanishes_on_an_axis(exact):
-        reason = "the equations vanish exactly on a line through it"
-        return _end(system, found, Place.ON_COMPONENT, 0, reason, 1)
     search = CurveSearch(SEARCHES, lambda attempts: curve_through(system, found, rng, attempts))
     spaces: list[DualSpace] = []
     for field in [PrimeField(p) for p in PRIMES] if exact is not None else [NUMBERS]:

@@ -27,6 +27,8 @@ class PointValues:
         steps: each monomial as an earlier one (-1: one) times one of the powers (-1: one).
         coefficients: of all rows, shape ``(R, M)``, and where their monomials stand.
         slopes: of the derivatives by each variable, likewise; None where it does not occur.
+        exact: whether the coefficients are, so that the values are right to any number of digits.
+        above: rows that stand before these.
     """
 
     n: int
@@ -34,10 +36,12 @@ class PointValues:
     steps: tuple[tuple[int, int], ...]
     coefficients: tuple[flint.acb_mat, tuple[int, ...]]
     slopes: tuple[tuple[flint.acb_mat, tuple[int, ...]] | None, ...]
+    exact: bool
+    above: PointValues | None = None
 
     @classmethod
-    def of(cls, rows: Sequence[Terms], n: int) -> PointValues:
-        """Rows with coefficients of as many digits as the values shall have."""
+    def of(cls, rows: Sequence[Terms], n: int, above: PointValues | None = None) -> PointValues:
+        """Rows with coefficients of as many digits as the values shall have, beneath others."""
         made = _Monomials({}, [], {}, [])
         exponents = list(dict.fromkeys(e for row in rows for e, _ in row))
         values = _matrix(rows, exponents)
@@ -51,7 +55,11 @@ class PointValues:
             derived = [[(e, c * e[i]) for e, c in row if e[i]] for row in rows]
             lowered = tuple(made.place((*e[:i], e[i] - 1, *e[i + 1 :])) for e in here)
             slopes.append((_matrix(derived, here), lowered))
-        return cls(n, tuple(made.powers), tuple(made.steps), (values, places), tuple(slopes))
+        steps, powers = tuple(made.steps), tuple(made.powers)
+        matrices = [values, *(s[0] for s in slopes if s is not None)]
+        exact = all(c.is_exact() for matrix in matrices for c in matrix.entries())
+        exact &= above is None or above.exact
+        return cls(n, powers, steps, (values, places), tuple(slopes), exact, above)
 
     def _powers(self, x: Sequence[flint.acb]) -> dict[int, flint.acb]:
         found: dict[int, flint.acb] = {}
@@ -65,18 +73,21 @@ class PointValues:
             found[place] = value
         return found
 
-    def _monomials(self, x: Sequence[flint.acb]) -> list[flint.acb]:
-        one = flint.acb(1)
+    def _monomials(self, x: Sequence[flint.acb], count: int | None = None) -> list[flint.acb]:
+        """The first so many monomials; balls, as taking the middle of each costs as much again."""
         powers = self._powers(x)
+        powers[-1] = flint.acb(1)
         values: list[flint.acb] = []
-        for before, power in self.steps:
-            factor = one if power < 0 else powers[power]
-            values.append(factor if before < 0 else middle(values[before] * factor))
+        for before, power in self.steps[:count]:
+            values.append(powers[power] if before < 0 else values[before] * powers[power])
         return values
 
     def values(self, x: Sequence[flint.acb]) -> list[flint.acb]:
         """The value of each row."""
-        return _product(self.coefficients, self._monomials(x))
+        before = [] if self.above is None else self.above.values(x)
+        # Those of the equations are made first, further ones of their derivatives after them.
+        count = 1 + max(self.coefficients[1], default=-1)
+        return before + _product(self.coefficients, self._monomials(x, count))
 
     def jacobian(self, x: Sequence[flint.acb]) -> list[list[flint.acb]]:
         """The derivatives of each row."""
@@ -84,7 +95,8 @@ class PointValues:
         size = self.coefficients[0].nrows()
         blank = [flint.acb(0)] * size
         columns = [blank if s is None else _product(s, monomials) for s in self.slopes]
-        return [[column[r] for column in columns] for r in range(size)]
+        before = [] if self.above is None else self.above.jacobian(x)
+        return before + [[column[r] for column in columns] for r in range(size)]
 
 
 @dataclass(frozen=True, eq=False)

@@ -93,10 +93,12 @@ class RoundsInDoubles:
 
     def tangent(self, x: np.ndarray, direction: np.ndarray) -> np.ndarray:
         """How all variables change with those that the rounds leave along a direction."""
+        if not len(self.solved):
+            jacobian = self.evaluator.jacobian(x)
+            right = jacobian[:, self.free] @ direction
+            return self._placed(direction, -np.linalg.solve(jacobian[:, self.columns], right))
         frame = self._frame(x)
         along = frame.tangents[:, self.left] @ direction
-        if not len(self.solved):
-            return along
         bent = np.linalg.solve(self._bending(x, frame), self._second(x, frame, along))
         return along - frame.tangents[:, self.solved] @ bent
 
@@ -110,13 +112,20 @@ class RoundsInDoubles:
 
     def newton(self, x: np.ndarray) -> np.ndarray:
         """What Newton's method takes from a point, in the variables that are not left."""
-        frame = self._frame(x)
         if not len(self.solved):
-            return frame.step
+            jacobian, values = self.evaluator.jacobian(x), self.evaluator.values(x[None])[0]
+            return self._placed(0.0, np.linalg.solve(jacobian[:, self.columns], values))
+        frame = self._frame(x)
         here = self._chosen(frame, frame.slopes) - self._second(x, frame, frame.step)
         return frame.step + frame.tangents[:, self.solved] @ np.linalg.solve(
             self._bending(x, frame), here
         )
+
+    def _placed(self, free: np.ndarray | float, columns: np.ndarray) -> np.ndarray:
+        """A vector of all variables, from the free ones and those of the first block."""
+        result = np.empty(self.evaluator.n, dtype=complex)
+        result[self.free], result[self.columns] = free, columns
+        return result
 
     def _frame(self, x: np.ndarray) -> _Frame:
         jacobian = self.evaluator.jacobian(x)
@@ -130,8 +139,7 @@ class RoundsInDoubles:
         tangents[self.free, np.arange(len(self.free))] = 1.0
         tangents[self.columns] = -found[:, 1:]
         freed = np.eye(len(jacobian), dtype=complex)
-        if len(self.solved):
-            freed[:, self.rows] -= np.linalg.solve(block.T, jacobian[:, self.columns].T).T
+        freed[:, self.rows] -= np.linalg.solve(block.T, jacobian[:, self.columns].T).T
         return _Frame(step, tangents, freed, jacobian @ tangents)
 
     def _chosen(self, frame: _Frame, slopes: np.ndarray) -> np.ndarray:

@@ -82,13 +82,15 @@ class ScaledSeries:
         values = np.linalg.svd(jacobian, compute_uv=False)
         return len(values) == self.m and bool(values[-1] > REGULAR * values[0])
 
-    def newton(self, u: np.ndarray, plane: np.ndarray | None = None) -> np.ndarray | None:
+    def newton(
+        self, u: np.ndarray, plane: np.ndarray | None = None, most: int = STEPS
+    ) -> np.ndarray | None:
         """Gauss-Newton from ``u``, on the hyperplane ``plane u = 1`` if there is one.
 
         It converges slowly to multiple zeros; None where it does not at all.
         """
         step = np.inf
-        for _ in range(STEPS):
+        for _ in range(most):
             with np.errstate(all="ignore"):
                 values, jacobian = self._values(u)
                 if plane is not None:

@@ -75,6 +75,12 @@ class _Zeros:
         found = clusters(self.points[several], self.accuracy[several])
         return [several[group] for group in found]
 
+    def has_conjugate(self, i: int, among: Sequence[np.ndarray]) -> bool:
+        """Whether the conjugate of a singular end is among some points."""
+        if self.regular[i] or not among:
+            return False
+        return bool(coincident(np.array(among), self.points[i].conj(), self.accuracy[i]).any())
+
 
 @dataclass(frozen=True, eq=False)
 class _Place:
@@ -118,7 +124,7 @@ def judged_ends(
     judge = partial(_place, problem, begin, zeros, paths, evaluator, rng)
     whole = begin.complete and not problem.squared
     for group in groups:
-        best, found = _together(judge, zeros, group, whole)
+        best, found = _together(judge, zeros, group, whole, elsewhere[Place.ON_COMPONENT])
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
         # Of a cluster with as many zeros as paths, each is the end of its own.
         met = found.place is Place.CLUSTER and whole and multiplicity == len(group)
@@ -244,7 +250,11 @@ def _place(
 
 
 def _together(
-    judge: Callable[[int], _Place], zeros: _Zeros, group: np.ndarray, whole: bool
+    judge: Callable[[int], _Place],
+    zeros: _Zeros,
+    group: np.ndarray,
+    whole: bool,
+    on_components: Sequence[np.ndarray],
 ) -> tuple[int, _Place]:
     """The best known one of ends at one place, and where it lies.
 
@@ -254,8 +264,12 @@ def _together(
     Args:
         judge: where an end lies.
         whole: whether as many paths lead to a zero as its multiplicity is.
+        on_components: points that lie on components. The conjugates of these do so as well, as the
+            equations are real.
     """
     best = int(group[np.argmin(zeros.accuracy[group])])
+    if zeros.has_conjugate(best, on_components):
+        return best, _Place(Place.ON_COMPONENT)
     found = judge(best)
     if not whole or found.place is not Place.ISOLATED:
         return best, found
