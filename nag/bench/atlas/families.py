@@ -15,8 +15,9 @@ from nag.bench.atlas.points import Problem
 
 Make = Callable[[Any, np.random.Generator], Problem]
 
-# Families of systems that take some ten seconds.
-PATIENCE = {"solved-hard": 4}
+# Families of systems that take some ten seconds, or half a minute, and seeds of the latter.
+PATIENCE = {"solved-hard": 4, "sparse-large": 12, "solved-large": 12}
+SEEDS = {"sparse-large": 2, "solved-large": 2}
 DIGITS = (2, 4, 8, 12, 16, 20, 30)
 
 
@@ -29,6 +30,7 @@ class Family:
         make: the system for a value of the knob; random numbers choose its coordinates.
         values: easy ones first.
         patience: how many times the usual limit of processor time an answer has.
+        seeds: the most that are run; None for as many as are asked for.
         method: what is asked for: ``"solve"``, ``"decompose"``, ``"singular"`` or ``"slice"``.
     """
 
@@ -39,6 +41,7 @@ class Family:
     values: tuple[Any, ...]
     method: str = "solve"
     patience: int = 1
+    seeds: int | None = None
 
 
 def _two(make: Make, *first: int) -> Make:
@@ -65,7 +68,8 @@ def _cases(
     for name, cases in groups.items():
         _, dash, kind = name.partition("-")
         text = f"cases {how}" + (f": {kind}" if dash else "")
-        yield Family(name, text, "case", make, cases, method, PATIENCE.get(name, 1))
+        patience, seeds = PATIENCE.get(name, 1), SEEDS.get(name)
+        yield Family(name, text, "case", make, cases, method, patience, seeds)
 
 
 FAMILIES: tuple[Family, ...] = (

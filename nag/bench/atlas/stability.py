@@ -123,13 +123,19 @@ def run_atlas(
     """Answers for all values of families, each family's when it is done.
 
     Args:
-        seeds: how many, from 0.
+        seeds: how many, from 0, for families that have no most of their own.
         limit: seconds of processor time for one answer, times the patience of its family.
         jobs: processes.
         progress: called with each family's answers.
     """
-    tasks = [Task(f.name, v, s, settings) for f in families for v in f.values for s in range(seeds)]
-    left = {f.name: len(f.values) * seeds for f in families}
+    most = {f.name: seeds if f.seeds is None else min(seeds, f.seeds) for f in families}
+    tasks = [
+        Task(f.name, v, s, settings)
+        for f in families
+        for v in f.values
+        for s in range(most[f.name])
+    ]
+    left = {f.name: len(f.values) * most[f.name] for f in families}
     found: dict[str, list[Any]] = {f.name: [] for f in families}
     named = {f.name: f for f in families}
     rows: dict[str, Row] = {}
