@@ -393,8 +393,10 @@ def test_help_loads_nothing_heavy() -> None:
 def test_ctrl_c_ends_a_process_with_status_130_and_one_line(case, tmp_path) -> None:
     script = tmp_path / "run.py"
     script.write_text(
-        "import sys, time\n"
+        "import signal, sys, time\n"
         "import nag.cli.model\n"
+        # What is started in the background may ignore the signal.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "def wait(arguments):\n"
         "    print('ready', flush=True)\n"
         "    time.sleep(60)\n"
