@@ -16,7 +16,7 @@ from nag.bench.chart_data import document, read_charts
 from nag.bench.reference import Reference, ReferenceError, compared, compared_in_balls
 from nag.bench.sharpening import sharpening
 from nag.bench.speed_accuracy import Subject, chart_of, ratios
-from nag.bench.whole_paths import WholePaths, tracked_in
+from nag.bench.whole_paths import WHOLE_TOLERANCES, WholePaths, tracked_in
 from nag.cli import main
 from nag.files.cases import read_case
 from nag.solving.solve import solve
@@ -121,6 +121,25 @@ def test_damaged_data_are_refused_in_one_line(key: str, tmp_path: Path, capsys) 
 def test_a_number_of_solutions_that_is_not_known_to_be_so_is_no_reference() -> None:
     with pytest.raises(ReferenceError):
         chart_of(Subject("roots", SYSTEM, False, ((0, 1, 5),)), seeds=1, peers=False)
+
+
+def test_without_isolated_solutions_there_is_no_reference() -> None:
+    none = PolynomialSystem(("x", "y"), (x * y - 1, x * y - 2))
+    with pytest.raises(ReferenceError, match="no isolated solutions"):
+        chart_of(Subject("none", none, False, ()), seeds=1, peers=False)
+
+
+def test_paths_that_end_on_a_curve_are_not_sharpened_in_balls() -> None:
+    u, v, w = Polynomial.variables(3)
+    # A line, and the point (2, 0, 0).
+    beside = PolynomialSystem(("u", "v", "w"), (u * v, u * w, (v - 1) * (u - 2)))
+    points = np.array([[2.0, 0.0, 0.0]], complex)
+    reference = Reference.of(beside, points, np.zeros((0, 4), dtype=complex))
+    for arithmetic in ("balls of 50 digits", "balls of 100 digits"):
+        for tolerance in WHOLE_TOLERANCES:
+            paths = WholePaths.of(beside, 0)
+            _, _, found = tracked_in(paths, reference, arithmetic, tolerance)
+            assert found.share == 1 and found.largest < 1e-40
 
 
 def test_answers_of_other_programs_are_read_to_all_digits(monkeypatch) -> None:

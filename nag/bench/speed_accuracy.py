@@ -148,6 +148,8 @@ def _reference(subject: Subject) -> Reference:
     found = solve(subject.system, settings="careful")
     if not found.complete or any(s.multiplicity > 1 for s in found.solutions):
         raise ReferenceError("not all solutions are simple and known")
+    if not found.solutions:
+        raise ReferenceError("there are no isolated solutions")
     expected = sum(count for _, _, count in subject.degrees)
     if expected and len(found.solutions) != expected:
         raise ReferenceError(f"{len(found.solutions)} solutions were found, {expected} are known")

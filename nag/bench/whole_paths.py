@@ -94,9 +94,12 @@ class WholePaths:
         with flint.ctx.workdps(digits):
             for point in self._in_doubles(settings, True):
                 x = [flint.acb(complex(z)) for z in point]
-                for _ in range(STEPS[digits]):
-                    moves = (rows.jacobian(x).mid().inv().mid() * rows(x)).entries()
-                    x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
+                try:
+                    for _ in range(STEPS[digits]):
+                        moves = (rows.jacobian(x).mid().inv().mid() * rows(x)).entries()
+                        x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
+                except ZeroDivisionError:  # The matrix is singular, so the end is no regular one.
+                    continue
                 found.append(x)
         return found
 
