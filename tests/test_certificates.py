@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -28,6 +29,7 @@ from nag.numerics.box_relations import overlaps, real_zeros
 from nag.numerics.certified_points import Proof, certify_points, zero_digits
 from nag.numerics.discs import DiscPolynomials, Discs, product
 from nag.numerics.krawczyk import boxes_in_doubles, boxes_of
+from nag.report.certificate import solution_rows
 from nag.solving.certificate import certify_solutions
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
@@ -310,6 +312,24 @@ def test_a_point_that_is_no_solution_makes_the_certificate_incomplete(tmp_path, 
     write_solutions(replace(result, solutions=(moved, *result.solutions[1:])), export)
     assert main(["certify", str(export)]) == 1
     assert "1 not proved" in capsys.readouterr().out
+
+
+def test_a_point_of_any_size_is_told_in_the_certificate_alone(tmp_path, capsys) -> None:
+    export = tmp_path / "solved.json"
+    result = solve(PolynomialSystem(("x", "y"), (x**2 + y**2 - 3, x * y - 1)))
+    far = changed(result, 0, point=np.full(2, 1e308 - 1e308j))
+    write_solutions(far, export)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert main(["certify", str(export)]) == 1
+    assert "1 not proved" in capsys.readouterr().out
+
+
+def test_what_is_left_over_of_deflated_equations_is_said_to_be_evidence() -> None:
+    certificate = certify_solutions(solve(system("x y", "(x^2 - 2)^2 + y", "y")))
+    assert set(certificate.points.proofs) == {Proof.DEFLATED}
+    lines = [text for _, text in solution_rows(certificate, 0.0)]
+    assert any(line.endswith("digits, which is evidence and no proof") for line in lines)
 
 
 @pytest.mark.parametrize("content", ["", "[]", "{}", '{"format": "nag-solutions"}'])

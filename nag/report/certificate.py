@@ -19,9 +19,9 @@ Rows = list[tuple[str, str]]
 WORDS = {
     Proof.SIMPLE: "simple zeros of all equations, one in each box",
     Proof.PART: "simple zeros of as many equations as unknowns, the others vanishing there to "
-    "{digits} digits, which is evidence and no proof",
+    "{digits}",
     Proof.DEFLATED: "singular, as simple zeros of as many deflated equations as unknowns, the "
-    "others vanishing there to {digits} digits",
+    "others vanishing there to {digits}",
     Proof.EXACT: "singular, as exact rational zeros",
     Proof.NONE: "not proved",
 }
@@ -166,7 +166,9 @@ def _least_digits(groups: Iterable[CertifiedPoints], proof: Proof) -> str:
     """Digits to which equations that a proof of this kind did not need vanish, in words."""
     least = min((float(g.digits[g.having(proof)].min(initial=np.inf)) for g in groups),
                 default=np.inf)  # fmt: skip
-    return f"{least:.0f}" if np.isfinite(least) else "all"
+    if np.isinf(least):
+        return "all digits"
+    return f"{least:.0f} digits, which is evidence and no proof"
 
 
 def _pairs_rows(
