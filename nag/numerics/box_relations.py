@@ -79,7 +79,9 @@ def real_zeros(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
     zero.
     """
     imaginary = np.abs(boxes.centres.imag)
-    real = boxes.proved & ((2 * imaginary + boxes.inner) * UP < boxes.outer).all(axis=1)
+    # Points that are not proved may be of any size.
+    with np.errstate(over="ignore"):
+        real = boxes.proved & ((2 * imaginary + boxes.inner) * UP < boxes.outer).all(axis=1)
     complex_ = boxes.proved & (imaginary > boxes.inner * UP).any(axis=1)
     for i in boxes.fine:
         box = boxes.fine[i]
