@@ -98,7 +98,8 @@ class WholePaths:
                     for _ in range(STEPS[digits]):
                         moves = (rows.jacobian(x).mid().inv().mid() * rows(x)).entries()
                         x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
-                except ZeroDivisionError:  # The matrix is singular, so the end is no regular one.
+                except ZeroDivisionError:
+                    # The matrix is singular: the end is no regular one.
                     continue
                 found.append(x)
         return found
