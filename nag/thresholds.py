@@ -323,6 +323,6 @@ witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, B
 witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE;
 witness.real_points: SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR,
 OUTSIDE, SHRINK; decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
-decomposition.hypersurface: NEARER, ROUNDED; decomposition.singular_locus: ROUNDED;
-decomposition.rank_drop: ROUNDED; decomposition.excluded: ROUNDED; decomposition.superset: REGULAR.
+decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
+decomposition.excluded: ROUNDED; decomposition.superset: REGULAR.
 """

@@ -29,6 +29,7 @@ def is_dependent(polynomials: Sequence[Polynomial], rng: np.random.Generator) ->
     if not all(isinstance(c, Fraction) and c.denominator % PRIME for f in terms for _, c in f):
         return False
     point = [int(x) for x in rng.integers(1, PRIME, n)]
+    inverse = [pow(x, -1, PRIME) for x in point]
     rows = []
     for f in terms:
         row = [0] * n
@@ -39,6 +40,6 @@ def is_dependent(polynomials: Sequence[Polynomial], rng: np.random.Generator) ->
             # The derivative of a monomial is the monomial times k / x.
             for i, k in enumerate(exponents):
                 if k:
-                    row[i] += value * k * pow(point[i], -1, PRIME)
+                    row[i] += value * k * inverse[i]
         rows.append([x % PRIME for x in row])
     return flint.nmod_mat(rows, PRIME).rank() < n

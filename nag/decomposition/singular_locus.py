@@ -21,7 +21,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.intersection import intersect_components
 from nag.decomposition.linear_hull import simple_in, within_hull
-from nag.decomposition.rank_drop import SetOfPoints, rank_drop
+from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
@@ -33,8 +33,6 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
-# Relative error of points that are known to the last digit of doubles.
-ROUNDED = 1e-15
 # What is further from a linear space than a point's error by this factor is not on it.
 SURELY = 10.0
 

@@ -214,35 +214,39 @@ def regular_on(evaluator: Evaluator, rows: np.ndarray, sharpened: Sharpened) -> 
     The last step says nothing where rounding alone makes the values beside a double zero vanish.
     """
     basis = _null_basis(rows, len(sharpened.z))
+    if not basis.shape[1]:
+        return True
     matrix = evaluator.balanced_jacobian(sharpened.z) @ basis
-    s = np.zeros(basis.shape[1])
-    values = np.linalg.svd(matrix, compute_uv=False)
-    s[: len(values)] = values[: len(s)]
-    limit = max(SLACK * sharpened.step, VANISHING) * max(1.0, s.max(initial=0.0))
-    return len(s) == 0 or (
-        bool(s[-1] > limit) and not _perhaps_double(evaluator, basis, sharpened.z)
-    )
+    if len(matrix) < basis.shape[1]:
+        return False
+    left, s, right = np.linalg.svd(matrix, full_matrices=False)
+    limit = max(SLACK * sharpened.step, VANISHING) * max(1.0, s[0])
+    if not s[-1] > limit:
+        return False
+    return not _perhaps_double(evaluator, sharpened.z, left[:, -1], s[-1], basis @ right[-1].conj())
 
 
-def _perhaps_double(evaluator: Evaluator, basis: np.ndarray, z: np.ndarray) -> bool:
+def _perhaps_double(
+    evaluator: Evaluator, z: np.ndarray, left: np.ndarray, smallest: float, direction: np.ndarray
+) -> bool:
     """Whether rounding errors of the values move ``z`` so far that it may be a double zero.
 
     Slopes vanish at a double zero in one direction. In that of the smallest singular value, slopes
     change by about themselves over as far as rounding errors leave the point unknown.
+
+    Args:
+        left, direction: singular vectors of the smallest singular value of the balanced Jacobian.
     """
-    scales = np.exp2((1 - evaluator.degrees) * np.log2(max(1.0, float(np.abs(z).max(initial=1.0)))))
-    jacobian = scales[:, None] * (evaluator.jacobian(z) @ basis)
-    if not np.isfinite(jacobian).all():
-        return False
-    left, s, right = np.linalg.svd(jacobian, full_matrices=False)
-    u, direction = np.abs(left[:, -1]), basis @ right[-1].conj()
+    scales = max(1.0, float(np.abs(z).max(initial=1.0))) ** (1.0 - evaluator.degrees)
     errors = ROUNDED * evaluator.absolute(z[None])[0] * scales
-    far = float(u @ errors) / s[-1] * direction
+    far = float(np.abs(left) @ errors) / smallest * direction
+    if not np.isfinite(far).all():
+        return False
     changes = [
-        left[:, -1].conj() @ (scales * (evaluator.jacobian(z + sign * far) @ direction)) - s[-1]
+        left.conj() @ (evaluator.balanced_jacobian(z + sign * far) @ direction) - smallest
         for sign in (1, -1)
     ]
-    return not float(np.abs(changes).max()) <= CHANGED * s[-1]
+    return not float(np.abs(changes).max()) <= CHANGED * smallest
 
 
 def _square_rows(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> list[int] | None:

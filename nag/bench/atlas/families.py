@@ -17,7 +17,7 @@ Make = Callable[[Any, np.random.Generator], Problem]
 
 # Families of systems that take some ten seconds, or half a minute, and seeds of the latter.
 PATIENCE = {"solved-hard": 4, "sparse-large": 12, "solved-large": 12}
-SEEDS = {"sparse-large": 2, "solved-large": 2}
+SEEDS = {"sparse-large": 4, "solved-large": 4}
 DIGITS = (2, 4, 8, 12, 16, 20, 30)
 
 
