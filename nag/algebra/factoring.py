@@ -12,11 +12,10 @@ from math import gcd, lcm
 from typing import Any
 
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.prime_field import LARGE
 
 # Integer coefficients of more bits are divided by a power of two, so that they fit into doubles.
 MOST_BITS = 200
-# Ranks are computed modulo this prime.
-PRIME = (1 << 61) - 1
 
 
 class Ring:
@@ -89,15 +88,13 @@ def is_surely_irreducible(f: Any, n: int) -> bool:
 
 def _rank_of_quadric(f: Any, exponents: Sequence[Sequence[int]], n: int) -> int:
     """The rank of a quadric's matrix modulo a prime, which is no more than its own."""
-    import flint
-
     whole = _whole_coefficients(f)[0]
-    entries = [0] * (n + 1) ** 2
+    rows = [[0] * (n + 1) for _ in range(n + 1)]
     for e, c in zip(exponents, whole, strict=True):
         first, second = [n, n, *(j for j, k in enumerate(e) for _ in range(k))][-2:]
-        entries[(n + 1) * first + second] += c
-        entries[(n + 1) * second + first] += c
-    return flint.nmod_mat(n + 1, n + 1, [c % PRIME for c in entries], PRIME).rank()
+        rows[first][second] += c
+        rows[second][first] += c
+    return LARGE.rank(rows)
 
 
 def _whole_coefficients(f: Any) -> tuple[list[int], int, int]:
