@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import flint
 import numpy as np
 import pytest
@@ -28,6 +30,7 @@ PAIRS = {
 }
 
 
+@cache
 def pair(name: str, k: int, seed: int = 0) -> tuple[WitnessSet, ...]:
     texts, degree = PAIRS[name]
     answer = nag.decompose([text.format(2 * k) for text in texts], seed=seed)
