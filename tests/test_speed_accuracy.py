@@ -54,7 +54,7 @@ def test_there_is_no_reference_of_repeated_or_multiple_zeros(points: list) -> No
 @pytest.fixture
 def once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is run again for the sake of its time."""
-    monkeypatch.setattr(sharpening, "RUNS", 1e-9)
+    monkeypatch.setattr(sharpening, "RUNS", 0.0)
 
 
 def test_balls_reach_their_digits_and_doubles_theirs(once: None) -> None:

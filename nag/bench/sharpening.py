@@ -83,7 +83,7 @@ def _curve(
     work(1)
     for steps in range(1, most + 1):
         best, begun = np.inf, time.process_time()
-        while time.process_time() - begun < RUNS:
+        while best == np.inf or time.process_time() - begun < RUNS:
             begin = time.process_time()
             points = work(steps)
             best = min(best, time.process_time() - begin)
@@ -131,7 +131,7 @@ def _word_curve(
     found = []
     for steps in range(1, 6 + words // 2):
         best, begun = np.inf, time.process_time()
-        while time.process_time() - begun < RUNS:
+        while best == np.inf or time.process_time() - begun < RUNS:
             begin = time.process_time()
             points = newton_steps(homotopy, start, words, steps)
             best = min(best, time.process_time() - begin)
