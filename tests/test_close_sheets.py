@@ -56,7 +56,7 @@ def test_conjugate_sheets_are_two_components(name: str, k: int) -> None:
         assert (component.digits >= 32).all()
 
 
-@pytest.mark.parametrize(("k", "seed"), [(12, 1), (12, 4), (12, 5), (15, 3), (15, 4)])
+@pytest.mark.parametrize(("k", "seed"), [(12, 1), (12, 5), (15, 3)])
 def test_paths_keep_to_their_sheets_where_corrections_are_along_them(k: int, seed: int) -> None:
     pair("curves in space", k, seed)
 
