@@ -35,6 +35,11 @@ def _number(c: Number) -> Any:
     return arb(int(-mantissa if sign else mantissa)) * arb(2) ** int(exponent)
 
 
+def ball_values(polynomials: Sequence[Polynomial]) -> BallValues:
+    """The polynomials, ready to be evaluated in balls."""
+    return BallValues(tuple(polynomials), _number)
+
+
 def _middle(z: Any) -> Any:
     from flint import acb
 
@@ -46,7 +51,7 @@ def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     from flint import arb
 
     sizes = [max(abs(x).mid(), arb(1)) for x in z]
-    values = BallValues((f,), _number)
+    values = ball_values((f,))
     bound = abs(values.sizes_at(sizes)[0]).mid()
     return abs(_middle(values.at(z)[0])).mid() / bound if bound else arb(0)
 
@@ -102,7 +107,7 @@ def zero_near(
     import flint
     from flint import acb, arb
 
-    evaluate = BallValues(tuple(square), _number)
+    evaluate = ball_values(square)
     with flint.ctx.workdps(digits):
         point = [acb(complex(x)) for x in z]
         rows = [[acb(complex(c)) for c in row] for row in slices]

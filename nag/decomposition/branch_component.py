@@ -15,7 +15,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.vanishing import Vanishing
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.small_values import NONZERO
-from nag.numerics.zero_values import WRITTEN, alike, possible_zeros, vanishes_at_all
+from nag.numerics.zero_values import WRITTEN, alike, possible_zeros, surely_differs, vanishes_at_all
 from nag.witness.confirm import vanishing
 from nag.witness.fibres import Fibre
 from nag.witness.membership import component_fibres
@@ -45,6 +45,9 @@ class BranchComponent:
             return self.zero.vanishes(f)
         if (Evaluator.of([f], f.n).residuals(self.witness.points) > NONZERO).any():
             return False
+        known = self._each_known and self.witness.multiplicity == 1
+        if known and surely_differs(f, self.witness.points[0], self.witness.radii[0]):
+            return False
         image, zero = self.branch.image(f)
         if not self.branch.elimination.system.polynomials and f.exact:
             return not image
@@ -62,6 +65,11 @@ class BranchComponent:
     def _isolated(self) -> bool:
         """Whether it is a point that paths ended at."""
         return not self.witness.fibres and not self.witness.dimension
+
+    @property
+    def _each_known(self) -> bool:
+        """Whether it is a point of which the error of each coordinate is known."""
+        return self._isolated and bool(np.ptp(self.witness.radii[0]) > 0)
 
     def place_among(self, equations: Sequence[Polynomial]) -> Place:
         """Where it lies among zeros of others, if it is an isolated point and one of these."""
@@ -84,10 +92,9 @@ class BranchComponent:
         x, rows = self.witness.points[0], self.witness.slice.rows
         accuracy: float | np.ndarray = self.witness.accuracy
         simple = self.witness.multiplicity == 1
-        each = self._isolated and np.ptp(self.witness.radii[0]) > 0
-        if each and simple:
+        if self._each_known and simple:
             accuracy = self.witness.radii[0]
-        elif self.witness.fibres or not (each or simple):
+        elif self.witness.fibres or not (self._each_known or simple):
             # Of what was sharpened by a deflation no more is known.
             accuracy = max(self.witness.accuracy, ACCURACY)
         rng = np.random.default_rng(0)

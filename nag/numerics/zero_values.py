@@ -10,14 +10,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nag.algebra.high_precision import vanish_at
+from nag.algebra.high_precision import ball_values, vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.numerics.small_values import SLACK
 
 # Relative difference of coordinates that agree, and coordinates beside the largest that are zero.
 ALIKE, NOTHING = 1e-6, 1e-60
 # Relative error of a zero that is known by its written digits.
 WRITTEN = 1e-90
+# Of the centres of balls that doubles are known to.
+BITS = 128
 
 
 def possible_zeros(
@@ -56,6 +59,25 @@ def vanishes_at_all(zeros: Sequence[SingularEnd], f: Polynomial) -> bool | None:
     """Whether a polynomial vanishes at all zeros, or at none; None else, or if there are none."""
     answers = {vanish_at([f], zero.digits) for zero in zeros}
     return answers.pop() if len(answers) == 1 else None
+
+
+def surely_differs(f: Polynomial, x: np.ndarray, radii: np.ndarray) -> bool:
+    """Whether a polynomial has no zero in the ball about a point, with a margin.
+
+    A coordinate of 1e-89 beside one of 1e45 vanishes to any digits that both are written to
+    together, but not to its own.
+
+    Args:
+        radii: errors of the coordinates, shape ``(n,)``.
+    """
+    import flint
+
+    with flint.ctx.workprec(BITS):
+        ball = [
+            flint.acb(flint.arb(z.real, r), flint.arb(z.imag, r))
+            for z, r in zip(x.tolist(), (SLACK * radii).tolist(), strict=True)
+        ]
+        return not bool(ball_values((f,)).at(ball)[0].contains(0))
 
 
 def multiplicity_of_all(zeros: Sequence[SingularEnd]) -> int | None:

@@ -34,6 +34,7 @@ from nag.numerics.zero_values import (
     alike,
     multiplicity_of_all,
     possible_zeros,
+    surely_differs,
     vanishes_at_all,
 )
 from nag.solving.lifted_solution import lifted_solution
@@ -76,6 +77,9 @@ class _Found:
             return False
         if self.zero is not None:
             return None
+        radii = self.solution.radii if self.solution.multiplicity == 1 else None
+        if radii is not None and surely_differs(f, x, radii):
+            return False
         assert self.branch is not None
         image, zero = self.branch.image(f)
         if zero:

@@ -89,8 +89,9 @@ def _zero(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) ->
             return None
         x = [(z - change).mid() for z, change in zip(x, step, strict=True)]
         length = max(abs(complex(change)) for change in step) / size
-        # The quotient of two steps is squared from one to the next; of one step nothing is known.
-        if length == 0 or (length < last and length * (length / last) ** 2 < ZERO):
+        # The quotient of two steps is squared from one to the next; of one step nothing is known,
+        # unless it is as small already.
+        if length < ZERO or (length < last and length * (length / last) ** 2 < ZERO):
             vanishes = any(abs(complex(x[j])) < ZERO * size for j in coordinates)
             return x if vanishes else None
         last = length

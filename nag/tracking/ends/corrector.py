@@ -29,10 +29,18 @@ MOST_CORRECTIONS = 12
 STAGNANT = 1e2
 
 
-def weigh(s, r, floor):
-    """Sizes of the coordinates by which columns are scaled."""
+def weigh(s, r, f, floor):
+    """Sizes of the coordinates by which columns are scaled.
+
+    What did not exceed its rounding errors at the base has no size of its own. Scaled by it, rows
+    that hold nothing else would be pivots, and rounding errors of others all that is left of these.
+    """
+    based = load(f, BASE)
     for j in range(s.N):
-        size = z.largest(z.magnitude(z.read(r.slots, j)), floor)
+        known, weight = load(r.base_sizes, j), load(r.base_weights, j)
+        least = select_less(known, weight, weight, splat(0.0))
+        least = z.largest(floor, select_less(splat(0.5), based, least, splat(0.0)))
+        size = z.largest(z.magnitude(z.read(r.slots, j)), least)
         store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
 
 
@@ -62,7 +70,7 @@ def correct(s, r, f, b):
     nothing = z.exact(splat(0.0), splat(0.0))
     floor = select_less(load(f, BASE), half, splat(FLOOR), splat(0.0))
     rough = select_less(load(f, BASE), half, splat(DOUBLES / number.EPSILON), splat(0.0))
-    weigh(s, r, floor)
+    weigh(s, r, f, floor)
     for k in range(MOST_CORRECTIONS):
         linearize(s, r, floor, rough)
         for lane in range(8):
@@ -82,7 +90,7 @@ def correct(s, r, f, b):
                     busy += 1
         if busy == 0:
             break
-    weigh(s, r, floor)
+    weigh(s, r, f, floor)
     linearize(s, r, floor, rough)
     for lane in range(8):
         excess = r.measures[8 + lane]
