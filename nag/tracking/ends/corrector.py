@@ -40,8 +40,13 @@ def weigh(s, r, f, floor):
         known, weight = load(r.base_sizes, j), load(r.base_weights, j)
         least = select_less(known, weight, weight, splat(0.0))
         least = z.largest(floor, select_less(splat(0.5), based, least, splat(0.0)))
-        size = z.largest(z.magnitude(z.read(r.slots, j)), least)
-        store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
+        weigh_one(r, j, least)
+
+
+def weigh_one(r, j, least):
+    """The size of a coordinate, or what is the least that it may be."""
+    size = z.largest(z.magnitude(z.read(r.slots, j)), least)
+    store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
 
 
 def linearize(s, r, floor, rough):

@@ -11,7 +11,7 @@ from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import splat
 from nag.machine_code.records import Reals
 from nag.tracking.ends import records
-from nag.tracking.ends.corrector import linearize, weigh
+from nag.tracking.ends.corrector import linearize, weigh_one
 from nag.tracking.ends.evaluation import factors_at, lay_patches
 from nag.tracking.ends.records import Equations, Room
 from nag.tracking.homotopy import Homotopy
@@ -45,7 +45,8 @@ def newton_batch(s: Equations, r: Room, b: Steps) -> None:
         lay_patches(s, r)
         factors_at(s, r)
         for _ in range(b.steps):
-            weigh(s, r, floor)
+            for j in range(s.N):
+                weigh_one(r, j, floor)
             linearize(s, r, floor, splat(0.0))
             for j in range(s.N):
                 z.write(r.slots, j, z.add(z.read(r.slots, j), z.read(r.right, j)))
