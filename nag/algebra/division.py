@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-Exponents = tuple[int, ...]
+from nag.algebra.polynomial import Exponents, divides
 
 
 @dataclass(frozen=True)
@@ -50,8 +50,8 @@ def remainder(polynomial: Any, divisors: Sequence[Divisor], k: int) -> Any:
     while polynomial != 0:
         monomial, coefficient = _leading(polynomial, k)
         for d in divisors:
-            quotient = tuple(a - b for a, b in zip(monomial, d.monomial, strict=True))
-            if min(quotient, default=0) >= 0:
+            if divides(d.monomial, monomial):
+                quotient = tuple(map(int.__sub__, monomial, d.monomial))
                 common = coefficient.gcd(d.coefficient)
                 raised = ring.from_dict({(*quotient, *[0] * (ring.nvars() - k)): 1})
                 factor = d.coefficient // common

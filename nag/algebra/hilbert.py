@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-Exponents = tuple[int, ...]
+from nag.algebra.polynomial import Exponents, divides
 
 
 def dimension_and_degree(monomials: Iterable[Exponents], n: int) -> tuple[int, int]:
@@ -38,13 +38,9 @@ def dimension_and_degree(monomials: Iterable[Exponents], n: int) -> tuple[int, i
 def _minimal(monomials: Iterable[Exponents]) -> list[Exponents]:
     kept: list[Exponents] = []
     for e in sorted(set(monomials), key=sum):
-        if not any(_divides(f, e) for f in kept):
+        if not any(divides(f, e) for f in kept):
             kept.append(e)
     return kept
-
-
-def _divides(f: Exponents, e: Exponents) -> bool:
-    return all(a <= b for a, b in zip(f, e, strict=True))
 
 
 def _numerator(monomials: Sequence[Exponents]) -> list[int]:

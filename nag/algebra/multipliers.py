@@ -8,7 +8,7 @@ from fractions import Fraction
 import flint
 
 from nag.algebra.groebner import Ideal
-from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.polynomial import Exponents, Polynomial, divides
 
 Terms = Mapping[Exponents, Fraction]
 
@@ -33,7 +33,7 @@ def multipliers(ideal: Ideal, f: Polynomial, degree: int, most: int) -> list[Pol
         for e in level:
             for i in range(f.n):
                 above = (*e[:i], e[i] + 1, *e[i + 1 :])
-                if above in forms or any(_divides(lead, above) for lead in rules):
+                if above in forms or any(divides(lead, above) for lead in rules):
                     continue
                 if len(forms) == most:
                     return None
@@ -82,7 +82,7 @@ def _reduced(terms: dict[Exponents, Fraction], rules: Mapping[Exponents, Terms])
     while terms:
         e = max(terms, key=order)
         c = terms.pop(e)
-        lead = next((lead for lead in rules if _divides(lead, e)), None)
+        lead = next((lead for lead in rules if divides(lead, e)), None)
         if lead is None:
             rest[e] = c
             continue
@@ -100,7 +100,3 @@ def _reduced(terms: dict[Exponents, Fraction], rules: Mapping[Exponents, Terms])
 def order(e: Exponents) -> tuple[int, Sequence[int]]:
     """Key by which monomials ascend in the graded reverse lexicographic order."""
     return sum(e), tuple(-k for k in reversed(e))
-
-
-def _divides(e: Exponents, f: Exponents) -> bool:
-    return all(a <= b for a, b in zip(e, f, strict=True))

@@ -7,12 +7,18 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
+from operator import le
 from types import MappingProxyType
 from typing import Any
 
 from nag.algebra.number import Irrational, Number, is_zero, number_text
 
 Exponents = tuple[int, ...]
+
+
+def divides(e: Exponents, f: Exponents) -> bool:
+    """Whether the monomial with exponents ``e`` divides the one with ``f``."""
+    return all(map(le, e, f))
 
 
 # Products of terms beyond which coefficients are multiplied as integers.

@@ -16,7 +16,7 @@ from math import comb, gcd, lcm
 import flint
 
 from nag.algebra.multipliers import order
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import Polynomial, divides
 from nag.interpolation.point_cloud import Cloud, Exponents, monomial_values, real_rows
 from nag.numerics.rational_relations import Echelon, TooFewDigitsError
 
@@ -175,11 +175,6 @@ def _split(
 def leading_monomial(f: Polynomial) -> Exponents:
     """The largest monomial in the graded reverse lexicographic order."""
     return max(f.terms, key=order)
-
-
-def divides(e: Exponents, f: Exponents) -> bool:
-    """Whether the monomial with exponents ``e`` divides the one with ``f``."""
-    return all(a <= b for a, b in zip(e, f, strict=True))
 
 
 def primitive(f: Polynomial) -> Polynomial:
