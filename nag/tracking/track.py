@@ -264,7 +264,8 @@ def run_in_doubles(
             settings.safety,
             settings.contraction,
         )
-        straight_run.track_lanes(arrays, kernel_arrays.work(homotopy, settings.order), paths)
+        scratch = kernel_arrays.work(homotopy, settings.order, weights is not None)
+        straight_run.track_lanes(arrays, scratch, paths)
 
     if batches == 1:
         batch(0)
