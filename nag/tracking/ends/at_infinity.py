@@ -41,7 +41,8 @@ def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) ->
     import flint
 
     with flint.ctx.workprec(BITS):
-        return _zero(flint, terms.worked_out, [number(c) for c in centre], coordinates) is not None
+        terms.work_out()
+        return _zero(flint, terms, [number(c) for c in centre], coordinates) is not None
 
 
 def regular_paths(
@@ -55,9 +56,9 @@ def regular_paths(
     """
     import flint
 
-    balls = {}
+    terms, balls = Terms(homotopy), {}
     with flint.ctx.workprec(BITS):
-        terms = Terms(homotopy).worked_out
+        terms.work_out()
         for i, point in enumerate(points.tolist()):
             start = [flint.acb(z) for z in point]
             zero = _zero(flint, terms, start, homotopy.infinity)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -46,7 +45,6 @@ class Terms:
             rows.append([(((j, 1),), flint.acb(a), flint.acb(b)) for j, (a, b) in enumerate(pairs)])
         return rows
 
-
     @cached_property
     def at_end(self) -> list[list[tuple[Factors, Any]]]:
         """The terms of the polynomial rows at t = 0: exponents, and coefficients that are not 0."""
@@ -74,10 +72,9 @@ class Terms:
 
         return [[flint.acb(c) for c in row] for row in self.homotopy.A0.tolist()]
 
-    @property
-    def worked_out(self) -> Terms:
-        """The same; what there is at t = 0 has the digits that are worked with now."""
-        return self if self.at_end or self.lines else self
+    def work_out(self) -> None:
+        """Give what there is at t = 0 the digits that are worked with now."""
+        _ = self.at_end, self.lines
 
 
 def real(parts: np.ndarray) -> Any:
