@@ -278,15 +278,20 @@ def complete_slope(s, w):
     for k in range(s.rows if s.moves != 0 else 0):
         re = load(w.sr, k)
         im = load(w.si, k)
+        # Two sums of each part, which do not wait for one another.
+        re_too = splat(0.0)
+        im_too = splat(0.0)
         for j in range(n):
             q = k * n + j
             if s.jacobian_begin[q] < s.jacobian_begin[q + 1]:
                 mr, mi = load(w.mr, q), load(w.mi, q)
                 x, y = load(w.br, j), load(w.bi, j)
-                re = fnma(mi, y, fma(mr, x, re))
-                im = fma(mi, x, fma(mr, y, im))
-        store(w.sr, k, re)
-        store(w.si, k, im)
+                re = fma(mr, x, re)
+                im = fma(mr, y, im)
+                re_too = fnma(mi, y, re_too)
+                im_too = fma(mi, x, im_too)
+        store(w.sr, k, re + re_too)
+        store(w.si, k, im + im_too)
     for k in range(s.linear):
         if s.linear_moving[k] != 0:
             re, im = _line(s, k, s.A1_re, s.A1_im, w.br, w.bi)
