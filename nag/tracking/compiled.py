@@ -197,7 +197,7 @@ class _Products:
         for e in monomials:
             if e not in slots:
                 levels.setdefault(sum(e), {})[e] = (e, 0)
-        for degree in range(max(levels, default=0), 1, -1):
+        for degree in range(max(levels, default=0), 2, -1):
             level = levels.setdefault(degree, {})
             below = levels.setdefault(degree - 1, {})
             choices = [(e, _parents(e)) for e in level]
@@ -209,6 +209,8 @@ class _Products:
                 level[e] = (parent, last)
                 if parent not in slots:
                     below.setdefault(parent, (parent, 0))
+        for e in levels.get(2, ()):
+            levels[2][e] = _parents(e)[-1]
         new = [item for degree in sorted(levels) for item in levels[degree].items()]
         parents = {parent for _, (parent, _) in new}
         inner = [item for item in new if item[0] in parents]

@@ -159,7 +159,9 @@ def _attempt(
             paths = _to_infinity(homotopy, paths, doubtful)
         else:
             infinite, ends = _infinite(homotopy, paths, doubtful[regular[doubtful]])
-            paths, doubtful = merged(paths, ends, infinite), np.setdiff1d(doubtful, infinite)
+            if len(infinite):
+                paths = merged(paths, ends, infinite)
+                doubtful = paths.where(PathStatus.FAILED)
             if len(doubtful):
                 more = _followed(homotopy, starts, raw, regular, doubtful, settings, threads)
                 if not endgame:

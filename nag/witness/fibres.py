@@ -95,7 +95,7 @@ class Fibre:
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
         fine = chosen(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
-        return replace(self, points=self.points[mask], fine=fine)
+        return Fibre(self.cut, self.dimension, self.points[mask], fine)
 
 
 @dataclass(frozen=True)
