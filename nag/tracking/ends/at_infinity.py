@@ -94,7 +94,9 @@ def _zero(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) ->
         with flint.ctx.workprec(bits):
             values, jacobian = system_at(flint, terms, patches, x)
             try:
-                step = jacobian.solve(values, algorithm="approx").entries()
+                # Half of the digits are right already.
+                with flint.ctx.workprec(bits // 2 + MORE_BITS // 2):
+                    step = jacobian.solve(values, algorithm="approx").entries()
             except ZeroDivisionError:
                 return None
             x = [(z - change).mid() for z, change in zip(x, step, strict=True)]
