@@ -309,9 +309,9 @@ tracking.ends.branch: LONGEST; tracking.ends.corrector:
 DOUBLES; tracking.ends.inclusion: TINY; tracking.ends.kept_points: RESIDUAL, SECOND;
 tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
-tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.numbers.double_double:
-EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL; tracking.numbers.quad_double:
-EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
+tracking.linear_algebra: PIVOT; tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER;
+tracking.numbers.double_double: EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL;
+tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
 tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
 solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING, WRITTEN;
 solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP;

@@ -89,15 +89,20 @@ def is_surely_irreducible(f: Any, n: int) -> bool:
 
 def _rank_of_quadric(f: Any, exponents: Sequence[Sequence[int]], n: int) -> int:
     """The rank of a quadric's matrix modulo a prime, which is no more than its own."""
+    if all(max(e) != 1 for e in exponents):
+        # Squares and a constant.
+        return len(exponents)
     import flint
 
     whole = _whole_coefficients(f)[0]
     entries = [0] * (n + 1) ** 2
     for e, c in zip(exponents, whole, strict=True):
-        first, second = [n, n, *(j for j, k in enumerate(e) for _ in range(k))][-2:]
+        first, second = [n, n, *(j for j, k in enumerate(e) if k)][-2:]
+        if first == n and second < n and e[second] == 2:
+            first = second
         entries[(n + 1) * first + second] += c
         entries[(n + 1) * second + first] += c
-    return flint.nmod_mat(n + 1, n + 1, [c % PRIME for c in entries], PRIME).rank()
+    return flint.nmod_mat(n + 1, n + 1, entries, PRIME).rank()
 
 
 def _whole_coefficients(f: Any) -> tuple[list[int], int, int]:

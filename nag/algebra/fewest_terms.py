@@ -20,28 +20,57 @@ def of_fewest_terms(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]
     From each, multiples of others of at most its degree are taken as long as that leaves it fewer
     terms. Polynomials that are not rational are left as they are.
     """
-    found = list(polynomials)
-    pairs = [(i, j) for i in range(len(found)) for j in range(len(found)) if i != j]
-    compared: dict[tuple[int, int], tuple[Polynomial, Polynomial]] = {}
+    given = list(polynomials)
+    rational = [i for i, f in enumerate(given) if f.terms and f.exact]
+    found = {i: _Rational(given[i]) for i in rational}
+    pairs = [(i, j) for i in rational for j in rational if i != j]
+    compared: dict[tuple[int, int], tuple[_Rational, _Rational]] = {}
     while pairs:
         for i, j in pairs:
             compared[i, j] = found[i], found[j]
             factor = _factor(found[i], found[j])
             if factor is not None:
-                found[i] = found[i] - factor * found[j]
+                given[i] = _without(given[i], factor, found[j])
+                found[i] = _Rational(given[i])
         pairs = [
             (i, j) for (i, j), (f, g) in compared.items() if f is not found[i] or g is not found[j]
         ]
-    return tuple(found)
+    return tuple(given)
 
 
-def _factor(f: Polynomial, g: Polynomial) -> Fraction | None:
+class _Rational:
+    """A polynomial with rational coefficients, as pairs of whole numbers."""
+
+    def __init__(self, f: Polynomial) -> None:
+        self.terms = {e: c.as_integer_ratio() for e, c in f.terms.items()}
+        self.degree = f.degree
+
+
+def _without(f: Polynomial, factor: Fraction, g: _Rational) -> Polynomial:
+    """``f - factor * g``, each coefficient brought to lowest terms once."""
+    terms, (p, q) = dict(f.terms), factor.as_integer_ratio()
+    for e, (c, d) in g.terms.items():
+        a, b = terms[e].as_integer_ratio() if e in terms else (0, 1)
+        terms[e] = Fraction(a * q * d - p * c * b, b * q * d)
+    return Polynomial(f.n, terms)
+
+
+def _factor(f: _Rational, g: _Rational) -> Fraction | None:
     """What ``g`` is to be multiplied by for ``f`` to lose more terms than it gains."""
-    if not (f.exact and g.exact) or not g.terms or g.degree > f.degree:
+    if not g.terms or g.degree > f.degree:
         return None
     common = f.terms.keys() & g.terms.keys()
     if 2 * len(common) <= len(g.terms):
         return None
-    quotients = Counter(Fraction(f.terms[e]) / Fraction(g.terms[e]) for e in common)
+    pairs = [(*f.terms[e], *g.terms[e]) for e in common]
+    needed = len(g.terms) - len(common)
+    try:
+        # The quotient of whole numbers is rounded correctly: equal ones are equal as doubles.
+        rounded = Counter([(a * d) / (b * c) for a, b, c, d in pairs])
+        if max(rounded.values()) <= needed:
+            return None
+    except OverflowError:
+        pass
+    quotients = Counter([Fraction(a * d, b * c) for a, b, c, d in pairs])
     factor, lost = max(quotients.items(), key=lambda each: (each[1], each[0]))
-    return factor if lost > len(g.terms) - len(common) else None
+    return factor if lost > needed else None
