@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from nag.bench.picture_file import STYLE, save
-from nag.bench.speed_accuracy import Chart, Curve, Point
 from nag.bench.whole_paths import ARITHMETICS, DIGITS
+from nag.bench.work_precision import ACCURATE, Chart, Curve, Point
 
 # Colours of different lightness, and marks, so that greyscale will do.
 COLOURS = ("#1b1b4b", "#b2182b", "#1f78b4", "#e08214", "#35978f", "#7b9e2f", "#c994c7", "#8c6d31")
@@ -22,7 +22,6 @@ PEERS = {
 }
 # Errors below these are drawn there: of points that are doubles, and in more digits.
 FLOOR, DEEPEST = 1e-17, 1e-110
-ACCURATE = 1e-12
 # Where legends begin, below the axes.
 LEGENDS = 0.175
 WORK = "evaluations of the system"

@@ -12,7 +12,7 @@ from nag.cli.arguments import UsageError, whole
 from nag.cli.chart_files import check_targets, write_picture, write_text
 
 if TYPE_CHECKING:
-    from nag.bench.speed_accuracy import Chart, Subject
+    from nag.bench.work_precision import Chart, Subject
 
 FOLDERS = (Path("cases"), Path("cases/benchmarks"), Path("cases/hard"))
 # A system of the atlas: eight pairs of solutions at distances of 1e-8.
@@ -122,7 +122,7 @@ def _run(options: argparse.Namespace) -> list[Chart]:
 
 
 def _subject(name: str) -> Subject:
-    from nag.bench.speed_accuracy import Subject
+    from nag.bench.work_precision import Subject
 
     if name == CLUSTER:
         import numpy as np
