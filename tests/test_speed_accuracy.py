@@ -19,6 +19,7 @@ from nag.bench.peer_points import forms
 from nag.bench.reference import Reference, ReferenceError, compared, compared_in_balls
 from nag.bench.sharpening import sharpening
 from nag.bench.speed_accuracy import chart_of, ratios
+from nag.bench.speed_accuracy_picture import COLOURS, MARKS, PEERS
 from nag.bench.whole_paths import WHOLE_TOLERANCES, WholePaths, tracked_in
 from nag.bench.work_precision import Curve, Point, Subject, best_form
 from nag.cli import main
@@ -268,6 +269,21 @@ def test_divided_equations_have_the_same_zeros_and_largest_coefficient_one() -> 
     assert as_given is large
     assert [max(abs(c) for c in f.terms.values()) for f in divided.polynomials] == [1, 1]
     assert forms(PolynomialSystem(("x", "y"), (x - y, x * y - 1))).keys() == {""}
+
+
+def _lightness(colour: str) -> float:
+    """L* of CIELAB, from 0 to 100."""
+    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+    y = float(np.dot(linear, [0.2126, 0.7152, 0.0722]))
+    return 116 * y ** (1 / 3) - 16 if y > 0.008856 else 903.3 * y
+
+
+def test_curves_differ_in_lightness_and_in_marks() -> None:
+    steps = np.diff([_lightness(c) for c in COLOURS])
+    assert steps.min() > 10
+    marks = [*MARKS, *(mark for _, mark in PEERS.values())]
+    assert len(set(marks)) == len(marks)
 
 
 def test_kept_charts_are_drawn_without_a_run(tmp_path: Path, capsys) -> None:

@@ -122,7 +122,8 @@ def _peer(program: str, system: PolynomialSystem, reference: Reference) -> Curve
 def ratios(charts: Sequence[Chart], accuracy: float = 1e-12) -> list[list[str]]:
     """Rows of a table: our time with default settings beside the other programs'.
 
-    Other programs are compared where they find all solutions to the accuracy, as we do.
+    Other programs are compared where they find all solutions to the accuracy, as we do. A star says
+    that a program did best in the other one of `nag.bench.peer_points.forms`.
     """
     lines = [["case", "found", "largest error", "seconds", "program", "found", "error", "ratio"]]
     for chart in charts:
@@ -138,5 +139,6 @@ def ratios(charts: Sequence[Chart], accuracy: float = 1e-12) -> list[list[str]]:
             ratio = f"{p.seconds / mine.seconds:.1f}"
             told = ratio if good and mine.share == 1 else f"({ratio})"
             error = f"{p.largest:.1e}" if p.share else "-"
-            lines.append([*head, p.name, f"{p.share:.0%}", error, told])
+            name = f"{p.name} *" if curve.remark else p.name
+            lines.append([*head, name, f"{p.share:.0%}", error, told])
     return lines
