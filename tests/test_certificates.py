@@ -18,6 +18,7 @@ from systems import system
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas.stability import family_named
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
@@ -425,3 +426,32 @@ def test_zeros_nearer_than_evidence_reaches_are_not_proved_to_be_one() -> None:
         result = solve(system("x y", "(x^2 - 2)^2 + y", "y"))
         found = certify_solutions(replace(result, system=near))
         assert not set(found.points.proofs) & {Proof.EXACT, Proof.DEFLATED, Proof.SIMPLE}
+
+
+@pytest.mark.parametrize("digits", [16, 20, 30])
+@pytest.mark.parametrize("name", ["cluster-2", "far-cluster", "triple"])
+def test_zeros_that_doubles_do_not_tell_apart_are_all_proved(name: str, digits: int) -> None:
+    problem = family_named(name).make(digits, np.random.default_rng([1, 20]))
+    result = solve(problem.system)
+    certificate = certify_solutions(result)
+    assert certificate.simple == len(result.solutions) == problem.truth[0, 1, 1]
+    assert certificate.all_proved and certificate.complete
+
+
+def test_of_zeros_close_together_as_many_are_real_as_are_proved_to_be() -> None:
+    near = system("x y", "(x - 1)^4 - 1/10^80", "y - x*(1 + (x - 1))")
+    result = solve(near)
+    assert sorted(s.real for s in result.solutions) == [False, False, True, True]
+    certificate = certify_solutions(result)
+    assert certificate.all_proved
+    assert certificate.real.tolist() == [s.real for s in result.solutions]
+    i = next(i for i, s in enumerate(result.solutions) if not s.real)
+    found = certify_solutions(changed(result, i, real=True))
+    assert found.contradicted == {"real": 1} and not found.all_proved
+
+
+def test_a_zero_listed_twice_beside_one_that_is_close_is_not_proved_to_be_two() -> None:
+    result = solve(system("x y", "(x - 1)^2 - 2/10^40", "y - x"))
+    twice = replace(result, solutions=(*result.solutions, result.solutions[0]))
+    assert certify_solutions(result).all_proved
+    assert not certify_solutions(twice).all_proved

@@ -112,7 +112,8 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         places = np.array([s.point for s in solutions], dtype=complex).reshape(-1, system.n)
         accuracy = np.array([s.accuracy for s in solutions], dtype=float)
         multiple = np.array([s.multiplicity > 1 for s in solutions], dtype=bool)
-        return certify_points(system.polynomials, none, places, accuracy, multiple)
+        said_real = np.array([s.real for s in solutions], dtype=bool)
+        return certify_points(system.polynomials, none, places, accuracy, multiple, said_real)
 
     points = proved(result.solutions)
     same, unknown = overlaps(points.boxes)
