@@ -162,7 +162,11 @@ def _certification(axes: Any, chart: Chart) -> dict[str, Any]:
     """The times of proving all solutions, and all paths, as lines across, by their names."""
     noun = "paths" if chart.what == "solutions" else "loops"
     proofs = (
-        (f"proof of {_number(chart.certified, chart.what)}", chart.certification, (0, (1, 1.5))),
+        (
+            f"proof of {chart.certified} of {_number(chart.expected, chart.what)}",
+            chart.certification,
+            (0, (1, 1.5)),
+        ),
         (f"proof of {noun}, {chart.proved_paths} of {chart.paths}", chart.path_proof, (0, (5, 2))),
     )
     return {

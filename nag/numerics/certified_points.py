@@ -82,6 +82,18 @@ class CertifiedPoints:
         """Indices of the points with one of these proofs."""
         return np.array([i for i, p in enumerate(self.proofs) if p in proofs], dtype=np.int64)
 
+    @property
+    def on_evidence(self) -> np.ndarray:
+        """Which points rest on evidence, as equations vanish to so many digits, shape ``(P,)``."""
+        return np.array([p is not Proof.NONE for p in self.proofs], dtype=bool) & np.isfinite(
+            self.digits
+        )
+
+    @property
+    def all_proved(self) -> bool:
+        """Whether each point is proved, and none on evidence."""
+        return Proof.NONE not in self.proofs and not self.on_evidence.any()
+
     def errors(self) -> np.ndarray:
         """Proved bounds of the distances of points from their zeros, relative, shape ``(P,)``.
 
