@@ -295,7 +295,8 @@ interpolation.point_cloud.SMALL             1e-5    Singular values of tangents,
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
 rounding, digits that are taken, where random numbers come from.
 
-numerics.certified_points: FLAT; numerics.curves: CLOSE, CLOSER, PATIENCE; numerics.deflated_system:
+numerics.certified_points: FLAT; numerics.close_zeros: ROUNDING, REST, DEEP, LEAST;
+numerics.curves: CLOSE, CLOSER, PATIENCE; numerics.deflated_system:
 MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK; numerics.digits:
 LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST,
 LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: ROUNDING;
