@@ -194,6 +194,9 @@ solving.solve_classes.FEW                   0.1     Part of the classes that cha
                                                     and the parameters are special.
 solving.start.family_monodromy.WORST        1e5     Condition of a first solution that is not begun
                                                     from.
+solving.start.pencil.CLEAR                  1e-6    Sum of second differences over the points'
+                                                    motion that is none of rounding.
+solving.start.pencil.FINE_ROUNDING          1e-50   What of it is rounding in 64 digits.
 solving.start.pencil.ROUNDING               1e-12   Sum of second differences over the points'
                                                     motion that is rounding.
 solving.start.pencil.VISIBLE                10      Own second difference of each point, in those,

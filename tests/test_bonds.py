@@ -7,6 +7,7 @@ import json
 import jsonschema
 import pytest
 from linkages import CASES, case
+from solved import answer, modelled, shipped
 
 import nag
 from nag.cli import main
@@ -15,9 +16,8 @@ from nag.mechanism.bonds import Bonds, bonds
 
 
 def of_case(name: str) -> Bonds:
-    read = nag.read_case(CASES / f"{name}.toml")
-    made = read.assembly or nag.model(read.mechanism, "H")
-    (curve,) = [c for c in nag.decompose(made.system).components if c.dimension == 1]
+    made = modelled(name) or shipped(name).assembly
+    (curve,) = [c for c in answer(name).components if c.dimension == 1]
     return bonds(made, curve)
 
 

@@ -77,7 +77,7 @@ def engine(monkeypatch) -> Engine:
     module = ModuleType("nag.decomposition.components")
     module.decompose = fake.decompose
     monkeypatch.setitem(sys.modules, module.__name__, module)
-    monkeypatch.setattr("nag.decomposition.through.components_through", fake.components_through)
+    monkeypatch.setattr("nag.witness.membership.components_through", fake.components_through)
     return fake
 
 
@@ -160,7 +160,7 @@ def test_membership_that_cannot_be_decided_leaves_the_answer_incomplete(
     def undecided(*_: object, **__: object) -> list[int]:
         raise ValueError("could not be decided")
 
-    monkeypatch.setattr("nag.decomposition.through.components_through", undecided)
+    monkeypatch.setattr("nag.witness.membership.components_through", undecided)
     assert main(["decompose", case]) == 1
     assert "crossing: could not be decided" in capsys.readouterr().out
 

@@ -102,7 +102,6 @@ def test_conjugates_of_ends_in_more_digits_are_kept_in_these() -> None:
 
 def test_a_system_whose_paths_were_lost_is_solved(monkeypatch: pytest.MonkeyPatch) -> None:
     given = read_case("cases/benchmarks/cyclic-5.toml").system
-    whole = solving.solve(given, start="total")
 
     def losing(*args: object, **options: object) -> Paths:
         paths = track(*args, **options)
@@ -113,8 +112,8 @@ def test_a_system_whose_paths_were_lost_is_solved(monkeypatch: pytest.MonkeyPatc
 
     monkeypatch.setattr(solving, "track", losing)
     found = solving.solve(given, start="total")
-    assert whole.complete and found.complete
-    assert len(found.solutions) == len(whole.solutions)
+    assert found.complete
+    assert len(found.solutions) == 70
 
 
 def test_zeros_are_counted_where_paths_were_lost_to_conjugates(

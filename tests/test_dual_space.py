@@ -6,10 +6,10 @@ import flint
 import pytest
 from singular_zeros import polynomials
 
+from nag.algebra.prime_field import PrimeField
 from nag.numerics.dual_space import DualSpace, dual_space
-from nag.numerics.exact_system import modular
 from nag.numerics.implicit_function import eliminate
-from nag.numerics.null_space import Digits, Field, PrimeField, UnclearRank
+from nag.numerics.null_space import Digits, Field, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, composed, derivatives, evaluate
 
 PRIME = 4611686018427387847
@@ -17,11 +17,9 @@ FIELDS = [PrimeField(PRIME), Digits(60, -40.0, -20.0)]
 
 
 def number(field: Field, c):
-    return (
-        modular(c, PRIME)
-        if field.modulus
-        else flint.acb(flint.arb(flint.fmpq(*c.as_integer_ratio())))
-    )
+    if isinstance(field, PrimeField):
+        return field.of(c)
+    return flint.acb(flint.arb(flint.fmpq(*c.as_integer_ratio())))
 
 
 def at_origin(field: Field, variables: str, equations: str, highest: int) -> DualSpace:

@@ -56,12 +56,12 @@ def test_only_curves_have_a_genus_here() -> None:
         genus(system, nag.decompose(system).components[0])
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_cusps_are_branch_points_wherever_they_lie(seed: int) -> None:
-    for equation, number in [
-        ("x^4 + y^4 + 2*x^3*y + y^2 - x^3", 10),
-        ("y^2 - (x - 1)^3*(x - 2)^3*(x + 5)", 8),
-    ]:
-        system = plain(polynomials("x y", equation))
-        (curve,) = nag.decompose(system).components
+@pytest.mark.parametrize(
+    ("equation", "number"),
+    [("x^4 + y^4 + 2*x^3*y + y^2 - x^3", 10), ("y^2 - (x - 1)^3*(x - 2)^3*(x + 5)", 8)],
+)
+def test_cusps_are_branch_points_wherever_they_lie(equation: str, number: int) -> None:
+    system = plain(polynomials("x y", equation))
+    (curve,) = nag.decompose(system).components
+    for seed in range(2):
         assert genus(system, curve, seed=seed).branch_points == number

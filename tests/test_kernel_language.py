@@ -148,6 +148,24 @@ def takes_an_item_that_is_not_there(m: Memory) -> None:
     m.wholes[0] = pair[2]
 
 
+def cuts_at_a_variable(m: Memory) -> None:
+    pair = m.n, m.n
+    a, b = pair[m.n :]
+    m.wholes[0] = a + b
+
+
+def cuts_at_a_fraction(m: Memory) -> None:
+    pair = m.n, m.n
+    (a,) = pair[1.0:]
+    m.wholes[0] = a
+
+
+def joins_a_number(m: Memory) -> None:
+    pair = m.n, m.n
+    pair = pair + m.n
+    m.wholes[0] = pair[0]
+
+
 def slices(m: Memory) -> None:
     m.wholes[0:2] = 1
 
@@ -314,6 +332,9 @@ def compares_numbers_as_lanes(m: Memory) -> None:
         (counts_from_the_end, "places in memory are not counted from the end"),
         (indexes_by_a_condition, "places in memory are whole numbers, not bool"),
         (takes_an_item_that_is_not_there, "(int, int) has no item 2"),
+        (cuts_at_a_variable, "the index of a tuple must be a constant"),
+        (cuts_at_a_fraction, "a tuple is cut at whole numbers"),
+        (joins_a_number, "no Add of (int, int) and int"),
         (slices, "Slice is not translated"),
         (gives_too_many_arguments, "abs takes 1 arguments here, not 2"),
         (gives_too_few_arguments, "math.atan2 takes 2 arguments here, not 1"),

@@ -77,6 +77,24 @@ def test_whole_numbers_are_divided_as_in_python(a: int, b: int) -> None:
     assert memory.reals[0] == a / b
 
 
+def _turned(values: tuple[int, int, float]) -> tuple[int, float, int]:
+    return values[1:] + values[:1]
+
+
+def several_at_once(m: Memory) -> None:
+    values = m.n, m.n + 1, m.x
+    six = _turned(values) + _turned(_turned(values))
+    m.wholes[0], m.reals[0], m.wholes[1], m.reals[1], m.wholes[2], m.wholes[3] = six
+    m.wholes[4], m.wholes[5] = six[::5]
+
+
+def test_tuples_are_cut_and_joined_as_in_python() -> None:
+    memory = _memory(7, 0.5)
+    _same(several_at_once, memory)
+    assert memory.wholes[:6].tolist() == [8, 7, 7, 8, 8, 8]
+    assert memory.reals[:2].tolist() == [0.5, 0.5]
+
+
 def complex_numbers(m: Memory) -> None:
     a, b = m.complexes[0], m.complexes[1]
     m.complexes[2] = a + b

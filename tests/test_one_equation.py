@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 import nag
 from nag.decomposition import decompose
+from nag.decomposition.through import Through, through_points
 from nag.files.cases import read_case
 from nag.files.problem import system_of
 from nag.mechanism.model import model
@@ -83,3 +85,28 @@ def test_a_component_without_paths_can_be_moved() -> None:
     either = np.minimum(abs(x**2 + y + 1j * (x * y - 1)), abs(x**2 + y - 1j * (x * y - 1)))
     assert either.max() < 1e-12 * (1 + abs(points).max() ** 2)
     assert all(curve.contains(p) for p in points)
+
+
+def test_a_zero_is_on_the_only_component_without_a_path(monkeypatch) -> None:
+    def moved(*_: object) -> None:
+        raise AssertionError("a path was tracked")
+
+    monkeypatch.setattr("nag.witness.membership.is_member", moved)
+    answer = nag.decompose("x^2 + y^2 - 1")
+    points = [
+        ("on it", (Fraction(3, 5), Fraction(4, 5))),
+        ("beside it", (Fraction(1), Fraction(1))),
+    ]
+    assert through_points(answer, points) == [
+        Through("on it", True, (0,)),
+        Through("beside it", False),
+    ]
+
+
+def test_a_zero_on_what_is_excluded_need_not_be_on_the_only_component() -> None:
+    system = nag.system("x*(x^2 + y^2 - 1)")
+    answer = decompose(replace(system, nonzero=nag.system("x", "x y").polynomials))
+    assert len(answer.components) == 1 and answer.paths.tracked == 0
+    places = [(Fraction(0), Fraction(5)), (Fraction(0), Fraction(1)), (Fraction(1), Fraction(0))]
+    found = through_points(answer, [(str(at), at) for at in places])
+    assert [one.components for one in found] == [(), (0,), (0,)]

@@ -68,16 +68,16 @@ def test_samples_depend_on_the_seed_and_on_nothing_else() -> None:
 def test_paths_that_fail_end_the_sampling_with_what_was_found(monkeypatch) -> None:
     circle = system("x y", "x^2 + y^2 - 1")
     component = decompose(circle).components[0]
-    moves, true_move = [], moving.move_comparable
+    moves, true_move = [], moving.move_together
 
     def failing(*arguments: object) -> object:
         moves.append(arguments)
-        ends = true_move(*arguments)
-        if len(moves) > 2:
-            ends.regular[:] = False
-        return ends
+        for fibre, ends in true_move(*arguments):
+            if len(moves) > 2:
+                ends.regular[:] = False
+            yield fibre, ends
 
-    monkeypatch.setattr(moving, "move_comparable", failing)
+    monkeypatch.setattr(moving, "move_together", failing)
     with pytest.raises(SamplingError, match="point 3 of 5: the path to it failed") as error:
         sample(circle, component, 5)
     assert error.value.found.points.shape == (2, 2)
@@ -156,7 +156,7 @@ def kinds(answer: Decomposition) -> Counter[tuple[int, int, int]]:
 @pytest.mark.parametrize(
     ("of", "expected"),
     [
-        (case("double-rhombus"), {(2, 4, 1): 9}),
+        (case("rhombus"), {(1, 2, 1): 3}),
         (case("bricard-variety"), {(1, 8, 1): 1}),
         (case("slider-crank"), {(2, 8, 1): 1}),
         (system("x y z", "x^2 - y", "z^2"), {(1, 2, 2): 1}),
@@ -188,12 +188,11 @@ def test_few_starts_find_some_components_and_each_is_whole() -> None:
     assert "of 4 random points" in answer.notes[0]
 
 
-@pytest.mark.parametrize("seed", [0, 1])
-def test_the_cube_in_euler_parameters_is_one_orbit_of_sixteen_curves(seed: int) -> None:
+def test_the_cube_in_euler_parameters_is_one_orbit_of_sixteen_curves() -> None:
     cube = model(read_case(CASES / "bricard-cube.toml").mechanism, "E")
     assert (cube.system.n, len(cube.system.polynomials)) == (16, 16)
     signs = cube.symmetries
-    answer = by_sampling(cube.system, starts=6, seed=seed, symmetries=signs)
+    answer = by_sampling(cube.system, starts=6, symmetries=signs)
     assert kinds(answer) == {(1, 8, 1): 1}
     assert answer.components[0].orbit == 16
     curves = expanded(answer)

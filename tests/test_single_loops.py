@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from linkages import CASES, exact, kinds
+from linkages import exact, kinds
+from solved import answer, modelled
 
 from nag.decomposition import decompose
-from nag.files.cases import read_case
 from nag.mechanism.coordinates import euler_decomposition
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.model import model
@@ -25,10 +25,10 @@ LOOPS = [
 
 @pytest.mark.parametrize("name", LOOPS)
 def test_half_angles_and_euler_parameters_agree(name: str) -> None:
-    mechanism = read_case(CASES / f"{name}.toml").mechanism
-    joint, euler = model(mechanism, "H"), model(mechanism, "E")
-    _, carried = euler_decomposition(joint, decompose(joint.system))
-    assert kinds(carried) == kinds(decompose(euler.system, symmetries=euler.symmetries))
+    joint = modelled(name, "H")
+    assert joint is not None
+    _, carried = euler_decomposition(joint, answer(name, "H"))
+    assert kinds(carried) == kinds(answer(name, "E"))
 
 
 def test_a_component_is_carried_over_by_a_point_that_is_not_far_away() -> None:
@@ -45,11 +45,13 @@ def test_a_component_is_carried_over_by_a_point_that_is_not_far_away() -> None:
 
 
 def test_a_folding_sarrus_linkage_moves_in_one_and_in_two_ways_at_once() -> None:
-    mechanism = read_case(CASES / "spatial" / "sarrus-kinematotropic.toml").mechanism
-    joint = model(mechanism)
-    answer = decompose(joint.system)
-    surface, curve = answer.components
-    assert answer.complete and (surface.dimension, curve.dimension) == (2, 1)
+    joint, whole = (
+        modelled("spatial/sarrus-kinematotropic"),
+        answer("spatial/sarrus-kinematotropic"),
+    )
+    assert joint is not None
+    surface, curve = whole.components
+    assert whole.complete and (surface.dimension, curve.dimension) == (2, 1)
     # Base hinges turn twice as often as the curve has points over them, knees four times.
     degrees = {"A2": 4, "A3": 2, "B3": 2, "B2": 4, "A1": 2, "B1": 2}
     expected = [degrees[name.removeprefix("x_")] for name in joint.system.variables]

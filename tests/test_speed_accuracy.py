@@ -12,12 +12,11 @@ import pytest
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench import peer_components, peer_points
+from nag.bench import peer_components, peer_points, sharpening
 from nag.bench.chart_data import document, read_charts
 from nag.bench.component_curves import Listed, agreement, witness_section
 from nag.bench.peer_points import forms
 from nag.bench.reference import Reference, ReferenceError, compared, compared_in_balls
-from nag.bench.sharpening import sharpening
 from nag.bench.speed_accuracy import chart_of, ratios
 from nag.bench.speed_accuracy_picture import COLOURS, MARKS, PEERS
 from nag.bench.whole_paths import WHOLE_TOLERANCES, WholePaths, tracked_in
@@ -57,13 +56,28 @@ def test_there_is_no_reference_of_repeated_or_multiple_zeros(points: list) -> No
         Reference.of(simple if len(points) > 1 else double, np.array(points, complex), NONE)
 
 
-def test_balls_reach_their_digits_and_doubles_theirs() -> None:
-    curves = sharpening(SYSTEM, Reference.of(SYSTEM, ROOTS, NONE))
+@pytest.fixture
+def once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is run again for the sake of its time."""
+    monkeypatch.setattr(sharpening, "RUNS", 0.0)
+
+
+def test_balls_reach_their_digits_and_doubles_theirs(once: None) -> None:
+    curves = sharpening.sharpening(SYSTEM, Reference.of(SYSTEM, ROOTS, NONE))
     assert curves["double"][-1].largest < 1e-15
     assert curves["double-double"][-1].largest < 1e-30
     assert curves["quad-double"][-1].largest < 1e-61
     assert curves["balls of 50 digits"][-1].largest < 1e-48
     assert curves["balls of 100 digits"][-1].largest < 1e-98
+
+
+@pytest.fixture(scope="module", params=["katsura-6", "chemequ"])
+def solved(request: pytest.FixtureRequest) -> tuple[str, WholePaths, Reference]:
+    folder = "benchmarks" if request.param == "katsura-6" else "hard"
+    system = read_case(Path("cases") / folder / f"{request.param}.toml").system
+    found = solve(system)
+    reference = Reference.of(system, found.points, np.zeros((0, 1 + system.n), complex))
+    return request.param, WholePaths.of(system, 0), reference
 
 
 @pytest.mark.parametrize(
@@ -77,15 +91,10 @@ def test_balls_reach_their_digits_and_doubles_theirs() -> None:
         ("balls of 100 digits", 1e-98),
     ],
 )
-@pytest.mark.parametrize("name", ["katsura-6", "chemequ"])
 def test_paths_in_an_arithmetic_end_as_near_to_the_zeros_as_it_can(
-    name: str, arithmetic: str, most: float
+    solved: tuple[str, WholePaths, Reference], arithmetic: str, most: float
 ) -> None:
-    folder = "benchmarks" if name == "katsura-6" else "hard"
-    system = read_case(Path("cases") / folder / f"{name}.toml").system
-    found = solve(system)
-    reference = Reference.of(system, found.points, np.zeros((0, 1 + system.n), complex))
-    paths = WholePaths.of(system, 0)
+    name, paths, reference = solved
     seconds, evaluations, ends = tracked_in(paths, reference, arithmetic, 1e-3)
     assert (ends.share, ends.false) == (1.0, 0)
     # Coordinates of chemequ are of sizes 1e-5 to 1e2, and its zeros badly conditioned.
@@ -104,7 +113,7 @@ def test_errors_in_balls_are_those_in_doubles_and_go_on_beyond_them() -> None:
         assert found.largest == pytest.approx(off / size, rel=1e-5)
 
 
-def test_a_chart_reads_back_and_is_compared() -> None:
+def test_a_chart_reads_back_and_is_compared(once: None) -> None:
     chart = chart_of(Subject("roots", SYSTEM, False, ((0, 1, 4),)), seeds=1, peers=False)
     assert (chart.expected, chart.certified) == (4, 4)
     assert chart.proved_paths == chart.paths

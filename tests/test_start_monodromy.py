@@ -11,6 +11,7 @@ from evaluated import values
 from systems import benchmark
 
 from nag.solving.start import monodromy as module
+from nag.solving.start import pencil as pencil_module
 from nag.solving.start.fibre_monodromy import GenericSystem, by_monodromy
 from nag.solving.start.mixed_cells import mixed_cells
 from nag.solving.start.monodromy import monodromy
@@ -64,6 +65,22 @@ def test_the_trace_of_all_is_linear_and_that_of_fewer_is_not(name: str) -> None:
         fewer = np.delete(system.points, k, axis=0)
         assert not trace_is_linear(pencil, fewer, np.random.default_rng(5), 1)
     assert not trace_is_linear(pencil, system.points[::2], np.random.default_rng(5), 1)
+
+
+def test_what_rounding_hides_is_seen_in_more_digits(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pencil_module, "ROUNDING", 1.0)
+    monkeypatch.setattr(pencil_module, "CLEAR", np.inf)
+    pencil, system = all_points("planar-3-rpr", 1)
+    assert trace_is_linear(pencil, system.points, np.random.default_rng(5), 1)
+    for k in range(len(system.points)):
+        fewer = np.delete(system.points, k, axis=0)
+        assert not trace_is_linear(pencil, fewer, np.random.default_rng(5), 1)
+
+
+@pytest.mark.parametrize("seed", [2, 24])
+def test_points_of_very_different_motions_need_no_other_pencil(seed: int) -> None:
+    start = monodromy(benchmark("eco-8"), np.random.default_rng(seed), 1)
+    assert len(start.points) == 160
 
 
 def rows(*terms: dict[tuple[int, ...], int]) -> Target:

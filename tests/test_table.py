@@ -12,20 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.shown import system_line
 from nag.algebra.system import PolynomialSystem
 from nag.cli.progress import INTERVAL, progress_line
 from nag.report.agreement import Verdict, agreement_text, compare
-from nag.report.table import (
-    align,
-    component_table,
-    labelled,
-    magnitude,
-    multidegree_text,
-    printable,
-    remarks,
-    system_line,
-    title_line,
-)
+from nag.text.table import align, labelled, magnitude, printable
+from nag.witness.shown import component_table, multidegree_text, remarks, title_line
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 

@@ -6,15 +6,15 @@ References:
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 
 import numpy as np
 
 from nag.algebra.factoring import is_surely_irreducible, ring
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.prime_field import LARGE
 
-# Ranks are computed modulo this prime; a rank that it lowers gives a larger number, never 1.
-PRIME = (1 << 61) - 1
 # Larger degrees cost too much memory.
 MOST_DEGREE = 12
 
@@ -49,9 +49,12 @@ def most_absolute_factors(f: Polynomial, rng: np.random.Generator) -> int | None
     if is_surely_irreducible(ring(f.n).of(f), f.n):
         return 1
     plane = _on_a_plane(f, rng)
-    if any(c.denominator % PRIME == 0 for c in plane.terms.values()):
+    if plane.degree < f.degree:
         return None
-    return _closed_forms(plane) if plane.degree == f.degree else None
+    try:
+        return _closed_forms({e: LARGE.of(c) for e, c in plane.terms.items()})
+    except ZeroDivisionError:
+        return None
 
 
 def _on_a_plane(f: Polynomial, rng: np.random.Generator) -> Polynomial:
@@ -63,11 +66,9 @@ def _on_a_plane(f: Polynomial, rng: np.random.Generator) -> Polynomial:
     return f.compose(images)
 
 
-def _closed_forms(f: Polynomial) -> int:
-    import flint
-
-    m, n = (max(e[i] for e in f.terms) for i in range(2))
-    terms = {e: c.numerator * pow(c.denominator, -1, PRIME) % PRIME for e, c in f.terms.items()}
+def _closed_forms(terms: Mapping[Exponents, int]) -> int:
+    """As many, for coefficients modulo the prime; a rank that it lowers gives more, never 1."""
+    m, n = (max(e[i] for e in terms) for i in range(2))
     # g = x^i y^j contributes f g_y - g f_y, and h = x^i y^j its mirror image.
     forms = [((i, j), 1) for i in range(m) for j in range(n + 1)]
     forms += [((i, j), 0) for i in range(m + 1) for j in range(n)]
@@ -79,5 +80,5 @@ def _closed_forms(f: Polynomial) -> int:
             if weight:
                 power_x, power_y = (a + i, b + j - 1) if axis else (a + i - 1, b + j)
                 row[power_x * 2 * (n + 1) + power_y] += c * weight
-        rows.append([v % PRIME for v in row])
-    return len(rows) - flint.nmod_mat(rows, PRIME).rank()
+        rows.append(row)
+    return len(rows) - LARGE.rank(rows)

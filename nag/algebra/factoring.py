@@ -12,11 +12,10 @@ from math import gcd, lcm
 from typing import Any
 
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.prime_field import LARGE
 
 # Integer coefficients of more bits are divided by a power of two, so that they fit into doubles.
 MOST_BITS = 200
-# Ranks are computed modulo this prime.
-PRIME = (1 << 61) - 1
 
 
 class Ring:
@@ -92,17 +91,13 @@ def _rank_of_quadric(f: Any, exponents: Sequence[Sequence[int]], n: int) -> int:
     if all(max(e) != 1 for e in exponents):
         # Squares and a constant.
         return len(exponents)
-    import flint
-
     whole = _whole_coefficients(f)[0]
-    entries = [0] * (n + 1) ** 2
+    rows = [[0] * (n + 1) for _ in range(n + 1)]
     for e, c in zip(exponents, whole, strict=True):
-        first, second = [n, n, *(j for j, k in enumerate(e) if k)][-2:]
-        if first == n and second < n and e[second] == 2:
-            first = second
-        entries[(n + 1) * first + second] += c
-        entries[(n + 1) * second + first] += c
-    return flint.nmod_mat(n + 1, n + 1, entries, PRIME).rank()
+        first, second = [n, n, *(j for j, k in enumerate(e) for _ in range(k))][-2:]
+        rows[first][second] += c
+        rows[second][first] += c
+    return LARGE.rank(rows)
 
 
 def _whole_coefficients(f: Any) -> tuple[list[int], int, int]:

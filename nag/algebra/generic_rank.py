@@ -7,13 +7,11 @@ a map whose image has dimension r.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-
-PRIME = (1 << 61) - 1
+from nag.algebra.prime_field import LARGE
 
 
 def is_dependent(polynomials: Sequence[Polynomial], rng: np.random.Generator) -> bool:
@@ -22,24 +20,24 @@ def is_dependent(polynomials: Sequence[Polynomial], rng: np.random.Generator) ->
     Then there are no isolated zeros. Said by its rank at a random point modulo a prime, which is
     smaller than elsewhere with a probability below 1e-15; never said of irrational coefficients.
     """
-    import flint
-
-    n = len(polynomials)
-    terms = [list(f.terms.items()) for f in polynomials]
-    if not all(isinstance(c, Fraction) and c.denominator % PRIME for f in terms for _, c in f):
+    n, p = len(polynomials), LARGE.modulus
+    if not all(f.exact for f in polynomials):
         return False
-    point = [int(x) for x in rng.integers(1, PRIME, n)]
-    inverse = [pow(x, -1, PRIME) for x in point]
+    try:
+        residues = [[(e, LARGE.of(c)) for e, c in f.terms.items()] for f in polynomials]
+    except ZeroDivisionError:
+        return False
+    point = [int(x) for x in rng.integers(1, p, n)]
+    inverse = [pow(x, -1, p) for x in point]
     rows = []
-    for f in terms:
+    for terms in residues:
         row = [0] * n
-        for exponents, c in f:
-            value = c.numerator * pow(c.denominator, -1, PRIME) % PRIME
+        for exponents, value in terms:
             for x, k in zip(point, exponents, strict=True):
-                value = value * pow(x, k, PRIME) % PRIME if k else value
+                value = value * pow(x, k, p) % p if k else value
             # The derivative of a monomial is the monomial times k / x.
             for i, k in enumerate(exponents):
                 if k:
                     row[i] += value * k * inverse[i]
-        rows.append([x % PRIME for x in row])
-    return flint.nmod_mat(rows, PRIME).rank() < n
+        rows.append(row)
+    return LARGE.rank(rows) < n

@@ -6,12 +6,29 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from math import lcm
 from types import MappingProxyType
 from typing import Any
 
 from nag.algebra.number import Irrational, Number, is_zero, number_text
 
 Exponents = tuple[int, ...]
+
+
+# Products of terms beyond which coefficients are multiplied as integers.
+FEW_PRODUCTS = 8
+
+
+def _product(
+    first: Mapping[Exponents, Any], second: Mapping[Exponents, Any]
+) -> dict[Exponents, Any]:
+    terms: dict[Exponents, Any] = {}
+    for e, c in first.items():
+        for f, d in second.items():
+            key = tuple(map(int.__add__, e, f))
+            product = c * d
+            terms[key] = terms[key] + product if key in terms else product
+    return terms
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,15 +109,23 @@ class Polynomial:
         other = self._coerce(other)
         if other is None:
             return NotImplemented
-        terms: dict[Exponents, Number] = {}
-        for e, c in self.terms.items():
-            for f, d in other.terms.items():
-                key = tuple(map(int.__add__, e, f))
-                product = c * d
-                terms[key] = terms[key] + product if key in terms else product
-        return Polynomial(self.n, terms)
+        if len(self.terms) * len(other.terms) > FEW_PRODUCTS and self._whole and other._whole:
+            # Integers are multiplied in a tenth of the time that fractions take.
+            (first, a), (second, b) = self._whole, other._whole
+            sums = _product(first, second)
+            return Polynomial(self.n, {e: Fraction(c, a * b) for e, c in sums.items()})
+        return Polynomial(self.n, _product(self.terms, other.terms))
 
     __rmul__ = __mul__
+
+    @cached_property
+    def _whole(self) -> tuple[dict[Exponents, int], int] | None:
+        """Integers that are the coefficients times their common denominator; None without one."""
+        if not self.exact:
+            return None
+        common = lcm(*(c.denominator for c in self.terms.values()))
+        terms = {e: c.numerator * (common // c.denominator) for e, c in self.terms.items()}
+        return terms, common
 
     def __truediv__(self, other: Number | int) -> Polynomial:
         if is_zero(other):

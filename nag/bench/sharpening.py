@@ -15,7 +15,7 @@ from nag.bench.reference import Reference
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import middle
 from nag.tracking.compiled import compile_rows
-from nag.tracking.ends.newton_steps import newton_steps
+from nag.tracking.ends.newton_steps import affine_points, newton_steps
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
 
@@ -83,7 +83,7 @@ def _curve(
     work(1)
     for steps in range(1, most + 1):
         best, begun = np.inf, time.process_time()
-        while time.process_time() - begun < RUNS:
+        while best == np.inf or time.process_time() - begun < RUNS:
             begin = time.process_time()
             points = work(steps)
             best = min(best, time.process_time() - begin)
@@ -131,21 +131,13 @@ def _word_curve(
     found = []
     for steps in range(1, 6 + words // 2):
         best, begun = np.inf, time.process_time()
-        while time.process_time() - begun < RUNS:
+        while best == np.inf or time.process_time() - begun < RUNS:
             begin = time.process_time()
             points = newton_steps(homotopy, start, words, steps)
             best = min(best, time.process_time() - begin)
-        errors = [reference.fine_error(_affine(p), i) for i, p in enumerate(points)]
+        errors = [reference.fine_error(x, i) for i, x in enumerate(affine_points(points))]
         found.append(Sharpened(steps, best / len(rough), max(errors), float(np.median(errors))))
     return found
-
-
-def _affine(point: np.ndarray) -> list[flint.acb]:
-    """Affine coordinates of a point in sums of doubles."""
-    with flint.ctx.workdps(200):
-        parts = [[sum(map(flint.arb, part)) for part in z] for z in point.tolist()]
-        first, *others = [flint.acb(*z) for z in parts]
-        return [z / first for z in others]
 
 
 def _ball_curve(

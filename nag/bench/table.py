@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from nag.report.table import align
+from nag.text.table import align
 
 if TYPE_CHECKING:
     from nag.bench.decomposition import Decomposed, PeerDecomposed

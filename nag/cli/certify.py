@@ -54,8 +54,9 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: if the export cannot be read, or the certificate cannot be written.
     """
+    from nag.algebra.shown import system_line
     from nag.files.certificate_export import write_certificate
-    from nag.report.table import labelled, printable, system_line
+    from nag.text.table import labelled, printable
 
     found, title = _read(options.export)
     proved = certified(found, options.paths)

@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.bench.peer_points import SCALED
     from nag.bench.speed_accuracy import ratios
     from nag.bench.speed_accuracy_picture import draw_all, draw_case
-    from nag.report.table import align
+    from nag.text.table import align
 
     write_text(options.json, json.dumps(document(charts)) + "\n")
     for path in options.picture or ():

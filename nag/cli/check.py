@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         decided = [(title, _decided(title, rows, progress)) for title, rows in sections]
 
     from nag.report.statements import section, settled, summary
-    from nag.report.table import labelled
+    from nag.text.table import labelled
 
     lines = [line for title, pairs in decided for line in section(title, pairs)]
     pairs = [pair for _, rows in decided for pair in rows]

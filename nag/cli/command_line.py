@@ -142,7 +142,7 @@ def _print(lines: Sequence[str] = ()) -> None:
 
 
 def _complain(message: str) -> None:
-    from nag.report.table import printable
+    from nag.text.table import printable
 
     with contextlib.suppress(OSError, ValueError):
         sys.stderr.write(f"nag: {printable(message)}\n")

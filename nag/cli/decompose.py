@@ -113,7 +113,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
 
     from nag.files.problem import origin
     from nag.report.answer import answer_lines
-    from nag.report.table import labelled
+    from nag.text.table import labelled
 
     decomposition = accounted(decomposition, points)
     failure = _unwritten(decomposition, arguments.json, origin(case, model))

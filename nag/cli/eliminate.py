@@ -103,7 +103,7 @@ def _lines(
     options: argparse.Namespace,
 ) -> list[str]:
     from nag.report.elimination import elimination_lines, essential_text, image_text
-    from nag.report.table import labelled, printable
+    from nag.text.table import labelled, printable
 
     head = [*top, ("onto", _onto_text(found))]
     head += [("image", image_text(found)), ("essential", essential_text(found))]

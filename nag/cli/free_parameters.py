@@ -23,7 +23,8 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.files.case_table import CaseError
     from nag.files.cases import read_case
     from nag.files.freed_parameters import freed_system
-    from nag.report.table import labelled, paths_text, printable
+    from nag.text.table import labelled, printable
+    from nag.witness.shown import paths_text
 
     if is_export(options.case) or options.component is not None:
         raise UsageError("--free: needs a case file, and no --component")

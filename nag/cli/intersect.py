@@ -105,7 +105,7 @@ def _rows(
     complete: bool,
 ) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     """What is written above the table, and below it."""
-    from nag.report.table import paths_line, remarks, title_line
+    from nag.witness.shown import paths_line, remarks, title_line
 
     top = []
     for number, component in zip(options.components, pair, strict=True):
@@ -130,7 +130,8 @@ def _lines(
     result: Decomposition,
     tail: list[tuple[str, str]],
 ) -> list[str]:
-    from nag.report.table import component_table, labelled, printable
+    from nag.text.table import labelled, printable
+    from nag.witness.shown import component_table
 
     width = max(len(label) for label, _ in top + tail)
     table = component_table(result)

@@ -110,7 +110,7 @@ def _lines(
     residual: float,
     answers: tuple[Any, ...],
 ) -> list[str]:
-    from nag.report.table import align, labelled, magnitude, printable
+    from nag.text.table import align, labelled, magnitude, printable
     from nag.witness.membership import Membership
 
     components = found.decomposition.components

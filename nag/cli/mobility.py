@@ -75,7 +75,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         )
     from nag.cli.progress import compilation_notice
     from nag.mechanism.mobility_report import MobilityStatus
-    from nag.report.table import labelled, printable
+    from nag.text.table import labelled, printable
 
     with compilation_notice(sys.stderr, options.quiet):
         report = _report(options, case, made.formulation if made else "auto", at)

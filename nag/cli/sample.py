@@ -100,7 +100,7 @@ def _lines(
     samples: Samples,
     doubt: str,
 ) -> list[str]:
-    from nag.report.table import align, labelled, magnitude, printable
+    from nag.text.table import align, labelled, magnitude, printable
 
     variables = found.decomposition.system.variables
     dots = ["..."] if len(variables) > MOST_COLUMNS else []

@@ -91,7 +91,8 @@ def _document(
 
 def _lines(found: Given, locus: SingularLocus, options: argparse.Namespace) -> list[str]:
     from nag.report.singular import answer_rows, set_lines
-    from nag.report.table import labelled, paths_text, printable
+    from nag.text.table import labelled, printable
+    from nag.witness.shown import paths_text
 
     decomposition = found.decomposition
     top = answer_rows(locus, decomposition)

@@ -43,8 +43,8 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.cli.progress import compilation_notice, progress_line
     from nag.files.problem import system_of
     from nag.report.solutions import solution_lines
-    from nag.report.table import labelled
     from nag.solving.start.target import StartError
+    from nag.text.table import labelled
 
     case, model = read_problem(options)
     system = system_of(case, model)

@@ -22,6 +22,7 @@ import numpy as np
 from nag.algebra.absolute_factors import most_absolute_factors
 from nag.algebra.factoring import factored
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.rational_matrix import rational_matrix
 from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
@@ -243,11 +244,8 @@ def _multidegree(reduction: Reduction, rng: np.random.Generator) -> np.ndarray |
 
 def _common_zero(rows: Sequence[Sequence[Fraction]]) -> list[Fraction] | None:
     """The direction in which all linear forms vanish; None if there are several."""
-    import flint
-
     n = len(rows) + 1
-    entries = [flint.fmpq(c.numerator, c.denominator) for row in rows for c in row]
-    reduced, rank = flint.fmpq_mat(len(rows), n, entries).rref()
+    reduced, rank = rational_matrix(rows).rref()
     if rank < n - 1:
         return None
     pivots = [next(j for j in range(n) if reduced[i, j] != 0) for i in range(rank)]

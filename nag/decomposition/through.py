@@ -9,7 +9,6 @@ import numpy as np
 
 from nag.algebra.number import Number, is_zero
 from nag.witness.expansion import expanded
-from nag.witness.membership import components_through
 from nag.witness.witness import Decomposition
 
 
@@ -41,6 +40,11 @@ def through_points(
         if not all(is_zero(value) for value in decomposition.system(point)):
             found.append(Through(name, solution=False))
             continue
+        if _is_on_the_only_one(everything, point):
+            found.append(Through(name, True, (0,)))
+            continue
+        from nag.witness.membership import components_through
+
         at = np.array([complex(float(x)) for x in point])
         try:
             indices = components_through(
@@ -55,6 +59,16 @@ def through_points(
         except ValueError as error:
             found.append(Through(name, True, doubt=str(error)))
     return found
+
+
+def _is_on_the_only_one(decomposition: Decomposition, point: Sequence[Number]) -> bool:
+    """Whether a zero is on the only component, as there are no others by algebra alone."""
+    return (
+        decomposition.complete
+        and decomposition.paths.tracked == 0
+        and len(decomposition.components) == 1
+        and not any(is_zero(f(point)) for f in decomposition.system.nonzero)
+    )
 
 
 def accounted(decomposition: Decomposition, points: Sequence[Through]) -> Decomposition:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import flint
 import numpy as np
@@ -67,12 +68,14 @@ class Cloud:
     Attributes:
         source: what they are sampled from.
         ambient: the variables in which they are given.
+        interpolated: what was found of the component's images, by variables and degree.
     """
 
     def __init__(
         self, source: Source, ambient: Ambient, rng: np.random.Generator, tracker: Tracker
     ) -> None:
         self.source, self.ambient = source, ambient
+        self.interpolated: dict[tuple[tuple[int, ...], int], Any] = {}
         self._rng, self._tracker = rng, tracker
         self._samples: list[Sample] = []
         self._balls: dict[int, list[list[flint.acb]]] = {}

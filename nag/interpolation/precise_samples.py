@@ -15,6 +15,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
+from nag.algebra.rational_matrix import jacobian_rank
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.digits import number
 from nag.numerics.small_values import ON
@@ -87,7 +88,7 @@ def source_at(
         raise SourceError("the point has irrational coordinates; only rational ones are taken")
     if any(f(point) != 0 for f in system.polynomials):
         raise SourceError("the point does not satisfy the equations")
-    dimension = system.n - jacobian_rank(system, point)
+    dimension = system.n - jacobian_rank(system.polynomials, point)
     if dimension == 0:
         raise SourceError("the point is isolated; there is nothing to eliminate from")
     x = np.array([complex(float(c)) for c in point])
@@ -105,13 +106,6 @@ def _check_rational(system: PolynomialSystem) -> None:
         raise SourceError(
             "the equations have irrational coefficients; only rational ones are taken"
         )
-
-
-def jacobian_rank(system: PolynomialSystem, point: Sequence[Fraction]) -> int:
-    """Rank of the Jacobian at a rational point, exactly."""
-    rows = [[f(point) for f in row] for row in system.jacobian]
-    entries = [flint.fmpq(x.numerator, x.denominator) for row in rows for x in row]
-    return int(flint.fmpq_mat(len(rows), system.n, entries).rank()) if rows else 0
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from math import prod
 
 import flint
@@ -14,6 +13,7 @@ from nag.algebra.groebner import Ideal, UnfinishedBasis, cleared, ideal_of
 from nag.algebra.multipliers import multipliers
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_function import FunctionField, RationalFunction
+from nag.algebra.rational_matrix import jacobian_rank
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.point_cloud import Cloud
 from nag.numerics.digits import number
@@ -72,7 +72,7 @@ def substitution(
         return None
     full = [image(point) for image in ambient.images]
     base = [full[i] for i in coordinates]
-    if any(f(base) != 0 for f in generators) or _gradient_rank(generators, base) != k - d:
+    if any(f(base) != 0 for f in generators) or jacobian_rank(generators, base) != k - d:
         return None
     for m in maps:
         below = m.denominator(base)
@@ -86,14 +86,6 @@ def substitution(
         values[m.variable] = above / below
     found = Substitution(divisors, tuple(values[i] for i in range(ambient.system.n)))
     return found if all(map(found.proves, ambient.system.polynomials)) else None
-
-
-def _gradient_rank(polynomials: Sequence[Polynomial], point: Sequence[Fraction]) -> int:
-    if not polynomials:
-        return 0
-    rows = [[f.derivative(i)(point) for i in range(f.n)] for f in polynomials]
-    entries = [flint.fmpq(x.numerator, x.denominator) for row in rows for x in row]
-    return int(flint.fmpq_mat(len(rows), len(point), entries).rank())
 
 
 def equations_ideal(cloud: Cloud) -> Ideal | None:

@@ -93,12 +93,19 @@ def columns_at(
 
 
 def next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
-    """The polynomials of one degree more.
+    """The polynomials of one degree more; the cloud keeps them.
 
     Raises:
         TooManyMonomialsError: if there are too many monomials.
         InterpolationError: if coefficients are not rational.
     """
+    key = known.coordinates, known.degree
+    if key not in cloud.interpolated:
+        cloud.interpolated[key] = _next_degree(cloud, known)
+    return cloud.interpolated[key]
+
+
+def _next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
     k, degree = len(known.coordinates), known.degree + 1
     leading = [leading_monomial(f) for f in known.basis]
     total = len(known.standard) + comb(k + degree - 1, degree)

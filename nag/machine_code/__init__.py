@@ -24,11 +24,12 @@ Statements
     ``pass``, ``return``; calls. None that nothing leads to.
 Expressions
     Numbers and names; fields of records; ``.real, .imag, .conjugate()`` of complex numbers;
-    ``a[k]`` with a whole number, in a tuple a constant; tuples; ``+ - * /`` of numbers and of
-    lanes, ``// %`` of whole numbers, ``<< >>`` by a constant, ``** 2``, ``**`` of a real number and
-    a double; comparisons of numbers, one after the other until one does not hold; ``in`` a
-    tuple that is written out; ``not``, and ``and, or`` of conditions (where a number is wanted, of
-    ``bool`` alone); ``.. if .. else ..``; calls of such functions and of `operations.OPERATIONS`.
+    ``a[k]`` with a whole number, in a tuple a constant, there ``a[i:j]`` as well; tuples, and ``+``
+    of two; ``+ - * /`` of numbers and of lanes, ``// %`` of whole numbers, ``<< >>`` by a constant,
+    ``** 2``, ``**`` of a real number and a double; comparisons of numbers, one after the other
+    until one does not hold; ``in`` a tuple that is written out; ``not``, and ``and, or`` of
+    conditions (where a number is wanted, of ``bool`` alone); ``.. if .. else ..``; calls of such
+    functions and of `operations.OPERATIONS`.
 Errors
     Dividing a whole number by zero raises `ZeroDivisionError`. Nothing else raises: divisions of
     doubles by zero, roots and powers without a real value give an infinity or NaN; whole numbers

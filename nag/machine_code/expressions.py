@@ -206,21 +206,41 @@ class Expressions:
         if isinstance(node.value, ast.Name) and node.value.id in self.variables:
             kind = self.variables[node.value.id][0]
             if isinstance(kind, Tuple):
-                if not isinstance(node.slice, ast.Constant):
-                    raise KernelError("the index of a tuple must be a constant")
-                return self._item(self._value(node.value), node.slice.value)
+                return self._part(self._value(node.value), node.slice)
         return self._load(*self._place(node))
 
-    def _of_Tuple(self, node: ast.Tuple) -> Value:
-        items = [self._value(item) for item in node.elts]
+    def _part(self, value: Value, node: ast.expr) -> Value:
+        """An item of a tuple, or several that follow each other."""
+        bounds = [node.lower, node.upper, node.step] if isinstance(node, ast.Slice) else [node]
+        if not all(part is None or isinstance(part, ast.Constant) for part in bounds):
+            raise KernelError("the index of a tuple must be a constant")
+        first, *others = [part and part.value for part in bounds]
+        if not others:
+            return self._item(value, first)
+        if not all(k is None or type(k) is int for k in (first, *others)):
+            raise KernelError("a tuple is cut at whole numbers")
+        return self._tuple(self._items(value)[slice(first, *others)])
+
+    def _items(self, value: Value) -> list[Value]:
+        return [self._item(value, k) for k in range(len(value.type.items))]
+
+    def _tuple(self, items: list[Value]) -> Value:
         kind = several(tuple(item.type for item in items))
         code = ir.Constant(llvm_type(kind), ir.Undefined)
         for k, item in enumerate(items):
             code = self.builder.insert_value(code, item.code, k)
         return Value(kind, code)
 
+    def _of_Tuple(self, node: ast.Tuple) -> Value:
+        return self._tuple([self._value(item) for item in node.elts])
+
     def _of_BinOp(self, node: ast.BinOp) -> Value:
-        return self._operated(node, self._value(node.left), self._value(node.right))
+        left, right = self._value(node.left), self._value(node.right)
+        if isinstance(node.op, ast.Add) and isinstance(left.type, Tuple):
+            if not isinstance(right.type, Tuple):
+                raise KernelError(f"no Add of {left.type} and {right.type}")
+            return self._tuple([*self._items(left), *self._items(right)])
+        return self._operated(node, left, right)
 
     def _operated(self, node: ast.BinOp | ast.AugAssign, left: Value, right: Value) -> Value:
         if operators.divides_whole_numbers(node.op, left, right):

@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 Place = tuple[Number, ...]
 Bar = tuple[str, str]
 
-# Ranks of general placements are found modulo this prime, at random places.
-PRIME = 2**61 - 1
-
 
 class FrameworkError(ValueError):
     """A framework that makes no sense.
@@ -136,7 +133,9 @@ class Framework:
 
             rank = len(row_echelon(self._rigidity_matrix(self.placement))[0])
         else:
-            rank = _rational_rank(self._rigidity_matrix(self.placement))
+            from nag.algebra.rational_matrix import rank as rational_rank
+
+            rank = rational_rank(self._rigidity_matrix(self.placement))
         return self.dimension * len(self.points) - self.motions - rank
 
     def generic_motions(self) -> int:
@@ -146,9 +145,13 @@ class Framework:
         """
         import random
 
+        from nag.algebra.prime_field import LARGE
+
         draw = random.Random(0)
-        places = [[draw.randrange(PRIME) for _ in range(self.dimension)] for _ in self.points]
-        rank = _rank_modulo(self._rigidity_matrix(places), PRIME)
+        places = [
+            [draw.randrange(LARGE.modulus) for _ in range(self.dimension)] for _ in self.points
+        ]
+        rank = LARGE.rank(self._rigidity_matrix(places))
         return self.dimension * len(self.points) - self.motions - rank
 
     def _rigidity_matrix(self, places: Sequence[Sequence[Any]]) -> list[list[Any]]:
@@ -210,48 +213,3 @@ def framework_of_graph(graph: networkx.Graph, dimension: int = 2) -> Framework:
         )
     exact = {name: tuple(parse_number(x) for x in place) for name, place in places.items()}
     return placed_framework(dimension, exact, bars)
-
-
-def _rational_rank(matrix: list[list[Fraction]]) -> int:
-    """The rank over the rationals, in integers without fractions (Bareiss)."""
-    from math import lcm
-
-    rows = []
-    for row in matrix:
-        common = lcm(*(Fraction(x).denominator for x in row))
-        rows.append([int(x * common) for x in row])
-    rank, previous = 0, 1
-    for column in range(len(rows[0]) if rows else 0):
-        found = next((i for i in range(rank, len(rows)) if rows[i][column]), None)
-        if found is None:
-            continue
-        rows[rank], rows[found] = rows[found], rows[rank]
-        pivot = rows[rank]
-        for i in range(rank + 1, len(rows)):
-            factor = rows[i][column]
-            rows[i] = [
-                (pivot[column] * x - factor * y) // previous
-                for x, y in zip(rows[i], pivot, strict=True)
-            ]
-        previous = pivot[column]
-        rank += 1
-    return rank
-
-
-def _rank_modulo(matrix: list[list[int]], prime: int) -> int:
-    rows = [[x % prime for x in row] for row in matrix]
-    rank = 0
-    for column in range(len(rows[0]) if rows else 0):
-        found = next((i for i in range(rank, len(rows)) if rows[i][column]), None)
-        if found is None:
-            continue
-        rows[rank], rows[found] = rows[found], rows[rank]
-        inverse = pow(rows[rank][column], -1, prime)
-        for i in range(rank + 1, len(rows)):
-            factor = rows[i][column] * inverse % prime
-            if factor:
-                rows[i] = [
-                    (x - factor * y) % prime for x, y in zip(rows[i], rows[rank], strict=True)
-                ]
-        rank += 1
-    return rank

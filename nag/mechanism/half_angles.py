@@ -27,8 +27,15 @@ from nag.mechanism.configuration import (
 )
 from nag.mechanism.euler import slide_directions
 from nag.mechanism.joint_factors import Factor
-from nag.mechanism.joint_products import displacement, joint_elements, moved, opposite
-from nag.mechanism.loop_product import Closure, Element, closures
+from nag.mechanism.loop_product import (
+    Closure,
+    Element,
+    closures,
+    displacement,
+    joint_elements,
+    moved,
+    opposite,
+)
 from nag.mechanism.loops import Loop, LoopStructure, loop_bases
 from nag.mechanism.path_estimates import intersection_number
 from nag.mechanism.quaternion import conjugate, multiply, norm_squared, scale

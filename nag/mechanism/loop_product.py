@@ -1,4 +1,4 @@
-"""The closure of one loop: the product of its factors is a real number.
+"""Products of joints along loops and paths, and the closure of a loop: a product that is real.
 
 Some factors are eliminated linearly. With B their product and A the product of the others, the loop
 closes when conj(A) = B up to a real factor. B ranges over the part of norm not zero, on Study's
@@ -15,7 +15,7 @@ coordinates. What is eliminated follows linearly: the matrix (w_ij) has rank one
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -24,8 +24,20 @@ from typing import Any
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.mechanism.axes import dot
-from nag.mechanism.joint_factors import UNIT, Factor
-from nag.mechanism.quaternion import DualQuaternion, dual_conjugate, dual_multiply
+from nag.mechanism.graph import Joint
+from nag.mechanism.joint_factors import (
+    UNIT,
+    Factor,
+    factors_of,
+    mode_constant,
+    reversed_generators,
+)
+from nag.mechanism.quaternion import (
+    DualQuaternion,
+    dual_conjugate,
+    dual_multiply,
+    translation,
+)
 from nag.mechanism.row_reduction import left_inverse, null_space, row_echelon
 
 
@@ -194,3 +206,49 @@ def dot4(p: Sequence[Number], q: Sequence[Number]) -> Number:
 
 def _combine(row: Sequence[Number], flat: Sequence[Any]) -> Any:
     return sum((f * c for c, f in zip(row, flat, strict=True)), Fraction(0))
+
+
+def joint_elements(joint: Joint, mode: int, forward: bool) -> tuple[Element, ...]:
+    """The elements of a joint in the direction from its first body to its second.
+
+    ``forward`` is whether its coordinates count in that direction.
+    """
+    return tuple(_joint_elements(joint, mode, forward))
+
+
+def _joint_elements(joint: Joint, mode: int, forward: bool) -> Iterator[Element]:
+    for factor in factors_of(joint):
+        generators = factor.generators
+        yield Element(factor, generators if forward else reversed_generators(generators))
+    if mode:
+        yield Element(None, (mode_constant(joint, mode),))
+
+
+def opposite(elements: Sequence[Element]) -> list[Element]:
+    """The elements of the opposite displacement."""
+    return [Element(e.factor, reversed_generators(e.generators)) for e in reversed(elements)]
+
+
+def displacement(
+    elements: Sequence[Element],
+    values: Mapping[Factor, Sequence[Any]],
+    convert: Callable[[Number], Any],
+) -> DualQuaternion:
+    """The product of the elements, of any length."""
+    result: DualQuaternion | None = None
+    for element in elements:
+        value = combination(element, values.__getitem__, convert)
+        result = value if result is None else dual_multiply(result, value)
+    if result is None:
+        raise ValueError("a product of nothing")
+    return result
+
+
+def moved(motion: DualQuaternion, place: Sequence[Any]) -> tuple[Any, ...]:
+    """Where a displacement takes a point."""
+    zero = 0 * place[0]
+    one = zero + 1
+    # A translation by the place, then the displacement: the origin goes where the place goes.
+    at = ((one, zero, zero, zero), (zero, *(x / 2 for x in place)))
+    numerators, squared = translation(dual_multiply(motion, at))
+    return tuple(x / squared for x in numerators)

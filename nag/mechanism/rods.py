@@ -29,8 +29,13 @@ from nag.mechanism.configuration import (
 from nag.mechanism.euler import slide_directions
 from nag.mechanism.graph import Joint
 from nag.mechanism.joint_factors import free_factor
-from nag.mechanism.joint_products import displacement, joint_elements, moved, opposite
-from nag.mechanism.loop_product import Element
+from nag.mechanism.loop_product import (
+    Element,
+    displacement,
+    joint_elements,
+    moved,
+    opposite,
+)
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import (
     DualQuaternion,

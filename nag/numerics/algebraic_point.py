@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import Any
 
 import flint
 
 from nag.algebra.number import Irrational, Number
-from nag.numerics.exact_system import ExactSystem, modular
+from nag.algebra.prime_field import PrimeField
+from nag.numerics.exact_system import ExactSystem
 from nag.numerics.power_series import Terms
 
 # Primes below this are tried, the largest first; half of them lack any one square root.
@@ -56,7 +56,7 @@ class _Images:
         p = self.modulus
         if not isinstance(c, Irrational):
             try:
-                return modular(Fraction(c), p)
+                return PrimeField(p).of(c)
             except ZeroDivisionError as error:
                 raise _OtherPrime(str(error)) from None
         if c.operation == "sqrt":

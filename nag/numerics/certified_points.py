@@ -19,6 +19,7 @@ from scipy.linalg import qr
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.rational_matrix import jacobian_rank
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import fine_box, overlaps
 from nag.numerics.close_zeros import close_zeros, matched
@@ -358,7 +359,8 @@ def _singular(
     if end.rational is not None and not len(slices):
         if any(f(end.rational) for f in equations):
             return False
-        if _rank(equations, end.rational) == len(point):
+        exact = all(f.exact for f in equations)
+        if exact and jacobian_rank(equations, end.rational) == len(point):
             return True
         enter_box(boxes, i, _rational_box(end.rational))
         proofs[i], result.digits[i], result.real[i] = Proof.EXACT, np.inf, True
@@ -374,16 +376,6 @@ def _singular(
     # Of the deflated equations the zero is the only one in its box, of the given ones it need not.
     enter_box(boxes, i, FineBox(box.centre[:n], (flint.arb(0),) * n, box.inner[:n]))
     return False
-
-
-def _rank(equations: Sequence[Polynomial], point: Sequence[Fraction]) -> int:
-    """The rank of the Jacobian at a rational point, exactly; 0 where coefficients are not."""
-    if not all(f.exact for f in equations):
-        return 0
-    rows = [[f.derivative(j)(point) for j in range(len(point))] for f in equations]
-    return flint.fmpq_mat(
-        [[flint.fmpq(c.numerator, c.denominator) for c in map(Fraction, row)] for row in rows]
-    ).rank()
 
 
 def _rational_box(point: Sequence[Fraction]) -> FineBox:

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from nag.numerics.monomial_products import MonomialProducts
 from nag.numerics.power_series import Series, SeriesRing, Terms, product_of
 
 
@@ -22,9 +23,9 @@ class Composition:
 
     Attributes:
         ring: of the series.
-        products: pairs of the factors' places: the series come first, then the products.
-        matrix: coefficients of the polynomials, those of one first, then as above.
-        parts: the terms of degree 0, 1, .. of the series and the products.
+        products: pairs of the factors' places: first comes one, then the series, then the products.
+        matrix: coefficients of the polynomials, in that order.
+        parts: the terms of degree 0, 1, .. of each, in that order.
     """
 
     ring: SeriesRing
@@ -35,40 +36,34 @@ class Composition:
     @classmethod
     def of(cls, rows: Sequence[Terms], n: int, ring: SeriesRing) -> Composition:
         """Polynomials in ``n`` variables, for series of which nothing is known yet."""
-        made = _Products(n, {}, [])
-        exponents = list({e: None for row in rows for e, _ in row if any(e)})
-        places = {e: 1 + made.place(e) for e in exponents}
-        width = 1 + n + len(made.products)
+        made = MonomialProducts(n)
+        places = {e: made.place(e) for row in rows for e, _ in row}
+        width = 1 + n + len(made.pairs)
         matrix: list[list[Any]] = []
         for row in rows:
             line: list[Any] = [0] * width
             for e, c in row:
-                k = places.get(e, 0)
-                line[k] = line[k] + c
+                line[places[e]] = line[places[e]] + c
             matrix.append(line)
-        return cls(
-            ring,
-            tuple(made.products),
-            matrix,
-            [[] for _ in range(width - 1)],
-        )
+        return cls(ring, tuple(made.pairs), matrix, [[] for _ in range(width)])
 
     def extended(self, series: Sequence[Series]) -> list[Series]:
         """The polynomials' terms of the next degree, when the series have these terms of it."""
-        n, degree = len(series), len(self.parts[0]) if self.parts else 0
-        for part, terms in zip(self.parts, series, strict=False):
-            part.append(terms)
-        for part, (i, j) in zip(self.parts[n:], self.products, strict=True):
-            part.append(self._product(self.parts[i], self.parts[j], degree))
+        degree = len(self.parts[0])
         one: Series = {} if degree else {0: 1}
-        terms = [one, *(part[degree] for part in self.parts)]
+        for part, terms in zip(self.parts, [one, *series], strict=False):
+            part.append(terms)
+        for part, (i, j) in zip(self.parts[1 + len(series) :], self.products, strict=True):
+            part.append(self._product(self.parts[i], self.parts[j], degree))
+        terms = [part[degree] for part in self.parts]
         kept = [k for k, series in enumerate(terms) if series]
         matrix = [[row[k] for k in kept] for row in self.matrix]
         return product_of(matrix, [terms[k] for k in kept], self.ring.modulus)
 
     def lower(self, steps: Mapping[int, Series]) -> None:
         """Subtract terms of the last degree, which is not 0, from those of some series."""
-        found = [steps.get(i, {}) for i in range(len(self.parts) - len(self.products))]
+        series = len(self.parts) - len(self.products) - 1
+        found = [{}, *(steps.get(i, {}) for i in range(series))]
         for i, j in self.products:
             total: Series = {}
             for step, other in ((found[i], j), (found[j], i)):
@@ -96,27 +91,3 @@ class Composition:
                         result[key] = x * y
         modulus = self.ring.modulus
         return {k: c % modulus for k, c in result.items()} if modulus else result
-
-
-@dataclass(frozen=True, eq=False)
-class _Products:
-    """Monomials as products of variables and earlier ones."""
-
-    n: int
-    known: dict[tuple[int, ...], int]
-    products: list[tuple[int, int]]
-
-    def place(self, e: tuple[int, ...]) -> int:
-        if e not in self.known:
-            self.known[e] = self._made(e)
-        return self.known[e]
-
-    def _made(self, e: tuple[int, ...]) -> int:
-        last = max(i for i, k in enumerate(e) if k)
-        if sum(e) == 1:
-            return last
-        first, rest = e[:last], (0,) * (len(e) - last)
-        half = 0 if any(first) else e[last] // 2
-        parts = (*first, half, *rest[1:]), (*(0,) * last, e[last] - half, *rest[1:])
-        self.products.append((self.place(parts[0]), self.place(parts[1])))
-        return self.n + len(self.products) - 1

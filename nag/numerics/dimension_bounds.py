@@ -17,6 +17,7 @@ from nag.algebra.elimination import Elimination
 from nag.algebra.factoring import common_factor
 from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.prime_field import PrimeField
 from nag.numerics.algebraic_point import prime_images
 from nag.numerics.curve_search import CurveSearch
 from nag.numerics.curves import curve_through
@@ -29,7 +30,7 @@ from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import LocalDimension
 from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, known_digits
 from nag.numerics.located_zero import Zero, is_exact, located_zero
-from nag.numerics.null_space import Field, PrimeField, UnclearRank
+from nag.numerics.null_space import Field, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, Terms
 from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 

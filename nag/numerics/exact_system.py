@@ -14,6 +14,7 @@ import numpy as np
 
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.prime_field import PrimeField
 from nag.numerics.digits import LOG10_2, log_norm, number
 from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Terms
@@ -88,13 +89,13 @@ class ExactSystem:
                 return PointValues.of(self.at(digits), self.n)
             return PointValues.of(self.at(digits)[-1:], self.n, above=self._above.values_at(digits))
 
-    def modulo(self, p: int) -> list[Terms]:
+    def modulo(self, field: PrimeField) -> list[Terms]:
         """The rows modulo a prime.
 
         Raises:
             ZeroDivisionError: if it divides a denominator.
         """
-        return [[(e, modular(c, p)) for e, c in row] for row in self.rows]
+        return [[(e, field.of(c)) for e, c in row] for row in self.rows]
 
     @property
     def rational(self) -> bool:
@@ -160,13 +161,6 @@ class ExactSystem:
 
 def _odd_bits(k: int) -> int:
     return k.bit_length() - (k & -k).bit_length()
-
-
-def modular(c: Fraction, p: int) -> int:
-    """A rational number modulo a prime; `ZeroDivisionError` if that divides its denominator."""
-    if c.denominator % p == 0:
-        raise ZeroDivisionError(f"{p} divides a denominator")
-    return c.numerator * pow(c.denominator, -1, p) % p
 
 
 def value(row: Terms, y: Sequence[Any]) -> Any:

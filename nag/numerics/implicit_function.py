@@ -104,7 +104,10 @@ def eliminate(
     outer = [[gradients[i][j] for j in columns] for i in others]
     composition = Composition.of([*chosen, *rest_rows], len(centre), ring)
     for degree in range(ring.order + 1):
-        known = [{k: c for k, c in image.items() if ring.degree(k) == degree} for image in images]
+        # Terms of degree 0 and 1 are there before; others are made by the steps of their degree.
+        known: list[Series] = [{} for _ in images]
+        if degree <= 1:
+            known = [{k: c for k, c in s.items() if ring.degree(k) == degree} for s in images]
         values = composition.extended(known)
         for series, value in zip(rest, values[len(chosen) :], strict=True):
             series.update(value)

@@ -11,6 +11,7 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.prime_field import PrimeField
 from nag.numerics.clusters import close_zeros
 from nag.numerics.curve_search import CurveSearch
 from nag.numerics.curves import curve_through, is_exact_zero
@@ -18,9 +19,9 @@ from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
 from nag.numerics.descent import work
 from nag.numerics.digits import LOG10_2, doubles, log_norm, middle, point, working
 from nag.numerics.dual_space import DualSpace, dual_space
-from nag.numerics.exact_system import ExactSystem, modular
+from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
-from nag.numerics.null_space import Digits, Field, PrimeField, UnclearRank
+from nag.numerics.null_space import Digits, Field, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.rational_point import rational_point
 from nag.numerics.sharpening import DIGITS, ZERO, sharpen
@@ -30,7 +31,7 @@ from nag.numerics.singular_point import Place, SingularEnd
 REACHES = (1.0, 0.0, 2.0, 3.5)
 # Nothing is looked for further away than this.
 FURTHEST = -1.3
-PRIMES = (4611686018427387847, 4611686018427387817)
+FIELDS = PrimeField(4611686018427387847), PrimeField(4611686018427387817)
 # What is zero and what is not in 150 digits, where errors have grown through some eliminations.
 NUMBERS = Digits(DIGITS, -90.0, -45.0)
 # Degrees of the dual space from which on curves through the point are looked for, if it has not
@@ -203,8 +204,9 @@ def _by_dual_space(
         raise UnclearRank("the equations vanish to all digits, but not at the rational point there")
     search = CurveSearch(SEARCHES, lambda attempts: curve_through(system, found, rng, attempts))
     spaces: list[DualSpace] = []
-    for field in [PrimeField(p) for p in PRIMES] if exact is not None else [NUMBERS]:
-        centre = found.point if exact is None else [modular(q, field.modulus) for q in exact]
+    for field in FIELDS if exact is not None else (NUMBERS,):
+        known = exact is not None and isinstance(field, PrimeField)
+        centre = list(map(field.of, exact)) if known else found.point
         try:
             spaces.append(_dual_space(system, field, centre, found, search.succeeds, patience))
         except _TooLarge:
@@ -235,7 +237,7 @@ def _dual_space(
     stop: Callable[[Sequence[int]], bool],
     patience: float,
 ) -> DualSpace:
-    rows = system.modulo(field.modulus) if field.modulus else system.at(DIGITS)
+    rows = system.modulo(field) if isinstance(field, PrimeField) else system.at(DIGITS)
     first = found.rounds[0]
 
     def series(order: int) -> tuple[SeriesRing, list[Series]]:

@@ -1,10 +1,9 @@
-"""Null spaces in high precision and modulo a prime, behind one interface."""
+"""Null spaces in high precision, behind the interface that a prime field has as well."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain
 from typing import Any, Protocol
 
 import flint
@@ -24,7 +23,10 @@ class UnclearRank(Exception):
 
 
 class Field(Protocol):
-    """What a computation over a field needs beside ``+`` and ``*``."""
+    """What a computation over a field needs beside ``+`` and ``*``.
+
+    `Digits` and `nag.algebra.prime_field.PrimeField` have it.
+    """
 
     modulus: int
 
@@ -44,35 +46,6 @@ class Field(Protocol):
         These entries, of which the indices are returned too, are in the first ``columns`` columns.
         """
         ...
-
-
-@dataclass(frozen=True)
-class PrimeField:
-    """Arithmetic modulo a prime."""
-
-    modulus: int
-
-    def is_zero(self, a: int) -> bool:
-        return a % self.modulus == 0
-
-    def _matrix(self, rows: Rows) -> flint.nmod_mat:
-        entries = list(chain.from_iterable(rows))
-        return flint.nmod_mat(len(rows), len(rows[0]), entries, self.modulus)
-
-    def product(self, left: Rows, right: Rows) -> list[list[int]]:
-        found = self._matrix(left) * self._matrix(right)
-        return [list(map(int, row)) for row in found.tolist()]
-
-    def reduced(self, rows: Rows, columns: int) -> tuple[list[list[int]], list[int]]:
-        found, rank = self._matrix(rows).rref()
-        table = [list(map(int, row)) for row in found.tolist()][:rank]
-        return table, [next(j for j, c in enumerate(row) if c) for row in table]
-
-    def null_space(self, rows: Rows, columns: int) -> list[list[int]]:
-        if not rows:
-            return [[int(i == j) for j in range(columns)] for i in range(columns)]
-        basis, nullity = self._matrix(rows).nullspace()
-        return [[int(basis[i, j]) for i in range(columns)] for j in range(nullity)]
 
 
 @dataclass(frozen=True)

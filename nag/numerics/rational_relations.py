@@ -7,7 +7,7 @@ its digits tell, and the radii say how far that is.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import log10
 
@@ -27,14 +27,19 @@ class TooFewDigitsError(ArithmeticError):
 class Echelon:
     """Independent columns of real balls in echelon form, pivots chosen among the rows.
 
+    The columns are a lower triangular matrix, but for the order of its rows, times an upper one.
+
     Attributes:
         digits: of the numbers in the columns.
     """
 
     def __init__(self, rows: int, digits: int) -> None:
         self.digits = digits
-        self._order = list(range(rows))
-        self._factors: list[list[flint.arb]] = []
+        self._rows = rows
+        self._pivots: list[int] = []
+        self._lower = flint.arb_mat(rows, rows)
+        # The inverse of the rows of pivots, in their order.
+        self._inverse = flint.arb_mat(rows, rows)
         self._upper: list[list[flint.arb]] = []
 
     def __len__(self) -> int:
@@ -43,9 +48,9 @@ class Echelon:
 
     def copy(self) -> Echelon:
         """The same columns; adding to the copy leaves these as they are."""
-        other = Echelon(0, self.digits)
-        other._order = list(self._order)
-        other._factors = [list(f) for f in self._factors]
+        other = Echelon(self._rows, self.digits)
+        other._pivots = list(self._pivots)
+        other._lower, other._inverse = flint.arb_mat(self._lower), flint.arb_mat(self._inverse)
         other._upper = list(self._upper)
         return other
 
@@ -57,9 +62,9 @@ class Echelon:
                 digits do not tell whether it is dependent.
         """
         tops, rest = self._reduced(column)
-        pivot = max(range(len(rest)), key=lambda i: _lower(rest[i]), default=None)
+        pivot = max(rest, key=lambda i: rest[i].abs_lower(), default=None)
         if pivot is None or rest[pivot].contains(0):
-            self._check(column, rest)
+            self._check(column, rest.values())
             return self._coefficients(tops)
         self._keep(tops, rest, pivot)
         return None
@@ -71,30 +76,34 @@ class Echelon:
             TooFewDigitsError: as `add`.
         """
         tops, rest = self._reduced(column)
-        if not all(x.contains(0) for x in rest):
+        if not all(x.contains(0) for x in rest.values()):
             return None
-        self._check(column, rest)
+        self._check(column, rest.values())
         return self._coefficients(tops)
 
-    def _reduced(self, column: Sequence[flint.arb]) -> tuple[list[flint.arb], list[flint.arb]]:
-        rest, tops = [column[i] for i in self._order], []
-        for factors in self._factors:
-            top, *rest = rest
-            tops.append(top)
-            rest = [x - f * top for x, f in zip(rest, factors, strict=True)]
-        return tops, rest
+    def _reduced(self, column: Sequence[flint.arb]) -> tuple[list[flint.arb], dict[int, flint.arb]]:
+        """A column's part of the upper matrix, and what is left of it in the other rows."""
+        known = [column[i] for i in self._pivots]
+        padded = [*known, *[0] * (self._rows - len(known))]
+        tops = self._inverse * flint.arb_mat(self._rows, 1, padded)
+        rest = (flint.arb_mat(self._rows, 1, column) - self._lower * tops).entries()
+        free = set(range(self._rows)).difference(self._pivots)
+        return tops.entries()[: len(known)], {i: rest[i] for i in sorted(free)}
 
-    def _keep(self, tops: list[flint.arb], rest: list[flint.arb], pivot: int) -> None:
-        r = len(self._upper)
-        self._order[r], self._order[r + pivot] = self._order[r + pivot], self._order[r]
-        for k, factors in enumerate(self._factors):
-            i = r - k - 1
-            factors[i], factors[i + pivot] = factors[i + pivot], factors[i]
-        rest[0], rest[pivot] = rest[pivot], rest[0]
-        self._factors.append([x / rest[0] for x in rest[1:]])
-        self._upper.append([*tops, rest[0]])
+    def _keep(self, tops: list[flint.arb], rest: dict[int, flint.arb], pivot: int) -> None:
+        r = len(self._pivots)
+        before = flint.arb_mat(1, self._rows, [self._lower[pivot, k] for k in range(self._rows)])
+        row = (before * self._inverse).entries()
+        for k in range(r):
+            self._inverse[r, k] = -row[k]
+        self._inverse[r, r] = flint.arb(1)
+        for i, x in rest.items():
+            self._lower[i, r] = x / rest[pivot]
+        self._lower[pivot, r] = flint.arb(1)
+        self._pivots.append(pivot)
+        self._upper.append([*tops, rest[pivot]])
 
-    def _check(self, column: Sequence[flint.arb], rest: Sequence[flint.arb]) -> None:
+    def _check(self, column: Sequence[flint.arb], rest: Iterable[flint.arb]) -> None:
         size = max((float(abs(x).mid()) for x in column), default=0.0)
         limit = flint.arb(10) ** int(-SHARP * self.digits) * (1 + size)
         if any(x.rad() > limit for x in rest):
@@ -136,7 +145,3 @@ def _fraction(x: flint.arb) -> Fraction:
 
 def _digits(x: Fraction) -> float:
     return (x.denominator.bit_length() - x.numerator.bit_length()) * LOG10_2
-
-
-def _lower(x: flint.arb) -> flint.arb:
-    return x.abs_lower()

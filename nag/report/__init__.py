@@ -1,5 +1,5 @@
 """Results as text: pure functions from results to lines.
 
-Read `table` first (rows, columns, remarks), then `answer` and `solutions`, each one command's text;
-`agreement` compares an answer with what a case says is known.
+Read `answer` and `solutions` first, each one command's text, on `nag.witness.shown` (the table of
+components); `agreement` compares an answer with what a case says is known.
 """

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
+from nag.algebra.shown import system_line
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
@@ -15,17 +16,10 @@ from nag.files.problem import points_of, system_of
 from nag.report.agreement import agreement_text, compare, in_words, kinds
 from nag.report.assemblies import assembly_rows, parts_rows, rank_rows
 from nag.report.formulations import alternative_lines, joint_lines, parts_lines, table_lines
-from nag.report.table import (
-    component_table,
-    labelled,
-    paths_line,
-    printable,
-    remarks,
-    system_line,
-    title_line,
-)
 from nag.report.variables import body_rows, eliminated_lines
+from nag.text.table import labelled, printable
 from nag.witness.expansion import expanded
+from nag.witness.shown import component_table, paths_line, remarks, title_line
 from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:

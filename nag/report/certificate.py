@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from nag.numerics.certified_points import CertifiedPoints, Proof, zero_digits
-from nag.report.table import magnitude, printable
 from nag.solving.certificate import SolutionsCertificate
 from nag.solving.certified_paths import ProvedPaths
+from nag.text.table import magnitude, printable
 from nag.witness.certificate import DecompositionCertificate
 from nag.witness.certified_loops import ProvedMonodromy
 

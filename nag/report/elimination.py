@@ -8,7 +8,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.image_ideal import ImageIdeal
 from nag.interpolation.vanishing import primitive
-from nag.report.table import labelled
+from nag.text.table import labelled
 
 PROOFS = {
     "substitution": (

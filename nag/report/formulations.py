@@ -7,7 +7,7 @@ from math import prod
 from typing import TYPE_CHECKING
 
 from nag.mechanism.joint_types import JOINT_TYPES
-from nag.report.table import align, printable
+from nag.text.table import align, printable
 
 if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from nag.mechanism.joint_types import JOINT_TYPES
 from nag.report.agreement import in_words, kinds
-from nag.report.table import align, labelled, printable, remarks
+from nag.text.table import align, labelled, printable
+from nag.witness.shown import remarks
 from nag.witness.witness import PathCounts
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from nag.check.statement import Kind, Statement, Verdict
-from nag.report.table import labelled, printable
+from nag.text.table import labelled, printable
 
 Decided = tuple[Statement, Verdict]
 ERRATA = "cases/ERRATA.md"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
 from nag.report.agreement import in_words, kinds
-from nag.report.table import align, labelled, printable
+from nag.text.table import align, labelled, printable
 
 if TYPE_CHECKING:
     from nag.decomposition.sweep import Swept

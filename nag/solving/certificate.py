@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from nag.algebra.lowest_degrees import of_lowest_degrees
+from nag.algebra.combinations import of_lowest_degrees
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.box_relations import overlaps, real_zeros

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.combinations import of_lowest_degrees
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import sharp_zero, vanish_in_balls
-from nag.algebra.lowest_degrees import of_lowest_degrees
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.small_values import NONZERO

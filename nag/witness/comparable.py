@@ -7,12 +7,14 @@ so that nothing is rounded.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from nag.witness.close_points import Fine
 from nag.witness.fibres import Fibre, Moved, Tracker, move
+from nag.witness.slices import evened, unit_complex
 
 
 def coordinate_sizes(fibre: Fibre) -> np.ndarray:
@@ -20,15 +22,32 @@ def coordinate_sizes(fibre: Fibre) -> np.ndarray:
     return np.ldexp(1.0, np.concatenate([[0], fibre.cut.powers[: fibre.cut.n]]))
 
 
-def move_comparable(
+def move_together(
+    fibres: Sequence[Fibre],
+    source: np.ndarray,
+    target: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    endgame: bool = True,
+) -> Iterator[tuple[Fibre, Moved]]:
+    """Each fibre of a set, of which there are some, and where it is moved when it is asked for.
+
+    The slice moves from the rows ``source`` to the rows ``target``, by a ``gamma`` from ``rng``, in
+    coordinates in which those of the set are comparable.
+    """
+    gamma, sizes = complex(unit_complex(rng)), coordinate_sizes(fibres[0])
+    rows = evened(source, sizes), evened(target, sizes)
+    return ((fibre, _moved(fibre, *rows, gamma, tracker, endgame)) for fibre in fibres)
+
+
+def _moved(
     fibre: Fibre,
     source: np.ndarray,
     target: np.ndarray,
     gamma: complex,
     tracker: Tracker,
-    endgame: bool = False,
+    endgame: bool,
 ) -> Moved:
-    """`move`, in coordinates in which those of the set are comparable."""
     powers = fibre.cut.powers
     if not powers.any():
         return move(fibre, source, target, gamma, tracker, endgame)

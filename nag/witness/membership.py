@@ -14,10 +14,10 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
 from nag.numerics.small_values import NONZERO, ON
 from nag.witness.close_points import DIGITS, Fine, distance
-from nag.witness.comparable import coordinate_sizes, move_comparable
+from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres
-from nag.witness.slices import evened, padded, rows_through, unit_complex
+from nag.witness.slices import padded, rows_through
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # What rounding may do to a point that is close to others, and how much further the next one is.
@@ -52,13 +52,9 @@ def is_member(
         return Membership.FOREIGN, counts
     dimension = fibres[0].dimension
     scale = 1 + float(np.linalg.norm(point))
-    sizes = coordinate_sizes(fibres[0])
-    source, target = flag[:dimension], rows_through(rng, dimension, point, sizes)
-    source, target = evened(source, sizes), evened(target, sizes)
-    gamma = complex(unit_complex(rng))
+    target = rows_through(rng, dimension, point, coordinate_sizes(fibres[0]))
     unclear = False
-    for fibre in fibres:
-        ends = move_comparable(fibre, source, target, gamma, tracker, endgame=True)
+    for fibre, ends in move_together(fibres, flag[:dimension], target, rng, tracker):
         counts += ends.counts.judged_elsewhere
         if ends.fine:
             answers = [_at_end(point, accuracy * scale, fibre, ends, i, target) for i in ends.fine]

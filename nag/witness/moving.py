@@ -10,11 +10,11 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.small_values import ON
-from nag.witness.comparable import coordinate_sizes, move_comparable
+from nag.witness.comparable import move_together
 from nag.witness.error_radii import Sharp, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
-from nag.witness.slices import evened, to_slice, unit_complex
+from nag.witness.slices import to_slice
 from nag.witness.witness import Slice, WitnessSet
 
 # Rows whose singular values differ by more than this count as dependent.
@@ -81,17 +81,13 @@ def arrival(
     endgame: bool = True,
 ) -> Arrival:
     """What becomes of fibres when the slice moves from ``rows`` to ``target``."""
-    gamma, found = complex(unit_complex(rng)), []
-    infinite, irregular = 0, 0
-    sizes = coordinate_sizes(fibres[0])
-    source, goal = evened(rows, sizes), evened(target, sizes)
-    for fibre in fibres:
-        there = fibre
-        if len(rows):
-            ends = move_comparable(fibre, source, goal, gamma, tracker, endgame)
-            infinite += ends.counts.at_infinity
-            irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
-            there = ends.fibre(fibre.cut, fibre.dimension, np.flatnonzero(ends.regular))
+    if not len(rows):
+        return Arrival([sharpened(fibre, target) for fibre in fibres], 0, 0)
+    found, infinite, irregular = [], 0, 0
+    for fibre, ends in move_together(fibres, rows, target, rng, tracker, endgame):
+        infinite += ends.counts.at_infinity
+        irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
+        there = ends.fibre(fibre.cut, fibre.dimension, np.flatnonzero(ends.regular))
         found.append(sharpened(there, target))
     return Arrival(found, infinite, irregular)
 

@@ -15,9 +15,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from nag.numerics.coincidence import compared
-from nag.witness.comparable import coordinate_sizes, move_comparable
+from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.fibres import Fibre, Tracker
-from nag.witness.slices import evened, rows_through, unit_complex
+from nag.witness.slices import rows_through
 
 # Relative error of ends at a point of multiplicity m, about the m-th root of rounding.
 MULTIPLE = 1e-7
@@ -42,22 +42,26 @@ def multiplicity_at(
         None if it could not be decided.
     """
     fibres = [fibre for fibre in fibres if len(fibre)]
-    dimension, scale = len(rows), 1 + float(np.linalg.norm(point))
-    sizes = coordinate_sizes(fibres[0])
-    source, target = rows, rows_through(rng, dimension, point, sizes)
-    source, target = evened(source, sizes), evened(target, sizes)
-    gamma = complex(unit_complex(rng))
-    count = 0
-    for fibre in fibres:
-        if dimension == 0:
-            ends, regular = fibre.x, np.ones(len(fibre), dtype=bool)
-        else:
-            moved = move_comparable(fibre, source, target, gamma, tracker, endgame=True)
-            if moved.failed.any():
-                return None
-            ends = moved.points[moved.finite, : fibre.cut.n]
-            regular = moved.regular[moved.finite]
-        distance = np.linalg.norm(ends - point, axis=1) / scale
+    dimension = len(rows)
+    if dimension == 0:
+        ends = [(fibre.x, np.ones(len(fibre), dtype=bool)) for fibre in fibres]
+        return _come_together(point, accuracy, ends)
+    target = rows_through(rng, dimension, point, coordinate_sizes(fibres[0]))
+    ends = []
+    for fibre, moved in move_together(fibres, rows, target, rng, tracker):
+        if moved.failed.any():
+            return None
+        ends.append((moved.points[moved.finite, : fibre.cut.n], moved.regular[moved.finite]))
+    return _come_together(point, accuracy, ends)
+
+
+def _come_together(
+    point: np.ndarray, accuracy: float, ends: Sequence[tuple[np.ndarray, np.ndarray]]
+) -> int | None:
+    """How many ends are the point; of each it is said whether it is regular. None if unclear."""
+    count, scale = 0, 1 + float(np.linalg.norm(point))
+    for x, regular in ends:
+        distance = np.linalg.norm(x - point, axis=1) / scale
         here, doubtful = compared(distance, np.where(regular, accuracy, MULTIPLE))
         if doubtful.any():
             return None

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.shown import system_line
-from nag.text.table import counted, html_table, lines_of, magnitude, printable
+from nag.text.table import align, counted, html_table, lines_of, magnitude, printable
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
 # Wider multidegrees are left to the JSON export.
@@ -113,6 +113,12 @@ def component_rows(decomposition: Decomposition) -> list[list[str]]:
     if not decomposition.system.groups:
         rows = [{k: v for k, v in row.items() if k != "multidegree"} for row in rows]
     return [list(rows[0]), *(list(row.values()) for row in rows)] if rows else []
+
+
+def component_table(decomposition: Decomposition) -> list[str]:
+    """The same as aligned lines."""
+    rows = component_rows(decomposition)
+    return align(rows, [rows[0].index("status")]) if rows else []
 
 
 def _row(group: Sequence[WitnessSet]) -> dict[str, str]:

@@ -20,9 +20,11 @@ from nag.tracking.projective import meeting
 from nag.tracking.settings import named
 from nag.tracking.track import track_regular
 
-# Loops without a new solution after which the search ends, and loops in all.
-MOST_IDLE = 12
-MOST_LOOPS = 200
+# Loops without a new solution after which the search ends, and loops in all. Every second one
+# leads through a system of its own. A random permutation keeps k of n points among themselves with
+# a probability of 1 / binomial(n, k), at most 1/2: half as many loops in vain have one of 1e-6.
+MOST_IDLE = 40
+MOST_LOOPS = 400
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,26 +119,30 @@ def by_monodromy(
     """
     n = len(system.supports)
     groups = (tuple(range(n)),)
-    other = replace(system, coefficients=tuple(unit(rng, len(s)) for s in system.supports))
     degrees = group_degrees(system.rows, groups)
-    first, second = (homogenized(each.rows, n, groups, degrees) for each in (system, other))
+    first = homogenized(system.rows, n, groups, degrees)
     here = Fibre(system.points, system.errors, most)
-    there = Fibre(system.points[:0], system.errors[:0], most)
     spent, idle = 0, 0
     for _ in range(MOST_LOOPS):
         if len(here.points) >= most or idle >= MOST_IDLE:
             break
+        if idle % 2 == 0 and (idle or not spent):
+            # On the line through two systems few loops may be of use, be there ever so many.
+            other = replace(system, coefficients=tuple(unit(rng, len(s)) for s in system.supports))
+            second = homogenized(other.rows, n, groups, degrees)
+            there = Fibre(system.points[:0], system.errors[:0], most)
+        known = max(len(here.points), len(there.points))
         gamma = complex(unit(rng, 1)[0])
         forward = straight_line(first, second, gamma)
         backward = straight_line(second, first, 1 / gamma)
         ends = _moved(forward, here.points, threads)
         spent += len(here.points)
-        gained = there.add(*ends)
+        there.add(*ends)
         # The way is one to one: what it did not reach leads back to solutions that are new.
         left = there.missing_from(*ends)
-        gained += here.add(*_moved(backward, left, threads))
+        here.add(*_moved(backward, left, threads))
         spent += len(left)
-        idle = 0 if gained else idle + 1
+        idle = 0 if max(len(here.points), len(there.points)) > known else idle + 1
         # The question costs as much as a loop: after 1, 3, 7 loops in vain.
         if idle and not idle & (idle + 1) and complete is not None and complete(here.points):
             return system.holding(here.points, here.errors), spent, True

@@ -12,9 +12,6 @@ from nag.solving.start.pencil import irreducible_row, seeded_pencil, trace_is_li
 from nag.solving.start.target import Start, StartError, Target, unit
 from nag.solving.start.total_degree import MOST_PATHS
 
-# Pencils that are tried: in some, points of very different sizes leave the trace test undecided.
-PENCILS = 8
-
 
 def monodromy(target: Target, rng: np.random.Generator, threads: int) -> Start:
     """The homotopy from random coefficients, whose solutions come from one of them by loops.
@@ -29,18 +26,16 @@ def monodromy(target: Target, rng: np.random.Generator, threads: int) -> Start:
     row = irreducible_row(target.supports, rng)
     if row is None:
         return _up_to_the_mixed_volume(target, gamma, rng, threads)
-    spent, most = 0, 0
-    for _ in range(PENCILS):
-        pencil, seed = seeded_pencil(target.supports, row, rng)
-        test = partial(trace_is_linear, pencil, rng=rng, threads=threads)
-        system, paths, proven = by_monodromy(seed, MOST_PATHS, rng, threads, test)
-        spent, most = spent + paths, max(most, len(system.points))
-        if proven:
-            detail = f"its solutions by monodromy, {spent} regular paths; all by the trace test"
-            return start_at("monodromy", target, system, detail, gamma)
-    raise StartError(
-        f"monodromy: {most} solutions were found, but no trace proves that these are all"
-    )
+    pencil, seed = seeded_pencil(target.supports, row, rng)
+    test = partial(trace_is_linear, pencil, rng=rng, threads=threads)
+    system, spent, proven = by_monodromy(seed, MOST_PATHS, rng, threads, test)
+    if not proven:
+        raise StartError(
+            f"monodromy: {len(system.points)} solutions were found, but no trace proves that these "
+            "are all"
+        )
+    detail = f"its solutions by monodromy, {spent} regular paths; all by the trace test"
+    return start_at("monodromy", target, system, detail, gamma)
 
 
 def _up_to_the_mixed_volume(

@@ -20,13 +20,23 @@ import numpy as np
 
 from nag.solving.start.fibre_monodromy import GenericSystem
 from nag.solving.start.target import group_degrees, homogenized, unit
-from nag.tracking.homotopy import straight_line
+from nag.tracking.compiled import CompiledRows
+from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.settings import named
 from nag.tracking.track import track_regular
 
 # What rounding leaves at most of the sum of second differences over all points, in units of the
-# points' motion; and how much larger each point's own must be for its absence to show.
-ROUNDING, VISIBLE = 1e-12, 10.0
+# points' motion, in doubles and in 64 digits; and how much larger each point's own must be for its
+# absence to show.
+ROUNDING, FINE_ROUNDING, VISIBLE = 1e-12, 1e-50, 10.0
+# A larger sum is none of rounding, whatever the points' condition.
+CLEAR = 1e-6
+# Steps of Newton's method from doubles to 64 digits, and digits of what is worked out from these.
+STEPS, DIGITS = 5, 100
+# Bits of the pencil's random numbers behind the point, and of the coefficients that their products
+# are added to: those of all its systems are exact in doubles then, and their points are known to
+# any number of digits.
+SHORT, LONG = 24, 48
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,8 +107,8 @@ def seeded_pencil(
     """A random pencil in one row, and its system at ``u = 0`` with one solution."""
     n = len(supports)
     x = unit(rng, n)
-    direction = unit(rng, len(supports[row]))
-    form = unit(rng, 1 + n)
+    direction = _rounded(unit(rng, len(supports[row])), SHORT)
+    form = _rounded(unit(rng, 1 + n), SHORT)
     coefficients = []
     for i, support in enumerate(supports):
         monomials = np.prod(x[None, :] ** support, axis=1)
@@ -106,9 +116,14 @@ def seeded_pencil(
         value = c @ monomials
         if i == row:
             value += (form[0] + form[1:] @ x) * (direction @ monomials)
-        coefficients.append(c - value / np.vdot(monomials, monomials) * monomials.conj())
+        c = c - value / np.vdot(monomials, monomials) * monomials.conj()
+        coefficients.append(_rounded(c, LONG) if i == row else c)
     pencil = Pencil(tuple(supports), row, tuple(coefficients), direction, form)
     return pencil, pencil.system(points=np.append(1.0, x)[None] / np.sqrt(1 + n))
+
+
+def _rounded(z: np.ndarray, bits: int) -> np.ndarray:
+    return np.round(z * 2.0**bits) / 2.0**bits
 
 
 def trace_is_linear(
@@ -116,26 +131,61 @@ def trace_is_linear(
 ) -> bool:
     """Whether ``points``, solutions at ``u = 0``, are all there are.
 
-    False as well if a path is lost, or if points are of so different sizes that the absence of one
-    of them would be hidden by rounding.
+    Where the absence of one would be hidden by rounding, beside points that move much more, it is
+    decided in 64 digits. False as well if a path is lost.
     """
     n = len(pencil.supports)
     groups = (tuple(range(n)),)
     begin = pencil.system()
     degrees = group_degrees(begin.rows, groups)
-    slopes = []
-    for shift in unit(rng, 2).tolist():
-        first, second = (
-            homogenized(each.rows, n, groups, degrees) for each in (begin, pencil.system(shift))
-        )
+    first = homogenized(begin.rows, n, groups, degrees)
+    there = [(first, points)]
+    shifts = _rounded(unit(rng, 2), SHORT).tolist()
+    for shift in shifts:
+        second = homogenized(pencil.system(shift).rows, n, groups, degrees)
         homotopy = straight_line(first, second, complex(unit(rng, 1)[0]))
         ends = track_regular(homotopy, points, named("default"), threads).points
         if len(ends) < len(points):
             return False
-        slopes.append((ends[:, 1:] / ends[:, :1] - points[:, 1:] / points[:, :1]) / shift)
+        there.append((second, ends))
+    at = [x[:, 1:] / x[:, :1] for _, x in there]
+    slopes = np.array([(x - at[0]) / shift for x, shift in zip(at[1:], shifts, strict=True)])
+    motion = np.abs(slopes).max(axis=0).sum(axis=0)
     differences = slopes[0] - slopes[1]
-    noise = ROUNDING * np.abs(slopes).max(axis=0).sum(axis=0)
+    total = differences.sum(axis=0)
+    if _are_all(differences, total, ROUNDING * motion):
+        return True
+    if (np.abs(total) > CLEAR * motion).any():
+        return False
+    return _are_all(*_second_differences(there, shifts), FINE_ROUNDING * motion)
+
+
+def _are_all(differences: np.ndarray, total: np.ndarray, noise: np.ndarray) -> bool:
+    """Whether the sum of second differences is zero, and each point's is seen not to be."""
+    linear = (np.abs(total) <= noise).all()
     visible = (np.abs(differences) > VISIBLE * noise).any(axis=1)
-    straight = (np.abs(differences) <= noise).all()
-    linear = (np.abs(differences.sum(axis=0)) <= noise).all()
-    return bool(linear and (visible.all() or (len(points) == 1 and straight)))
+    straight = len(differences) == 1 and (np.abs(differences) <= noise).all()
+    return bool(linear and (visible.all() or straight))
+
+
+def _second_differences(
+    there: Sequence[tuple[CompiledRows, np.ndarray]], shifts: Sequence[complex]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Of each point, and of all together: worked out in 64 digits, then rounded."""
+    import flint
+
+    from nag.tracking.ends.newton_steps import affine_points, newton_steps
+
+    fine = []
+    for rows, points in there:
+        homotopy = Homotopy(rows, np.zeros((0, rows.N), dtype=complex))
+        fine.append(affine_points(newton_steps(homotopy, points, 4, STEPS)))
+    with flint.ctx.workdps(DIGITS):
+        u, v = map(flint.acb, shifts)
+        differences = [
+            [(b - a) / u - (c - a) / v for a, b, c in zip(*each, strict=True)]
+            for each in zip(*fine, strict=True)
+        ]
+        total = [sum(column, flint.acb(0)) for column in zip(*differences, strict=True)]
+    doubles = np.array([[complex(c.mid()) for c in row] for row in differences])
+    return doubles, np.array([complex(c.mid()) for c in total])

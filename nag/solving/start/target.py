@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from nag.algebra.fewest_terms import of_fewest_terms
+from nag.algebra.combinations import of_fewest_terms
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales

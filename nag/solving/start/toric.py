@@ -14,19 +14,17 @@ from itertools import count
 
 import numpy as np
 
-from nag.solving.start.fibre_monodromy import Fibre, GenericSystem, equal_pairs
+from nag.solving.start.fibre_monodromy import Fibre, GenericSystem
 from nag.solving.start.mixed_cells import MixedCells
 from nag.solving.start.target import StartError, group_degrees, homogenized
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.settings import named, tighter
+from nag.tracking.settings import named
 from nag.tracking.track import track_regular
 
 # The homotopies begin where the least power of the degeneration's parameter is exp(-LENGTH);
 # Newton's method leads from the binomials' solutions to the start points.
 LENGTH = 10.0
-# With ever tighter control, and longer homotopies.
-ATTEMPTS = 3
 # Largest determinant and entry of an adjugate that doubles give exactly.
 LARGEST = 1 << 40
 
@@ -124,7 +122,9 @@ def by_degeneration(
     """A system with the cells' supports, its solutions at the ends of toric paths, their number.
 
     The coefficients are generic, of absolute value 1. If there are as many solutions as the mixed
-    volume, they are all, whatever happened on the way; there may be fewer.
+    volume, they are all, whatever happened on the way. There are fewer where a path was lost, or
+    jumped, so that two have one end: in 4 of 7225 runs over seeds of the benchmarks. They are not
+    tracked again, as monodromy finds what is missing from what is there.
 
     Raises:
         StartError: if the exponents are too large.
@@ -140,24 +140,9 @@ def by_degeneration(
     weights = cell_weights(cells)[owners]
     degrees = group_degrees(system.rows, groups)
     homotopy = Homotopy(_single_terms(homogenized(system.rows, n, groups, degrees)))
-    settings, length = named("fast"), LENGTH
-    left = np.arange(len(starts))
-    ends, errors = np.zeros((len(starts), 1 + n), dtype=np.complex128), np.zeros(len(starts))
-    spent = 0
-    for _ in range(ATTEMPTS):
-        found = track_regular(homotopy, starts[left], settings, threads, length * weights[left])
-        spent += len(left)
-        ends[left] = 0.0
-        ends[left[found.paths]], errors[left[found.paths]] = found.points, found.errors
-        ended = np.flatnonzero(ends.any(axis=1))
-        alone = np.setdiff1d(ended, ended[equal_pairs(ends[ended], errors[ended])])
-        left = np.setdiff1d(np.arange(len(starts)), alone)
-        if not len(left):
-            break
-        settings, length = tighter(settings), 2 * length
-    there = ends.any(axis=1)
-    distinct = Fibre(ends[there], errors[there], len(starts))
-    return system.holding(distinct.points, distinct.errors), spent
+    found = track_regular(homotopy, starts, named("fast"), threads, LENGTH * weights)
+    distinct = Fibre(found.points, found.errors, len(starts))
+    return system.holding(distinct.points, distinct.errors), len(starts)
 
 
 def _single_terms(rows: CompiledRows) -> CompiledRows:

@@ -1,9 +1,10 @@
-"""So many steps of Newton's method in 32 or 64 digits, to measure what a step brings and takes."""
+"""So many steps of Newton's method in 32 or 64 digits, whatever they bring."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
+import flint
 import numpy as np
 
 from nag.machine_code.kernel import Kernel
@@ -17,6 +18,9 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double, quad_double
 from nag.tracking.numbers import double_double as number
+
+# Digits in which quotients of coordinates lose nothing.
+AFFINE_DIGITS = 200
 
 
 class Steps(NamedTuple):
@@ -75,3 +79,13 @@ def newton_steps(homotopy: Homotopy, points: np.ndarray, words: int, steps: int)
         system = records.equations(homotopy, words, 1)
         KERNELS[words](system, records.room(homotopy, words, 1), batch)
     return result
+
+
+def affine_points(points: np.ndarray) -> list[list[flint.acb]]:
+    """Coordinates beside the first one, of points as `newton_steps` returns them."""
+    with flint.ctx.workdps(AFFINE_DIGITS):
+        found = []
+        for point in points.tolist():
+            first, *others = [flint.acb(*(sum(map(flint.arb, part)) for part in z)) for z in point]
+            found.append([z / first for z in others])
+    return found

@@ -2,11 +2,13 @@
 
 Words are summed by order: what rounding leaves of a sum goes into that of the next order (Priest
 1991; Hida, Li & Bailey 2001). Nothing is said of sizes there, so that every sum is `two_sum`.
+They are read, written and chosen as those of two quad-doubles.
 """
 
 from __future__ import annotations
 
-from nag.machine_code.lanes import load, select_less, splat, store
+from nag.machine_code.lanes import splat
+from nag.tracking.numbers import quad_double as half
 from nag.tracking.numbers.error_free import two_product, two_sum
 
 WORDS = 8
@@ -26,60 +28,23 @@ def exact(x):
 
 def read(data, k):
     """Number ``k`` of an array in memory."""
-    q = 8 * k
-    return (
-        load(data, q),
-        load(data, q + 1),
-        load(data, q + 2),
-        load(data, q + 3),
-        load(data, q + 4),
-        load(data, q + 5),
-        load(data, q + 6),
-        load(data, q + 7),
-    )
+    return half.read(data, 2 * k) + half.read(data, 2 * k + 1)
 
 
 def write(data, k, a):
     """Write number ``k`` of an array in memory."""
-    q = 8 * k
-    store(data, q, a[0])
-    store(data, q + 1, a[1])
-    store(data, q + 2, a[2])
-    store(data, q + 3, a[3])
-    store(data, q + 4, a[4])
-    store(data, q + 5, a[5])
-    store(data, q + 6, a[6])
-    store(data, q + 7, a[7])
+    half.write(data, 2 * k, a[:4])
+    half.write(data, 2 * k + 1, a[4:])
 
 
 def same(data, k):
     """Number ``k`` of an array of numbers that are the same in all lanes."""
-    q = 8 * k
-    return (
-        splat(data[q]),
-        splat(data[q + 1]),
-        splat(data[q + 2]),
-        splat(data[q + 3]),
-        splat(data[q + 4]),
-        splat(data[q + 5]),
-        splat(data[q + 6]),
-        splat(data[q + 7]),
-    )
+    return half.same(data, 2 * k) + half.same(data, 2 * k + 1)
 
 
 def negative(a):
     """``-a``."""
-    zero = splat(0.0)
-    return (
-        zero - a[0],
-        zero - a[1],
-        zero - a[2],
-        zero - a[3],
-        zero - a[4],
-        zero - a[5],
-        zero - a[6],
-        zero - a[7],
-    )
+    return half.negative(a[:4]) + half.negative(a[4:])
 
 
 def _from_6(s, x):
@@ -221,27 +186,9 @@ def multiply(a, b):
 
 def scale(a, power):
     """``a`` times lanes that hold powers of two."""
-    return (
-        a[0] * power,
-        a[1] * power,
-        a[2] * power,
-        a[3] * power,
-        a[4] * power,
-        a[5] * power,
-        a[6] * power,
-        a[7] * power,
-    )
+    return half.scale(a[:4], power) + half.scale(a[4:], power)
 
 
 def choose(a, b, x, y):
     """``x`` in the lanes where ``a < b``, ``y`` elsewhere."""
-    return (
-        select_less(a, b, x[0], y[0]),
-        select_less(a, b, x[1], y[1]),
-        select_less(a, b, x[2], y[2]),
-        select_less(a, b, x[3], y[3]),
-        select_less(a, b, x[4], y[4]),
-        select_less(a, b, x[5], y[5]),
-        select_less(a, b, x[6], y[6]),
-        select_less(a, b, x[7], y[7]),
-    )
+    return half.choose(a, b, x[:4], y[:4]) + half.choose(a, b, x[4:], y[4:])

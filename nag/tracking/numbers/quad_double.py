@@ -1,8 +1,12 @@
-"""Quad-double arithmetic in lanes, about 64 digits (Hida, Li & Bailey 2001), without branches."""
+"""Quad-double arithmetic in lanes, about 64 digits (Hida, Li & Bailey 2001), without branches.
+
+Words are read, written and chosen as those of two double-doubles.
+"""
 
 from __future__ import annotations
 
-from nag.machine_code.lanes import load, select_less, splat, store
+from nag.machine_code.lanes import splat
+from nag.tracking.numbers import double_double as half
 from nag.tracking.numbers.error_free import (
     quick_two_sum,
     three_sum,
@@ -28,31 +32,23 @@ def exact(x):
 
 def read(data, k):
     """Number ``k`` of an array in memory."""
-    return load(data, 4 * k), load(data, 4 * k + 1), load(data, 4 * k + 2), load(data, 4 * k + 3)
+    return half.read(data, 2 * k) + half.read(data, 2 * k + 1)
 
 
 def write(data, k, a):
     """Write number ``k`` of an array in memory."""
-    store(data, 4 * k, a[0])
-    store(data, 4 * k + 1, a[1])
-    store(data, 4 * k + 2, a[2])
-    store(data, 4 * k + 3, a[3])
+    half.write(data, 2 * k, a[:2])
+    half.write(data, 2 * k + 1, a[2:])
 
 
 def same(data, k):
     """Number ``k`` of an array of numbers that are the same in all lanes."""
-    return (
-        splat(data[4 * k]),
-        splat(data[4 * k + 1]),
-        splat(data[4 * k + 2]),
-        splat(data[4 * k + 3]),
-    )
+    return half.same(data, 2 * k) + half.same(data, 2 * k + 1)
 
 
 def negative(a):
     """``-a``."""
-    zero = splat(0.0)
-    return zero - a[0], zero - a[1], zero - a[2], zero - a[3]
+    return half.negative(a[:2]) + half.negative(a[2:])
 
 
 def _normalized(a, b, c, d, e):
@@ -101,14 +97,9 @@ def multiply(a, b):
 
 def scale(a, power):
     """``a`` times lanes that hold powers of two."""
-    return a[0] * power, a[1] * power, a[2] * power, a[3] * power
+    return half.scale(a[:2], power) + half.scale(a[2:], power)
 
 
 def choose(a, b, x, y):
     """``x`` in the lanes where ``a < b``, ``y`` elsewhere."""
-    return (
-        select_less(a, b, x[0], y[0]),
-        select_less(a, b, x[1], y[1]),
-        select_less(a, b, x[2], y[2]),
-        select_less(a, b, x[3], y[3]),
-    )
+    return half.choose(a, b, x[:2], y[:2]) + half.choose(a, b, x[2:], y[2:])

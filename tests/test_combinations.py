@@ -1,32 +1,36 @@
-"""Equations in combinations of the lowest degrees: the same combinations, never higher degrees."""
+"""Combinations of equations with the lowest degrees, and with the fewest terms."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
 from math import prod
 
+import flint
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from linkages import CASES
 from systems import system
 
-from nag.algebra.lowest_degrees import _echelon, of_lowest_degrees
+import nag
+from nag.algebra.combinations import of_fewest_terms, of_lowest_degrees
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.rational_matrix import rational_matrix
 from nag.bench.atlas.families import FAMILIES
 from nag.solving.solve import solve
 
 MONOMIALS = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]
-polynomials = st.lists(
-    st.dictionaries(st.sampled_from(MONOMIALS), st.integers(-2, 2).filter(bool), min_size=1).map(
-        lambda terms: Polynomial(2, terms)
-    ),
-    min_size=1,
-    max_size=4,
-)
+polynomial = st.dictionaries(
+    st.sampled_from(MONOMIALS), st.integers(-2, 2).filter(bool), min_size=1
+).map(lambda terms: Polynomial(2, terms))
+polynomials = st.lists(polynomial, min_size=1, max_size=4)
 
 
-def rank(given: list[Polynomial]) -> int:
-    return len(_echelon(given))
+def matrix(given: Sequence[Polynomial]) -> flint.fmpq_mat:
+    return rational_matrix([[Fraction(f.terms.get(e, 0)) for e in MONOMIALS] for f in given])
 
 
 def test_two_circles_are_a_circle_and_their_line() -> None:
@@ -61,7 +65,7 @@ def test_what_cannot_be_lowered_or_only_by_more_terms_stays_as_it_is() -> None:
 def test_the_combinations_stay_the_same_and_no_degree_rises(given: list[Polynomial]) -> None:
     found = of_lowest_degrees(given)
     assert len(found) == len(given)
-    assert rank([*given, *found]) == rank(list(found)) == rank(given)
+    assert matrix(found).rref() == matrix(given).rref()
     assert prod(f.degree for f in found) <= prod(f.degree for f in given)
 
 
@@ -72,3 +76,33 @@ def test_paths_are_as_many_as_the_lowest_degrees_ask_for() -> None:
     )
     assert found.complete
     assert found.paths.tracked == 6 == len(found.solutions)
+
+
+def test_a_multiple_of_another_equation_is_taken_off() -> None:
+    x, y, z = Polynomial.variables(3)
+    product, total = x * y * z - 1, x + y + z
+    assert of_fewest_terms([product - Fraction(2, 3) * total, total]) == (product, total)
+
+
+def test_degrees_are_kept() -> None:
+    x, y = Polynomial.variables(2)
+    low, high = x + y, x**3 + x + y
+    assert of_fewest_terms([low, high]) == (low, x**3)
+
+
+@given(st.lists(polynomial | st.just(Polynomial(2, {})), min_size=1, max_size=4))
+def test_the_combinations_can_be_undone(given: list[Polynomial]) -> None:
+    found = of_fewest_terms(given)
+    assert matrix(found).rref() == matrix(given).rref()
+    assert sum(len(f.terms) for f in found) <= sum(len(f.terms) for f in given)
+    assert all(f.degree <= g.degree for f, g in zip(found, given, strict=True))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_mixed_equation_costs_no_paths(seed: int) -> None:
+    system = nag.read_case(CASES / "benchmarks/cyclic-5.toml").system
+    *others, last = system.polynomials
+    mixed = replace(system, polynomials=(*others, last - Fraction(1, 2) * others[1]))
+    result = nag.solve(mixed, seed=seed, start="polyhedral")
+    assert (result.complete, len(result.solutions)) == (True, 70)
+    assert result.paths.tracked == 70

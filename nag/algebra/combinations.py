@@ -1,0 +1,165 @@
+"""Combinations of equations, by numbers, that have the lowest degrees, or the fewest terms.
+
+Where the terms of highest degree of several equations depend on each other, a combination has a
+lower degree: as many paths as the product of the degrees then need not be tracked to infinity. As
+two circles and two spheres do, equations of mechanisms often share what is highest in them.
+
+A multiple of one equation, added to another, hides what this one says: that a product of variables
+is constant, for example. The mixed volume, and so the number of paths of a polyhedral start system,
+grows with its terms.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import lcm, prod
+from typing import Any
+
+from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.prime_field import LARGE
+
+# Coefficients beyond which no combination of lower degree is looked for.
+MOST_COEFFICIENTS = 100_000
+# Terms with FLINT's rational coefficients.
+Row = Mapping[Exponents, Any]
+
+
+def of_lowest_degrees(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+    """As many polynomials with the same combinations, of the lowest degrees.
+
+    The given ones, as far as they can stay; all of them if they depend on each other or are not
+    rational, if the degrees cannot be lowered, or if that makes more terms.
+    """
+    given = tuple(polynomials)
+    if len(given) < 2 or not all(f.exact and f.terms for f in given):
+        return given
+    monomials = _descending([f.terms for f in given])
+    if len(given) * len(monomials) > MOST_COEFFICIENTS or _surely_lowest(given, monomials):
+        return given
+    rows = list(map(_row, given))
+    reduced = _echelon(rows, monomials)
+    degrees = [sum(next(iter(row))) for row in reduced]
+    if len(reduced) < len(given) or prod(degrees) == prod(f.degree for f in given):
+        return given
+    chosen: list[Polynomial] = []
+    for degree in sorted(set(degrees)):
+        # The given ones come first, so that they stay.
+        of_degree = [(f, row) for f, row in zip(given, rows, strict=True) if f.degree == degree]
+        of_degree += [(None, row) for d, row in zip(degrees, reduced, strict=True) if d == degree]
+        tops = [{e: c for e, c in row.items() if sum(e) == degree} for _, row in of_degree]
+        for k in _first_independent(tops):
+            f, row = of_degree[k]
+            chosen.append(_whole(given[0].n, row) if f is None else f)
+    shorter = sum(len(f.terms) for f in chosen) <= sum(len(f.terms) for f in given)
+    return tuple(chosen) if shorter else given
+
+
+def of_fewest_terms(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+    """As many polynomials of the same ideal, without multiples of each other that lengthen them.
+
+    From each, multiples of others of at most its degree are taken as long as that leaves it fewer
+    terms. Polynomials that are not rational are left as they are.
+    """
+    places = [i for i, f in enumerate(polynomials) if f.exact and f.terms]
+    found = [_row(polynomials[i]) for i in places]
+    degrees = [polynomials[i].degree for i in places]
+    changed: set[int] = set()
+    pairs = [(i, j) for i in range(len(found)) for j in range(len(found)) if i != j]
+    compared: dict[tuple[int, int], tuple[Row, Row]] = {}
+    while pairs:
+        for i, j in pairs:
+            compared[i, j] = found[i], found[j]
+            if degrees[j] > degrees[i]:
+                continue
+            factor = _factor(found[i], found[j])
+            if factor is not None:
+                found[i] = _less(found[i], factor, found[j])
+                degrees[i] = max(map(sum, found[i]), default=-1)
+                changed.add(i)
+        pairs = [
+            (i, j) for (i, j), (f, g) in compared.items() if f is not found[i] or g is not found[j]
+        ]
+    result = list(polynomials)
+    for i in changed:
+        terms = {e: Fraction(int(c.p), int(c.q)) for e, c in found[i].items()}
+        result[places[i]] = Polynomial(result[places[i]].n, terms)
+    return tuple(result)
+
+
+def _surely_lowest(polynomials: Sequence[Polynomial], monomials: Sequence[Exponents]) -> bool:
+    """Whether no combination has a lower degree: none has modulo a prime."""
+    try:
+        residues = [{e: LARGE.of(c) for e, c in f.terms.items()} for f in polynomials]
+    except ZeroDivisionError:
+        return False
+    rows = [[row.get(e, 0) for e in monomials] for row in residues]
+    _, pivots = LARGE.reduced(rows, len(monomials))
+    degrees = [sum(monomials[k]) for k in pivots]
+    return len(degrees) == len(rows) and prod(degrees) == prod(f.degree for f in polynomials)
+
+
+def _row(f: Polynomial) -> Row:
+    import flint
+
+    return {e: flint.fmpq(c.numerator, c.denominator) for e, c in f.terms.items()}
+
+
+def _whole(n: int, row: Row) -> Polynomial:
+    """The multiple of a row whose leading coefficient of one becomes the common denominator."""
+    common = lcm(*(int(c.q) for c in row.values()))
+    return Polynomial(n, {e: Fraction(int(c.p) * (common // int(c.q))) for e, c in row.items()})
+
+
+def _descending(rows: Sequence[Mapping[Exponents, Any]]) -> list[Exponents]:
+    """All monomials, those of the highest degree first."""
+    return sorted({e for row in rows for e in row}, key=lambda e: (-sum(e), e))
+
+
+def _matrix(rows: Sequence[Row], monomials: Sequence[Exponents]) -> Any:
+    import flint
+
+    return flint.fmpq_mat([[row.get(e, 0) for e in monomials] for row in rows])
+
+
+def _echelon(rows: Sequence[Row], monomials: Sequence[Exponents]) -> list[Row]:
+    """The rows of the reduced echelon form, their terms in the order of the monomials."""
+    reduced, rank = _matrix(rows, monomials).rref()
+    table = reduced.tolist()[:rank]
+    return [{e: c for e, c in zip(monomials, row, strict=True) if c} for row in table]
+
+
+def _first_independent(rows: Sequence[Row]) -> list[int]:
+    """Indices of the rows that are no combinations of those before them."""
+    reduced, rank = _matrix(rows, _descending(rows)).transpose().rref()
+    table = reduced.tolist()[:rank]
+    return [next(k for k, c in enumerate(row) if c) for row in table]
+
+
+def _factor(f: Row, g: Row) -> Any:
+    """What ``g`` is to be multiplied by for ``f`` to lose more terms than it gains, or None."""
+    common = f.keys() & g.keys()
+    gained = len(g) - len(common)
+    if len(common) <= gained:
+        return None
+    # As pairs of integers: to hash FLINT's numbers takes ten times as long as to divide them.
+    quotients = {e: f[e] / g[e] for e in common}
+    pairs = {e: (int(q.p), int(q.q)) for e, q in quotients.items()}
+    counts = Counter(pairs.values())
+    lost = max(counts.values())
+    if lost <= gained:
+        return None
+    return max(q for e, q in quotients.items() if counts[pairs[e]] == lost)
+
+
+def _less(f: Row, factor: Any, g: Row) -> Row:
+    """The terms of ``f - factor g``."""
+    terms = dict(f)
+    for e, c in g.items():
+        value = terms[e] - factor * c if e in terms else -factor * c
+        if value:
+            terms[e] = value
+        else:
+            del terms[e]
+    return terms
