@@ -298,7 +298,8 @@ interpolation.point_cloud.SMALL             1e-5    Singular values of tangents,
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
 rounding, digits that are taken, where random numbers come from.
 
-numerics.certified_points: FLAT; numerics.curves: CLOSE, CLOSER, PATIENCE; numerics.deflated_system:
+numerics.certified_points: FLAT; numerics.close_zeros: ROUNDING, REST, DEEP, LEAST;
+numerics.curves: CLOSE, CLOSER, PATIENCE; numerics.deflated_system:
 MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK; numerics.digits:
 LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST,
 LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: ROUNDING;
@@ -312,9 +313,9 @@ tracking.ends.branch: LONGEST; tracking.ends.corrector:
 DOUBLES; tracking.ends.inclusion: TINY; tracking.ends.kept_points: RESIDUAL, SECOND;
 tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
-tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.numbers.double_double:
-EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL; tracking.numbers.quad_double:
-EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
+tracking.linear_algebra: PIVOT; tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER;
+tracking.numbers.double_double: EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL;
+tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
 tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
 solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING, WRITTEN;
 solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP;

@@ -18,6 +18,7 @@ from systems import system
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas.stability import family_named
 from nag.cli import main
 from nag.decomposition import decompose
 from nag.files.cases import read_case
@@ -226,7 +227,9 @@ def test_multiple_solutions_are_proved_by_exact_values_or_deflation(
                 if s.multiplicity > 1]  # fmt: skip
     assert multiple
     assert set(multiple) == {proof}
-    assert certificate.all_proved
+    # Deflated equations are more than unknowns: what the others do is evidence.
+    assert certificate.all_proved == (proof is Proof.EXACT)
+    assert Proof.NONE not in certificate.points.proofs and not certificate.doubted
     assert not certificate.complete
 
 
@@ -359,7 +362,8 @@ def test_combinations_of_lower_degrees_bound_the_number_of_zeros() -> None:
 def test_double_irrational_zeros_are_proved_whatever_the_random_conditions(shift: int) -> None:
     result = solve(system("x y", f"(x^2 - 2)^2*(x - {7 + shift}) + y", "y"))
     found = certify_solutions(result)
-    assert found.all_proved and found.points.proofs.count(Proof.DEFLATED) == 2
+    assert found.points.proofs.count(Proof.DEFLATED) == found.points.on_evidence.sum() == 2
+    assert Proof.NONE not in found.points.proofs and not found.contradicted
 
 
 def changed(result: SolveResult, i: int, **fields: object) -> SolveResult:
@@ -390,12 +394,13 @@ def test_a_simple_zero_that_is_said_to_be_multiple_is_never_proved_singular(
 
 
 @pytest.mark.parametrize("equation", ["(x - 1)^2*(x + 2)", "(x^2 - 2)^2*(x - 7)"])
-def test_a_multiple_zero_that_is_said_to_be_simple_is_refuted(equation: str) -> None:
+def test_a_multiple_zero_that_is_said_to_be_simple_is_refuted_or_doubted(equation: str) -> None:
     result = solve(system("x y", equation + " + y", "y"))
     i = next(i for i, s in enumerate(result.solutions) if s.multiplicity == 2)
-    assert certify_solutions(result).all_proved
+    assert not certify_solutions(result).contradicted | certify_solutions(result).doubted
     found = certify_solutions(changed(result, i, multiplicity=1))
-    assert found.contradicted == {"simple": 1} and not found.all_proved
+    assert found.contradicted | found.doubted == {"simple": 1} and not found.all_proved
+    assert bool(found.contradicted) == (found.points.proofs[i] is Proof.EXACT)
     assert found.points.proofs[i] in (Proof.EXACT, Proof.DEFLATED)
 
 
@@ -425,3 +430,52 @@ def test_zeros_nearer_than_evidence_reaches_are_not_proved_to_be_one() -> None:
         result = solve(system("x y", "(x^2 - 2)^2 + y", "y"))
         found = certify_solutions(replace(result, system=near))
         assert not set(found.points.proofs) & {Proof.EXACT, Proof.DEFLATED, Proof.SIMPLE}
+
+
+@pytest.mark.parametrize("digits", [16, 20, 30])
+@pytest.mark.parametrize("name", ["cluster-2", "far-cluster", "triple"])
+def test_zeros_that_doubles_do_not_tell_apart_are_all_proved(name: str, digits: int) -> None:
+    problem = family_named(name).make(digits, np.random.default_rng([1, 20]))
+    result = solve(problem.system)
+    certificate = certify_solutions(result)
+    assert certificate.simple == len(result.solutions) == problem.truth[0, 1, 1]
+    assert certificate.all_proved and certificate.complete
+
+
+def test_of_zeros_close_together_as_many_are_real_as_are_proved_to_be() -> None:
+    near = system("x y", "(x - 1)^4 - 1/10^80", "y - x*(1 + (x - 1))")
+    result = solve(near)
+    assert sorted(s.real for s in result.solutions) == [False, False, True, True]
+    certificate = certify_solutions(result)
+    assert certificate.all_proved
+    assert certificate.real.tolist() == [s.real for s in result.solutions]
+    i = next(i for i, s in enumerate(result.solutions) if not s.real)
+    found = certify_solutions(changed(result, i, real=True))
+    assert found.contradicted == {"real": 1} and not found.all_proved
+
+
+def test_a_zero_listed_twice_beside_one_that_is_close_is_not_proved_to_be_two() -> None:
+    result = solve(system("x y", "(x - 1)^2 - 2/10^40", "y - x"))
+    twice = replace(result, solutions=(*result.solutions, result.solutions[0]))
+    assert certify_solutions(result).all_proved
+    assert not certify_solutions(twice).all_proved
+
+
+def test_nothing_is_called_proved_that_rests_on_evidence(tmp_path: Path, capsys) -> None:
+    # Two zeros that are not real, 1e-200 from what passes for a double one.
+    result = solve(system("x y", "(x - sqrt(2))^2 + 1/10^400", "y - x"))
+    certificate = certify_solutions(result)
+    assert certificate.points.on_evidence.all() and not certificate.all_proved
+    export, target = tmp_path / "solutions.json", tmp_path / "certificate.json"
+    write_solutions(result, export)
+    assert main(["certify", str(export), "--json", str(target)]) == 1
+    text = capsys.readouterr().out
+    assert "0 of 1 solutions; 1 on evidence" in text
+    assert "0 proved real, 0 proved not real" in text
+    document = json.loads(target.read_text())
+    jsonschema.validate(document, schema("nag-certificate"))
+    assert document["all_proved"] is False and document["real"] == [None]
+    assert document["points"][0]["evidence"] is True
+    # Simple and not real, as it is: evidence refutes nothing.
+    true = certify_solutions(changed(result, 0, multiplicity=1, real=False))
+    assert not true.contradicted

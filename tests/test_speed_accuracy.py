@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import flint
@@ -11,11 +12,15 @@ import pytest
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench import peer_points, sharpening
+from nag.bench import peer_components, peer_points, sharpening
 from nag.bench.chart_data import document, read_charts
+from nag.bench.component_curves import Listed, agreement, witness_section
+from nag.bench.peer_points import forms
 from nag.bench.reference import Reference, ReferenceError, compared, compared_in_balls
-from nag.bench.speed_accuracy import Subject, chart_of, ratios
+from nag.bench.speed_accuracy import chart_of, ratios
+from nag.bench.speed_accuracy_picture import COLOURS, MARKS, PEERS
 from nag.bench.whole_paths import WHOLE_TOLERANCES, WholePaths, tracked_in
+from nag.bench.work_precision import Curve, Point, Subject, best_form
 from nag.cli import main
 from nag.files.cases import read_case
 from nag.solving.solve import solve
@@ -159,6 +164,135 @@ def test_answers_of_other_programs_are_read_to_all_digits(monkeypatch) -> None:
     found = peer_points.peer_points("M2", SYSTEM, 1.0)
     assert found.seconds == 0.25
     assert found.points.tolist() == [[5 - 0.00125j, 1]]
+
+
+CIRCLE = PolynomialSystem(("x", "y"), (x**2 + y**2 - 1,))
+# The circle meets x - y = 0, which a program doubles, at (r, r) and (-r, -r) for r^2 = 1/2.
+R = 0.7071067811865476
+M2_SAYS = f"""seconds .5
+component 1
+value 0p53 0p53
+value .2p53e1 0p53
+value -.2p53e1 0p53
+value {R}p53 0p53
+value {R}p53 0p53
+value -{R}p53 0p53
+value -{R}p53 0p53
+"""
+PHC_SAYS = f"""
+Writing the factors of dimension 1 ...
+
+FACTOR 1 :
+ 3
+
++1*xaa^2
++1*xab^2
++( 9.00000000000000E-01 + 1.00000000000000E-01*i)*zz1
+-1;
+
++1*zz1;
+
++( 2.00000000000000E+00 + 0.00000000000000E+00*i)*xaa
+-2.00000000000000E+00*xab
++(-3.00000000000000E-01 - 4.00000000000000E-01*i)*zz1;
+
+THE SOLUTIONS :
+2 3
+===
+solution 1 :
+the solution for t :
+ xaa :  {R:.15E}  0.0E+00
+ xab :  {R:.15E}  0.0E+00
+ zz1 :  0.0E+00  0.0E+00
+== err :  1.0E-16 = rco :  1.0E-01 = res :  1.0E-16 ==
+solution 2 :
+the solution for t :
+ xaa : -{R:.15E}  0.0E+00
+ xab : -{R:.15E}  0.0E+00
+ zz1 :  0.0E+00  0.0E+00
+== err :  1.0E-16 = rco :  1.0E-01 = res :  1.0E-16 ==
+
+dim |  CPU user time | degrees of factors
+"""
+
+
+def _program_says(monkeypatch, text: str) -> None:
+    def call(command, folder, limit, given=None):
+        (Path(folder) / "answer").write_text(text)
+        return 1.0, text
+
+    monkeypatch.setattr(peer_components, "call", call)
+
+
+@pytest.mark.parametrize(("program", "text"), [("M2", M2_SAYS), ("phc", PHC_SAYS)])
+def test_components_of_other_programs_are_measured_on_their_own_slices(
+    program: str, text: str, monkeypatch
+) -> None:
+    _program_says(monkeypatch, text)
+    (found,) = peer_components.peer_components(program, CIRCLE, 1.0, 0).components
+    assert found.rows.tolist() == [[0, 2, -2]]
+    listed = Listed(found.points, found.rows)
+    right = agreement(CIRCLE, [listed], [(1, 2, 1)])
+    assert (right.share, right.false) == (1.0, 0)
+    assert right.largest < 2e-16
+    off = Listed(found.points + 1e-9, found.rows)
+    assert agreement(CIRCLE, [off], [(1, 2, 1)]).largest == pytest.approx(1e-9, rel=1e-6)
+    assert agreement(CIRCLE, [listed, listed], [(1, 2, 1)]).false == 1
+    # A program is not told which polynomials must not vanish.
+    inside = replace(CIRCLE, nonzero=(x - y,))
+    assert peer_components.peer_components(program, inside, 1.0, 0).components == ()
+
+
+def test_a_program_that_gives_no_components_says_so(monkeypatch) -> None:
+    _program_says(monkeypatch, "refused not yet implemented")
+    found = peer_components.peer_components("bertini2", CIRCLE, 1.0, 0)
+    assert found.components is None
+    assert found.remark == "no answer: not yet implemented"
+
+
+def test_a_slice_meets_the_components_in_as_many_points_as_their_degrees() -> None:
+    whole = PolynomialSystem(("x", "y"), ((x**2 + y**2 - 1) * (x - 3 * y), 0 * x))
+    rng = np.random.default_rng(0)
+    degrees = ((1, 2, 1), (1, 1, 1))
+    section, square, reference = witness_section(Subject("both", whole, True, degrees), rng)
+    assert len(square.polynomials) == 2 < len(section.polynomials)
+    assert len(reference.high) == 3
+    with pytest.raises(ReferenceError, match="in 4 simple points"):
+        witness_section(Subject("both", whole, True, ((1, 2, 2),)), rng)
+
+
+def test_the_best_form_finds_most_then_to_the_accuracy_then_soonest() -> None:
+    def curve(name: str, share: float, largest: float, seconds: float) -> Curve:
+        return Curve("peer", name, (Point(name, seconds, 0, share, 0, largest, largest),))
+
+    none = Curve("peer", "none", (), "no answer")
+    some, rough = curve("some", 0.9, 1e-16, 1.0), curve("rough", 1.0, 1e-9, 1.0)
+    slow, fast = curve("slow", 1.0, 1e-15, 3.0), curve("fast", 1.0, 1e-13, 2.0)
+    for k, best in enumerate(order := (none, some, rough, slow, fast)):
+        assert best_form(order[: k + 1]) is best
+
+
+def test_divided_equations_have_the_same_zeros_and_largest_coefficient_one() -> None:
+    large = PolynomialSystem(("x", "y"), (10**11 * x**2 - 3 * y, x + 7 * y))
+    as_given, divided = forms(large).values()
+    assert as_given is large
+    assert [max(abs(c) for c in f.terms.values()) for f in divided.polynomials] == [1, 1]
+    assert forms(PolynomialSystem(("x", "y"), (x - y, x * y - 1))).keys() == {""}
+
+
+def _lightness(colour: str) -> float:
+    """L* of CIELAB, from 0 to 100."""
+    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+    y = float(np.dot(linear, [0.2126, 0.7152, 0.0722]))
+    return 116 * y ** (1 / 3) - 16 if y > 0.008856 else 903.3 * y
+
+
+def test_curves_differ_in_lightness_and_in_marks() -> None:
+    steps = np.diff([_lightness(c) for c in COLOURS])
+    assert steps.min() > 10
+    marks = [*MARKS, *(mark for _, mark in PEERS.values())]
+    assert len(set(marks)) == len(marks)
 
 
 def test_kept_charts_are_drawn_without_a_run(tmp_path: Path, capsys) -> None:

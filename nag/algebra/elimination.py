@@ -177,12 +177,12 @@ def solved(f: Polynomial, index: int) -> Polynomial:
 
 def substituted(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
     """``f`` with one variable replaced, by Horner's rule in that variable."""
+    if index not in f.support:
+        return f
     by_power: dict[int, dict[Exponents, Number]] = {}
     for e, c in f.terms.items():
         by_power.setdefault(e[index], {})[(*e[:index], 0, *e[index + 1 :])] = c
-    top = max(by_power, default=0)
-    if top == 0:
-        return f
+    top = max(by_power)
     result = Polynomial(f.n, by_power[top])
     for power in range(top - 1, -1, -1):
         result = result * image + Polynomial(f.n, by_power.get(power, {}))

@@ -88,6 +88,9 @@ def is_surely_irreducible(f: Any, n: int) -> bool:
 
 def _rank_of_quadric(f: Any, exponents: Sequence[Sequence[int]], n: int) -> int:
     """The rank of a quadric's matrix modulo a prime, which is no more than its own."""
+    if all(max(e) != 1 for e in exponents):
+        # Squares and a constant.
+        return len(exponents)
     whole = _whole_coefficients(f)[0]
     rows = [[0] * (n + 1) for _ in range(n + 1)]
     for e, c in zip(exponents, whole, strict=True):

@@ -165,7 +165,7 @@ class Polynomial:
     def __bool__(self) -> bool:
         return bool(self.terms)
 
-    @property
+    @cached_property
     def degree(self) -> int:
         """Total degree; 0 for a constant, -1 for the zero polynomial."""
         return max(map(sum, self.terms), default=-1)
@@ -175,12 +175,12 @@ class Polynomial:
         indices = tuple(indices)
         return max((sum([e[i] for i in indices]) for e in self.terms), default=-1)
 
-    @property
+    @cached_property
     def support(self) -> frozenset[int]:
         """Indices of the variables that occur."""
         return frozenset(i for e in self.terms for i, k in enumerate(e) if k)
 
-    @property
+    @cached_property
     def exact(self) -> bool:
         """Whether every coefficient is rational."""
         return all(isinstance(c, Fraction) for c in self.terms.values())

@@ -92,7 +92,8 @@ def looped_turns(system: PolynomialSystem) -> Turns | None:
 
 
 def _is_moderate(x: Fraction) -> bool:
-    return not x or 1 < LARGEST * abs(x) < LARGEST**2
+    p, q = abs(x.numerator), x.denominator
+    return not p or (q < LARGEST * p and p < LARGEST * q)
 
 
 def _circle(f: Polynomial) -> tuple[Pair, Fraction, Fraction] | None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from nag.bench.sharpening import Sharpened
-from nag.bench.speed_accuracy import Chart, Curve, Point
+from nag.bench.work_precision import Chart, Curve, Point
 from nag.files.json_values import (
     as_count,
     as_document,

@@ -20,6 +20,7 @@ from nag.solving.parameter import Solved, begin_of_family, solve_family, solve_g
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.settings import Settings
 
 if TYPE_CHECKING:
     from nag.files.case_family import CaseFamily
@@ -71,37 +72,40 @@ class Measured:
         return asdict(self) | {"right": self.right}
 
 
-def step_flops(homotopy: Homotopy) -> int:
-    """Real additions and multiplications of a step: prediction, two corrections, three jets.
+def step_flops(homotopy: Homotopy, order: int = Settings().order) -> int:
+    """Real additions and multiplications of a step: two corrections, coefficients, prediction.
 
     Products and terms are counted from the compiled system; a complex product is 6 operations, a
     complex sum 2, a complex number times a real one 2.
     """
     tape, n = homotopy.rows.tape, homotopy.N
-    products = tape.value_products
 
     def blocks(start: np.ndarray, coefficient: np.ndarray) -> int:
         real = sum(
             (4 if not coefficient[a:b].imag.any() else 8) * int(b - a) for a, b in pairwise(start)
         )
-        return real + 8 * (len(start) - 1)
+        return real + 16 * (len(start) - 1)
 
     value = blocks(tape.value_start, tape.value_coefficient)
     jacobian = blocks(tape.jacobian_start, tape.jacobian_coefficient)
     linear = 8 * n * len(homotopy.A0)
-    # A jet of order k of a product takes k + 1 complex products and k sums.
-    jets = products * sum(8 * (k + 1) for k in (1, 2, 2, 3))
+    # A coefficient of order k of a product takes k - 1 complex products and as many sums.
+    products = (
+        tape.value_products * 8 * (order * (order - 1) // 2) + tape.inner_products * 16 * order
+    )
+    slopes = 8 * len(np.unique(tape.jacobian_place)) * order
     factorize = 8 * n**3 // 3
     substitute = 8 * n * n
     return (
-        6 * (len(tape.first) + products)
-        + jets
+        6 * (len(tape.first) + tape.value_products)
+        + products
+        + slopes
         + jacobian
-        + 6 * value
-        + 5 * linear
+        + (order + 1) * value
+        + (order + 2) * linear
         + factorize
-        + 5 * substitute
-        + 60 * n
+        + (order + 2) * substitute
+        + (48 + 8 * order) * n
     )
 
 

@@ -7,7 +7,7 @@ import re
 import resource
 import sys
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -35,6 +35,19 @@ class PeerPoints:
 
 # M2 with its solutions sharpened: by itself it stops at errors of 1e-12 or so.
 REFINED = "M2, refined"
+SCALED = "equations divided by their largest coefficients"
+
+
+def forms(system: PolynomialSystem) -> dict[str, PolynomialSystem]:
+    """The equations as they are, and each divided by its largest coefficient, by what they are.
+
+    Programs that do not scale equations themselves do better with one or the other.
+    """
+    if not system.exact:
+        return {"": system}
+    divided = [f / max(abs(c) for c in f.terms.values()) if f else f for f in system.polynomials]
+    scaled = replace(system, polynomials=tuple(divided))
+    return {"": system} | ({SCALED: scaled} if scaled != system else {})
 
 
 def programs() -> list[str]:
@@ -49,9 +62,9 @@ def peer_points(program: str, system: PolynomialSystem, limit: float) -> PeerPoi
     runs = {"M2": _macaulay2, REFINED: _refined, "phc": _phcpack, "bertini2": _bertini}
     run = runs[program]
     with tempfile.TemporaryDirectory() as folder:
-        before = _children()
+        before = children_seconds()
         output = run(system, Path(folder), limit)
-        seconds = _children() - before
+        seconds = children_seconds() - before
     if output is None:
         return PeerPoints(program, seconds, None, f"no answer in {limit:.0f} s")
     said, numbers = output
@@ -62,17 +75,20 @@ def peer_points(program: str, system: PolynomialSystem, limit: float) -> PeerPoi
 Answer = tuple[float | None, list[complex]] | None
 
 
-def _children() -> float:
+def children_seconds() -> float:
+    """Processor time of all processes that were started and have ended."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
-def _pairs(lines: str) -> list[complex]:
+def pairs(lines: str) -> list[complex]:
+    """Complex numbers, one in each line ``value re im``."""
     found = re.findall(r"^value (\S+) (\S+)$", lines, re.MULTILINE)
     return [complex(float(re), float(im)) for re, im in found]
 
 
-def _said(output: str) -> float | None:
+def said(output: str) -> float | None:
+    """The number in a line ``seconds number``."""
     found = re.search(r"^seconds (\S+)$", output, re.MULTILINE)
     return float(found[1]) if found else None
 
@@ -100,7 +116,7 @@ def _macaulay2(system: PolynomialSystem, folder: Path, limit: float, further: st
     if output is None:
         return None
     # Doubles are written with their precision in bits: .5p53e1.
-    return _said(output), _pairs(re.sub(r"p53", "", output))
+    return said(output), pairs(re.sub(r"p53", "", output))
 
 
 def _phcpack(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
@@ -114,25 +130,30 @@ def _phcpack(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
     text = (folder / "system").read_text("utf-8", "replace").partition("THE SOLUTIONS")[2]
     numbers = []
     for block in re.split(r"^solution \d+ :", text, flags=re.MULTILINE)[1:]:
-        values = dict(_coordinates(block))
+        values = dict(coordinates(block))
         if all(name in values for name in names):
             numbers += [values[name] for name in names]
     return None, numbers
 
 
-def _coordinates(block: str) -> list[tuple[str, complex]]:
+def coordinates(block: str) -> list[tuple[str, complex]]:
+    """Names and values of the unknowns, as ``phc`` writes a solution."""
     found = re.findall(r"^ (\w+) : +(\S+) +(\S+)$", block, re.MULTILINE)
     return [(name, complex(float(re), float(im))) for name, re, im in found]
 
 
-def _bertini(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
+def bertini_source(system: PolynomialSystem) -> str:
+    """The system as Bertini reads it."""
     names, texts = plain_texts(system)
     functions = [f"f{i}" for i in range(len(texts))]
     equations = " ".join(f"{f} = {t};" for f, t in zip(functions, texts, strict=True))
-    source = f"variable_group {', '.join(names)}; function {', '.join(functions)}; {equations}"
+    return f"variable_group {', '.join(names)}; function {', '.join(functions)}; {equations}"
+
+
+def _bertini(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
     script = (
         "import time, bertini\n"
-        f"system = bertini.parse.system({source!r})\n"
+        f"system = bertini.parse.system({bertini_source(system)!r})\n"
         "begin = time.process_time()\n"
         "found = bertini.solve(system, show_progress=False, directory='records', seed=1)\n"
         "print('seconds', time.process_time() - begin)\n"
@@ -143,4 +164,4 @@ def _bertini(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
     )
     (folder / "solve.py").write_text(script, "utf-8")
     _, output = call([sys.executable, "solve.py"], str(folder), limit)
-    return None if output is None else (_said(output), _pairs(output))
+    return None if output is None else (said(output), pairs(output))

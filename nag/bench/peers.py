@@ -56,12 +56,24 @@ def run_peer(program: str, system: PolynomialSystem, limit: float) -> Peer:
     return {"M2": _macaulay2, "phc": _phcpack}[program](system, limit)
 
 
-def call(command: list[str], folder: str, limit: float) -> tuple[float, str | None]:
-    """Seconds that a command took and what it printed, None if it ran into the limit."""
+def call(
+    command: list[str], folder: str, limit: float, given: str | None = None
+) -> tuple[float, str | None]:
+    """Seconds that a command took and what it printed, None if it ran into the limit.
+
+    Args:
+        given: what it reads from its standard input.
+    """
     begin = time.perf_counter()
     try:
         done = subprocess.run(
-            command, cwd=folder, capture_output=True, text=True, timeout=limit, check=False
+            command,
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            timeout=limit,
+            check=False,
+            input=given,
         )
     except subprocess.TimeoutExpired:
         return time.perf_counter() - begin, None

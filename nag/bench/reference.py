@@ -142,10 +142,14 @@ def _compared(
 
 
 def joined(found: Sequence[Found]) -> Found:
-    """Over seeds: mean share, points that are false in all, largest error, median of medians."""
+    """Over seeds: mean share, points that are false in all, largest error, median of medians.
+
+    Errors are those of the seeds for which there are any.
+    """
+    some = [f for f in found if np.isfinite(f.largest)] or found
     return Found(
         float(np.mean([f.share for f in found])),
         sum(f.false for f in found),
-        max(f.largest for f in found),
-        float(np.median([f.median for f in found])),
+        max(f.largest for f in some),
+        float(np.median([f.median for f in some])),
     )

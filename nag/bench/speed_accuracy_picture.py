@@ -8,21 +8,31 @@ from typing import Any
 import numpy as np
 
 from nag.bench.picture_file import STYLE, save
-from nag.bench.speed_accuracy import Chart, Curve, Point
 from nag.bench.whole_paths import ARITHMETICS, DIGITS
+from nag.bench.work_precision import ACCURATE, Chart, Curve, Point
 
-# Colours of different lightness, and marks, so that greyscale will do.
-COLOURS = ("#1b1b4b", "#b2182b", "#1f78b4", "#e08214", "#35978f", "#7b9e2f", "#c994c7", "#8c6d31")
-MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
+# Colours, from dark to light in equal steps, marks and dashes, so that greyscale will do.
+COLOURS = ("#10102e", "#7d0a22", "#2a5fb0", "#1e9684", "#e0931c", "#b4cc55")
+MARKS = ("o", "s", "^", "D", "v", "P")
+DASHES = (
+    "-",
+    (0, (6, 1.5)),
+    (0, (3, 1.2)),
+    (0, (6, 1.5, 1, 1.5)),
+    (0, (3, 1.2, 1, 1.2)),
+    (0, (1, 1)),
+)
 PEERS = {
-    "M2": ("#555555", "<"),
-    "M2, refined": ("#777777", "v"),
-    "phc": ("#999999", ">"),
-    "bertini2": ("#222222", "d"),
+    "M2": ("#6a6a6a", "<"),
+    "M2, refined": ("#8c8c8c", "p"),
+    "phc": ("#adadad", ">"),
+    "bertini2": ("#4a4a4a", "*"),
 }
+OTHER_PEER = ("#8c8c8c", "h")
+# Ours, beside other programs.
+OURS = "#a50f15"
 # Errors below these are drawn there: of points that are doubles, and in more digits.
 FLOOR, DEEPEST = 1e-17, 1e-110
-ACCURATE = 1e-12
 # Where legends begin, below the axes.
 LEGENDS = 0.175
 WORK = "evaluations of the system"
@@ -38,6 +48,7 @@ def draw_case(chart: Chart, path: str) -> None:
     """
     from matplotlib import rc_context
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
     ours = [c for c in chart.curves if c.kind != "arithmetic" and c.points]
     whole = [c for c in chart.curves if c.kind == "arithmetic"]
@@ -47,7 +58,7 @@ def draw_case(chart: Chart, path: str) -> None:
         grid = figure.subplots(2, columns)
         left = 0.17 / columns
         figure.subplots_adjust(left, 0.26, 0.985, 0.92, 0.26, 0.4)
-        noun = f"{chart.expected} {chart.what}"
+        noun = _number(chart.expected, chart.what)
         seeds = "one seed" if chart.seeds == 1 else f"{chart.seeds} seeds"
         title = f"{chart.case}: {noun}, {seeds}, one thread"
         figure.suptitle(title, fontsize=10, weight="bold", y=0.975)
@@ -60,6 +71,8 @@ def draw_case(chart: Chart, path: str) -> None:
                 _error(grid[1, 0], curve, style, "evaluations")
                 _share(grid[1, 1], curve, style, "evaluations")
         handles |= _certification(grid[0, 0], chart)
+        silent = [c.label for c in chart.curves if c.kind == "peer" and not c.points]
+        handles |= {f"{label}: no answer": Line2D([], [], linestyle="") for label in silent}
         for row, across, of in ((0, "processor time [s]", "time"), (1, WORK, "work")):
             error, share = grid[row, :2]
             if not error.lines:
@@ -87,6 +100,10 @@ def draw_case(chart: Chart, path: str) -> None:
         save(figure, path)
 
 
+def _number(count: int, what: str) -> str:
+    return f"{count} {what.removesuffix('s') if count == 1 else what}"
+
+
 def _label(curve: Curve) -> str:
     if curve.kind == "settings":
         return "settings " + ", ".join(p.name for p in curve.points)
@@ -95,10 +112,13 @@ def _label(curve: Curve) -> str:
 
 def _style(curve: Curve, k: int) -> dict[str, Any]:
     if curve.kind == "peer":
-        colour, mark = PEERS.get(curve.label, ("#777777", "h"))
+        colour, mark = PEERS.get(curve.label, OTHER_PEER)
         return {"color": colour, "marker": mark, "markersize": 7, "linestyle": ""}
-    dashes = {"settings": "-", "order": "--", "digits": ":"}[curve.kind]
-    return {"color": COLOURS[k], "marker": MARKS[k], "markersize": 4.5, "linestyle": dashes}
+    return _numbered(k) | {"markersize": 4.5}
+
+
+def _numbered(k: int) -> dict[str, Any]:
+    return {"color": COLOURS[k], "marker": MARKS[k], "linestyle": DASHES[k]}
 
 
 def _error(
@@ -142,7 +162,11 @@ def _certification(axes: Any, chart: Chart) -> dict[str, Any]:
     """The times of proving all solutions, and all paths, as lines across, by their names."""
     noun = "paths" if chart.what == "solutions" else "loops"
     proofs = (
-        (f"proof of {chart.certified} {chart.what}", chart.certification, (0, (1, 1.5))),
+        (
+            f"proof of {chart.certified} of {_number(chart.expected, chart.what)}",
+            chart.certification,
+            (0, (1, 1.5)),
+        ),
         (f"proof of {noun}, {chart.proved_paths} of {chart.paths}", chart.path_proof, (0, (5, 2))),
     )
     return {
@@ -157,8 +181,7 @@ def _named(arithmetic: str) -> str:
 
 
 def _of_arithmetic(name: str) -> dict[str, Any]:
-    k = ARITHMETICS.index(name)
-    return {"color": COLOURS[k], "marker": MARKS[k], "markersize": 4}
+    return _numbered(ARITHMETICS.index(name)) | {"markersize": 4}
 
 
 def _arithmetics(axes: Any, curves: Sequence[Curve]) -> dict[str, Any]:
@@ -239,10 +262,10 @@ def _programs(chart: Chart) -> list[tuple[str, dict[str, Any], Point]]:
     for curve in chart.curves:
         for point in curve.points:
             if curve.kind == "settings":
-                style = {"color": "#b2182b", "marker": marks[point.name], "markersize": 6}
+                style = {"color": OURS, "marker": marks[point.name], "markersize": 6}
                 found.append((f"nag, {point.name}", style, point))
             elif curve.kind == "peer":
-                colour, mark = PEERS.get(curve.label, ("#777777", "h"))
+                colour, mark = PEERS.get(curve.label, OTHER_PEER)
                 found.append(
                     (curve.label, {"color": colour, "marker": mark, "markersize": 6}, point)
                 )

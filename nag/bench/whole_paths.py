@@ -14,9 +14,10 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench.reference import Found, Reference, compared, compared_in_balls
+from nag.bench.reference import NEAR, Found, Reference, compared, compared_in_balls
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import middle, number
 from nag.solving.isolated_zero import FinePoint
@@ -46,8 +47,15 @@ Ends = np.ndarray | list[list[Any]]
 
 @dataclass(frozen=True, eq=False)
 class WholePaths:
-    """A square system in scaled variables and the paths to its zeros, each to be tracked."""
+    """A square system in scaled variables and the paths to its zeros, each to be tracked.
 
+    Attributes:
+        others: equations that these zeros need not satisfy, and nonzero: polynomials that must not
+            vanish; in the system's own variables.
+    """
+
+    others: tuple[Polynomial, ...]
+    nonzero: tuple[Polynomial, ...]
     target: Target
     begin: Start
 
@@ -56,7 +64,9 @@ class WholePaths:
         """The start system that `nag.solving.solve.solve` would choose."""
         rng = np.random.default_rng(seed)
         problem = SquareProblem.of(system, [f for f in system.polynomials if f], rng)
-        return cls(problem.target, choose(problem.target, "auto", system.groups, rng, 1)[0])
+        others = system.polynomials if problem.squared else ()
+        begin = choose(problem.target, "auto", system.groups, rng, 1)[0]
+        return cls(others, system.nonzero, problem.target, begin)
 
     def tracked(self, arithmetic: str, tolerance: float) -> Ends:
         """Regular ends in the system's own variables, where they are finite."""
@@ -67,6 +77,21 @@ class WholePaths:
         if arithmetic in WORDS:
             return self._original(self._in_words(WORDS[arithmetic], settings))
         return self._original(self._in_balls(DIGITS[arithmetic], settings))
+
+    def zeros_among(self, ends: Ends) -> Ends:
+        """The ends that are zeros of the system, as far as doubles tell."""
+        if not len(ends) or not (self.others or self.nonzero):
+            return ends
+        points = ends
+        if not isinstance(ends, np.ndarray):
+            points = np.array([[complex(z.mid()) for z in x] for x in ends])
+        n = self.target.n
+        kept = np.ones(len(points), dtype=bool)
+        if self.others:
+            kept &= (Evaluator.of(self.others, n).residuals(points) < NEAR).all(axis=1)
+        if self.nonzero:
+            kept &= (Evaluator.of(self.nonzero, n).residuals(points) >= NEAR).all(axis=1)
+        return ends[kept] if ends is points else [x for x, k in zip(ends, kept, strict=True) if k]
 
     def _in_doubles(self, settings: Settings, sharpened: bool) -> np.ndarray:
         homotopy = self.begin.homotopy
@@ -121,7 +146,7 @@ def tracked_in(
     """Processor seconds of tracking, evaluations of the system, and what was found."""
     with counted() as spent:
         begin = time.process_time()
-        ends = paths.tracked(arithmetic, tolerance)
+        ends = paths.zeros_among(paths.tracked(arithmetic, tolerance))
         seconds = time.process_time() - begin
     compare = compared if isinstance(ends, np.ndarray) else compared_in_balls
     return seconds, spent.number, compare(reference, ends)

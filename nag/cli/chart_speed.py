@@ -12,7 +12,7 @@ from nag.cli.arguments import UsageError, whole
 from nag.cli.chart_files import check_targets, write_picture, write_text
 
 if TYPE_CHECKING:
-    from nag.bench.speed_accuracy import Chart, Subject
+    from nag.bench.work_precision import Chart, Subject
 
 FOLDERS = (Path("cases"), Path("cases/benchmarks"), Path("cases/hard"))
 # A system of the atlas: eight pairs of solutions at distances of 1e-8.
@@ -68,6 +68,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     charts = _read(options.data) if options.data is not None else _run(options)
 
     from nag.bench.chart_data import document
+    from nag.bench.peer_points import SCALED
     from nag.bench.speed_accuracy import ratios
     from nag.bench.speed_accuracy_picture import draw_all, draw_case
     from nag.text.table import align
@@ -81,7 +82,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             write_picture(name, lambda target, chart=chart: draw_case(chart, target))
     lines = align(ratios(charts), {0, 4})
     lines += ["", "ratio: the other program's processor time over ours; in brackets where one of"]
-    lines.append("the two did not find all solutions to 1e-12.")
+    lines.append(f"the two did not find all solutions to 1e-12; * {SCALED}")
     right = all(p.share == 1 for chart in charts for p in _default(chart))
     return lines, right
 
@@ -122,7 +123,7 @@ def _run(options: argparse.Namespace) -> list[Chart]:
 
 
 def _subject(name: str) -> Subject:
-    from nag.bench.speed_accuracy import Subject
+    from nag.bench.work_precision import Subject
 
     if name == CLUSTER:
         import numpy as np

@@ -30,8 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=10,
         metavar="SECONDS",
         help="processor time after which an answer counts as undecided (default: 10; four times as "
-        "long for the family solved-hard, twelve times for sparse-large and solved-large, which "
-        "have four seeds)",
+        "long for the family solved-hard, six times for nine-point, twelve times for sparse-large "
+        "and solved-large; the last three have four seeds)",
     )
     parser.add_argument(
         "--jobs", type=lambda t: whole(t, 1, 64), default=2, help="processes (default: 2)"

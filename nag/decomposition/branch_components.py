@@ -69,13 +69,14 @@ def decompose_apart(
     """
     if system.n == 0:
         return None
-    apart, rng = branches(system), np.random.default_rng([seed, 11])
-    if apart is None:
-        zeros = algebraic_zeros(system)
-        if zeros is None:
-            return None
+    apart = branches(system)
+    used: Sequence[SignedPermutation] = ()
+    zeros = algebraic_zeros(system) if apart is None else None
+    if apart is None and zeros is None:
+        return None
+    rng = np.random.default_rng([seed, 11])
+    if zeros is not None:
         parts = [_algebraic(system, zeros)]
-        used: Sequence[SignedPermutation] = ()
     else:
         systems = [b.system(system) for b in apart]
         used = symmetries if len(systems) == 1 and _keep(symmetries, systems[0]) else ()

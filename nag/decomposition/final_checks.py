@@ -101,7 +101,9 @@ class _Part:
 
     def only(self, indices: Sequence[int]) -> _Part:
         """Those that have one of these indices, in an order that does not depend on them."""
-        places = np.flatnonzero(np.isin(self.own, indices))
+        asked = np.zeros(1 + max(self.own.max(initial=-1), max(indices, default=-1)), dtype=bool)
+        asked[np.asarray(indices, dtype=int)] = True
+        places = np.flatnonzero(asked[self.own])
         places = places[in_order(self.sharp.fibre.points[places])]
         return _Part(
             self.own[places],

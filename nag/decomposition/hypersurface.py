@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.roots import line, points_in_balls, zeros_on
 from nag.tracking.compiled import CompiledRows, compile_rows
@@ -89,7 +88,7 @@ def intersect(
     if fibre.fine:
         return _intersect_close(fibre, f, flag, gamma, tracker)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
-    n, total = cut.n, cut.n + cut.aux
+    total = cut.n + cut.aux
     if not cut.polynomials and len(fibre) == 1 and f.exact and degree <= MOST_ROOTS:
         found = _on_line(f, flag[: d - 1])
         if found is not None:
@@ -102,10 +101,7 @@ def intersect(
     a0[d - 1] = 0
     a0[d - 1, -1] = 1
     a1[d - 1] = gamma * slices[d - 1] - a0[d - 1]
-    # An evaluator divides by the largest coefficient.
-    values = Evaluator.of([f], n).values(fibre.x)[:, 0] * max(
-        map(abs, map(float, f.terms.values()))
-    )
+    values = f(fibre.x.T)
     roots = np.exp(2j * np.pi * np.arange(degree) / degree)
     u_start = (values.astype(complex) ** (1 / degree))[:, None] * roots[None, :]
     starts = np.concatenate(

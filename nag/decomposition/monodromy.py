@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from nag.numerics.coincidence import compared
+from nag.numerics.coincidence import BEYOND, MISS, compared
 from nag.witness.close_points import Fine, distance
 from nag.witness.fibres import Tracker
 from nag.witness.points import Points, moved_points
@@ -19,8 +19,9 @@ from nag.witness.witness import PathCounts
 ROUGH = 1e-8
 # Distance of an end from its point beside that from the next one.
 NEARER = 1e-3
-# Above so many distances a tree is searched.
-MOST_DISTANCES = 100_000
+# Of more distances than FEW only those are computed that a projection does not show to be long, at
+# most so many at once.
+FEW, MOST_DISTANCES = 1_000, 100_000
 # Coordinates that are a smaller part of a point are taken for one of this size.
 LEAST_SIZE = 1e-8
 NOTHING: Mapping[int, Fine] = MappingProxyType({})
@@ -75,19 +76,51 @@ def places_among(
 
 
 def _two_nearest(ends: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The nearest point of each end, its distance, and that of the next one."""
-    if len(ends) * len(points) <= MOST_DISTANCES:
-        distances = np.linalg.norm(ends[:, None] - points[None], axis=2)
-        nearest = distances.argmin(axis=1)
-        rows = np.arange(len(ends))
-        closest = distances[rows, nearest]
-        distances[rows, nearest] = np.inf
-        return nearest, closest, distances.min(axis=1)
-    from scipy.spatial import cKDTree
+    """The nearest point of each end, its distance, and that of the next one.
 
-    tree = cKDTree(np.hstack([points.real, points.imag]))
-    distances, indices = tree.query(np.hstack([ends.real, ends.imag]), k=[1, 2])
-    return indices[:, 0], distances[:, 0], distances[:, 1]
+    Distances are infinite where they are too long to matter: beyond those that `compared` takes for
+    one or for doubtful, or, of the next point, by far longer than that of the nearest one.
+    """
+    if len(ends) * len(points) <= FEW:
+        return _of_all(ends, points)
+    n = points.shape[1]
+    weights = np.exp(1j * np.arange(1, n + 1) ** 2) / np.sqrt(n)
+    keys, own = (points @ weights).real, (ends @ weights).real
+    order = np.argsort(keys, kind="stable")
+    keys = keys[order]
+    width = 2 * max(MISS, BEYOND * ROUGH) * (1 + np.linalg.norm(ends, axis=1))
+    first, last = np.searchsorted(keys, own - width), np.searchsorted(keys, own + width, "right")
+    nearest = np.zeros(len(ends), dtype=int)
+    closest, next_one = np.full((2, len(ends)), np.inf)
+    totals = np.cumsum(last - first)
+    for k in range(int(totals[-1]) // MOST_DISTANCES + 1):
+        some = np.flatnonzero((last > first) & (totals // MOST_DISTANCES == k))
+        if not len(some):
+            continue
+        counts = last[some] - first[some]
+        begins = np.cumsum(counts) - counts
+        i = np.repeat(some, counts)
+        j = order[np.arange(len(i)) + np.repeat(first[some] - begins, counts)]
+        distances = np.linalg.norm(ends[i] - points[j], axis=1)
+        by_distance = np.lexsort((distances, i))
+        nearest[some], closest[some] = j[by_distance[begins]], distances[by_distance[begins]]
+        several = counts > 1
+        next_one[some[several]] = distances[by_distance[begins[several] + 1]]
+    open_ones = np.flatnonzero((closest > NEARER * width) & (closest <= width))
+    for own in np.array_split(open_ones, 1 + len(open_ones) * len(points) // MOST_DISTANCES):
+        if len(own):
+            nearest[own], closest[own], next_one[own] = _of_all(ends[own], points)
+    return nearest, closest, next_one
+
+
+def _of_all(ends: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The same from all distances."""
+    distances = np.linalg.norm(ends[:, None] - points[None], axis=2)
+    nearest = distances.argmin(axis=1)
+    rows = np.arange(len(ends))
+    closest = distances[rows, nearest]
+    distances[rows, nearest] = np.inf
+    return nearest, closest, distances.min(axis=1)
 
 
 def loop(

@@ -39,7 +39,7 @@ def line(rows: np.ndarray) -> list[Any]:
     with flint.ctx.workprec(BITS):
         whole = flint.acb_mat(n, n, [complex(c) for c in np.vstack([A, direction]).ravel()])
         right = [c for row in rows[:, 0] for c in (complex(-row), 0)] + [0, 1]
-        points = whole.inv() * flint.acb_mat(n, 2, right)
+        points = whole.solve(flint.acb_mat(n, 2, right))
         return [flint.acb_poly([points[i, 0], points[i, 1]]) for i in range(n)]
 
 

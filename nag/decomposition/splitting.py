@@ -9,6 +9,7 @@ confirmed for all of them.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -80,10 +81,10 @@ class _State:
 
     def open_points(self) -> np.ndarray:
         """Points of classes that are not confirmed, nor images of such."""
-        labels = self.labels.tolist()
-        sure = {k for k in set(labels) if self.verdict(k)}
-        done = {o for o, k in zip(self.orbits.tolist(), labels, strict=True) if k in sure}
-        return np.array([i for i, o in enumerate(self.orbits.tolist()) if o not in done], dtype=int)
+        labels, orbits = self.labels.tolist(), self.orbits.tolist()
+        sure = {k for k, size in Counter(labels).items() if self.verdicts.get((k, size))}
+        done = {o for o, k in zip(orbits, labels, strict=True) if k in sure}
+        return np.array([i for i, o in enumerate(orbits) if o not in done], dtype=int)
 
     def forget_symmetries(self) -> None:
         self.permutations, self.orbits = (), np.arange(len(self.labels))

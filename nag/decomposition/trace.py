@@ -82,8 +82,10 @@ class Trace:
     @classmethod
     def of(cls, points: Points, evidence: int, rng: np.random.Generator) -> Trace:
         """A motion as far as the points are large."""
-        sizes = np.linalg.norm(points.x, axis=1)
-        shift = complex(unit_complex(rng)) * float(np.median(sizes)) if len(sizes) else 1.0
+        sizes = np.sort(np.linalg.norm(points.x, axis=1))
+        k = len(sizes) // 2
+        median = float(sizes[k] + sizes[~k]) / 2 if len(sizes) else 0.0
+        shift = complex(unit_complex(rng)) * median if len(sizes) else 1.0
         return cls(shift or 1.0, complex(unit_complex(rng)), evidence, {}, {}, {})
 
     def carried(
@@ -230,7 +232,8 @@ def _joined(parts: Sequence[Fibre]) -> Fibre:
     for part in parts:
         fine |= {first + i: each for i, each in part.fine.items()}
         first += len(part)
-    return replace(parts[0], points=np.vstack([part.points for part in parts]), fine=fine)
+    points = np.vstack([part.points for part in parts])
+    return Fibre(parts[0].cut, parts[0].dimension, points, fine)
 
 
 def _float(value: int, bits: int) -> float:

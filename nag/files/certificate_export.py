@@ -28,9 +28,11 @@ DIGITS = 60
 
 def _points(points: CertifiedPoints) -> list[dict[str, Any]]:
     boxes, errors, centres = points.boxes, points.errors(), pairs(points.boxes.centres)
-    documents = []
+    documents, evidence = [], points.on_evidence
     for i, proof in enumerate(points.proofs):
         document: dict[str, Any] = {"proof": str(proof), "refuted": i in points.refuted}
+        if evidence[i]:
+            document["evidence"] = True
         if boxes.proved[i]:
             document |= {
                 "centre": centres[i],
@@ -55,9 +57,12 @@ def _decimals(box: FineBox) -> list[list[str]]:
 
 
 def _reality(certificate: SolutionsCertificate) -> list[bool | None]:
+    proved = ~certificate.points.on_evidence
     return [
         True if real else False if other else None
-        for real, other in zip(certificate.real, certificate.not_real, strict=True)
+        for real, other in zip(
+            certificate.real & proved, certificate.not_real & proved, strict=True
+        )
     ]
 
 

@@ -5,5 +5,6 @@ of equations solved by series), `deflation` (a singular zero made a regular one)
 (how, where Jacobians do), `dual_space` (the dimension of its local ring), `far_along` and `curves`
 (zeros beside it), `singular_point` (all of it together); `local_dimension` on `located_zero`,
 `dimension_bounds` and `curve_search` (the dimension at any point), and `tangent_cone`; `krawczyk`
-on `discs` and `ball_polynomials` (boxes that hold one zero).
+on `discs` and `ball_polynomials` (boxes that hold one zero), `close_zeros` (of zeros that doubles
+do not tell apart).
 """

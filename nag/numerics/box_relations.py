@@ -19,7 +19,7 @@ def overlaps(boxes: Boxes) -> tuple[list[tuple[int, int]], list[tuple[int, int]]
     """
     same, unknown = [], []
     for i, j in _candidates(boxes):
-        verdict = _one_zero(boxes, i, j)
+        verdict = one_zero(fine_box(boxes, i), fine_box(boxes, j))
         if verdict is None:
             unknown.append((i, j))
         elif verdict:
@@ -46,10 +46,12 @@ def _candidates(boxes: Boxes) -> Iterator[tuple[int, int]]:
         yield from (tuple(sorted(pair)) for pair in pairs)
 
 
-def _one_zero(boxes: Boxes, i: int, j: int) -> bool | None:
-    """Whether two boxes have the same zero: the zero of one lies where the other has but one."""
+def one_zero(a: FineBox, b: FineBox) -> bool | None:
+    """Whether two boxes have the same zero: the zero of one lies where the other has but one.
+
+    None where that is not known.
+    """
     with flint.ctx.workprec(1024):
-        a, b = fine_box(boxes, i), fine_box(boxes, j)
         distance = [abs(x - y) for x, y in zip(a.centre, b.centre, strict=True)]
         sums = zip(distance, a.inner, b.inner, strict=True)
         if any(d > r + s for d, r, s in sums):

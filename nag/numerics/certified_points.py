@@ -22,6 +22,8 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_matrix import jacobian_rank
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import fine_box, overlaps
+from nag.numerics.close_zeros import close_zeros, matched
+from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
 from nag.numerics.digits import middle, number
 from nag.numerics.discs import UP
@@ -81,6 +83,18 @@ class CertifiedPoints:
         """Indices of the points with one of these proofs."""
         return np.array([i for i, p in enumerate(self.proofs) if p in proofs], dtype=np.int64)
 
+    @property
+    def on_evidence(self) -> np.ndarray:
+        """Which points rest on evidence, as equations vanish to so many digits, shape ``(P,)``."""
+        return np.array([p is not Proof.NONE for p in self.proofs], dtype=bool) & np.isfinite(
+            self.digits
+        )
+
+    @property
+    def all_proved(self) -> bool:
+        """Whether each point is proved, and none on evidence."""
+        return Proof.NONE not in self.proofs and not self.on_evidence.any()
+
     def errors(self) -> np.ndarray:
         """Proved bounds of the distances of points from their zeros, relative, shape ``(P,)``.
 
@@ -98,6 +112,7 @@ def certify_points(
     points: np.ndarray,
     accuracy: np.ndarray,
     singular: np.ndarray,
+    real: np.ndarray | None = None,
 ) -> CertifiedPoints:
     """Prove what can be proved of points of a zero set on a slice.
 
@@ -107,6 +122,8 @@ def certify_points(
         points: complex, shape ``(P, n)``.
         accuracy: estimated relative errors of the points, shape ``(P,)``.
         singular: which of the points are known to be singular, shape ``(P,)``.
+        real: which of them are said to be real, shape ``(P,)``: which one of several zeros is meant
+            where doubles do not tell them apart.
     """
     equations = [f for f in polynomials if f]
     P, n = points.shape
@@ -119,6 +136,10 @@ def certify_points(
     finite = np.isfinite(points).all(axis=1)
     tested = np.flatnonzero(~singular & finite)
     refuted |= _regular(equations, slices, found, proofs, tested, reach)
+    if len(equations) + len(slices) == n:
+        _close_together(
+            BallPolynomials.of(equations, slices), found, proofs, tested, accuracy, real
+        )
     for i in np.flatnonzero(~boxes.proved & finite).tolist():
         if i in refuted:
             continue
@@ -146,6 +167,38 @@ def _regular(
         for i in tested[boxes.proved[tested]].tolist():
             proofs[i] = Proof.SIMPLE
     return set()
+
+
+def _close_together(
+    system: BallPolynomials,
+    found: CertifiedPoints,
+    proofs: list[Proof],
+    tested: np.ndarray,
+    accuracy: np.ndarray,
+    real: np.ndarray | None,
+) -> None:
+    """Prove a zero of its own for each point of those close together, where one has none yet."""
+    boxes = found.boxes
+    twice = {i for pair in overlaps(boxes)[0] for i in pair}
+    without = twice | set(tested[~boxes.proved[tested]].tolist())
+    if not without:
+        return
+    # Distances of points that are larger leave the range of doubles.
+    with np.errstate(over="ignore"):
+        tested = tested[np.isfinite(np.linalg.norm(found.points[tested], axis=1))]
+    for group in clusters(found.points[tested], accuracy[tested]):
+        members = tested[group]
+        if len(members) < 2 or without.isdisjoint(members.tolist()):
+            continue
+        points, errors = found.points[members], accuracy[members]
+        near = NEAR * max(1.0, float(np.abs(points).max(initial=0.0)))
+        zeros = close_zeros(system, points, near, np.random.default_rng(0))
+        if len(zeros) < len(members):
+            continue
+        claims = None if real is None else real[members]
+        for i, box in zip(members.tolist(), matched(zeros, points, errors, claims), strict=True):
+            enter_box(boxes, i, box)
+            proofs[i] = Proof.SIMPLE
 
 
 def _overdetermined(

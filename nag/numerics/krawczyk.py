@@ -237,7 +237,7 @@ def box_about(
     for bits in ladder:
         with flint.ctx.workprec(bits):
             x = _newton(system, start)
-            box = None if x is None else _ball_box(system, x)
+            box = None if x is None else ball_box(system, x)
             if box is not None:
                 return box
     return None
@@ -260,7 +260,7 @@ def _newton(system: BallPolynomials, start: Sequence[flint.acb]) -> list[flint.a
     return x
 
 
-def _ball_box(system: BallPolynomials, x: list[flint.acb]) -> FineBox | None:
+def ball_box(system: BallPolynomials, x: list[flint.acb]) -> FineBox | None:
     """Krawczyk's test in balls about ``x``, for boxes from large to small."""
     try:
         inverse = system.jacobian(x).mid().inv().mid()

@@ -31,16 +31,24 @@ def solution_rows(certificate: SolutionsCertificate, seconds: float) -> Rows:
     """What is proved of solutions, as labelled lines."""
     points, proved = certificate.points, certificate.points.boxes.proved
     rows = _points_rows([points], "solutions")
-    real, complex_ = int(certificate.real.sum()), int(certificate.not_real.sum())
+    evidence = points.on_evidence
+    sides = certificate.real, certificate.not_real
+    real, complex_ = (int((side & ~evidence).sum()) for side in sides)
     text = f"{real} proved real, {complex_} proved not real"
-    open_ = int(proved.sum()) - real - complex_
+    open_ = int((proved & ~sides[0] & ~sides[1]).sum())
     rows.append(("reality", text + (f", {open_} open" if open_ else "")))
+    if evidence.any():
+        real, complex_ = (int((side & evidence).sum()) for side in sides)
+        rows.append(("", f"on evidence {real} real, {complex_} not real"))
     rows += _pairs_rows("solutions", "the same zero", certificate.same, certificate.unknown) or [
-        ("distinct", "proved zeros are proved to be distinct")
+        ("distinct", "the zeros in the boxes are proved to be distinct")
     ]
     for what, count in certificate.contradicted.items():
         text = f"{count} of the solutions that are said to be {what} are proved not to be"
         rows.append(("refuted", text))
+    for what, count in certificate.doubted.items():
+        text = f"{count} of the solutions that are said to be {what} are not, by evidence"
+        rows.append(("doubt", text))
     lost = int((proved & ~certificate.nonzero).sum())
     if lost:
         rows.append(("doubt", f"{lost} may be zeros of what must not vanish"))
@@ -139,8 +147,10 @@ def _points_rows(
     groups = list(groups)
     counts = Counter(p for g in groups for p in g.proofs)
     total = sum(counts.values())
+    evidence = sum(int(g.on_evidence.sum()) for g in groups)
     proved = total - counts[Proof.NONE]
-    rows = [("certified", f"{proved} of {total} {what}")]
+    more = f"; {evidence} on evidence" if evidence else ""
+    rows = [("certified", f"{proved - evidence} of {total} {what}{more}")]
     rows += [
         ("", f"{counts[p]} {WORDS[p].format(digits=_least_digits(groups, p))}")
         for p in Proof

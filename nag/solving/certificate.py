@@ -32,7 +32,8 @@ class SolutionsCertificate:
     Attributes:
         result: the solutions.
         points: what is proved of each of them.
-        real, not_real: which of them are proved real, and which not real; shape ``(k,)``.
+        real, not_real: which of the zeros in their boxes are real, and which not, shape ``(k,)``;
+            proved but for those on evidence, `CertifiedPoints.on_evidence`.
         same, unknown: pairs of indices with the same zero, and of which that is not known; all
             other pairs of proved zeros are proved distinct.
         nonzero: which solutions are proved to be no zeros of `PolynomialSystem.nonzero`, ``(k,)``.
@@ -73,6 +74,23 @@ class SolutionsCertificate:
     @property
     def contradicted(self) -> dict[str, int]:
         """What the result says of so many solutions, and is proved to be false."""
+        left_out = int(self.solutions_left_out.sum())
+        found = self._false(~self._deflated_on_evidence)
+        return found | ({"excluded": left_out} if left_out else {})
+
+    @property
+    def doubted(self) -> dict[str, int]:
+        """What the result says of so many solutions, and is false by evidence."""
+        return self._false(self._deflated_on_evidence)
+
+    @property
+    def _deflated_on_evidence(self) -> np.ndarray:
+        # Elsewhere no other zero of as many equations as unknowns is in the box.
+        return self.points.on_evidence & np.array(
+            [p is Proof.DEFLATED for p in self.points.proofs], dtype=bool
+        )
+
+    def _false(self, among: np.ndarray) -> dict[str, int]:
         solutions, proofs = self.result.solutions, self.points.proofs
         said_real = np.array([s.real for s in solutions], dtype=bool)
         said_simple = np.array([s.multiplicity == 1 for s in solutions], dtype=bool)
@@ -83,19 +101,20 @@ class SolutionsCertificate:
             "not real": ~said_real & self.real,
             "multiple": ~said_simple & simple,
             "simple": said_simple & singular,
-            "excluded": self.solutions_left_out,
         }
-        return {what: int(false.sum()) for what, false in found.items() if false.any()}
+        counts = {what: int((false & among).sum()) for what, false in found.items()}
+        return {what: count for what, count in counts.items() if count}
 
     @property
     def all_proved(self) -> bool:
-        """Whether each is proved a solution, as is said of it, and all differ."""
-        return self._borne_out and bool(self.nonzero.all())
+        """Whether each is proved a solution, as is said of it, and all differ; not on evidence."""
+        return self.points.all_proved and self._borne_out and bool(self.nonzero.all())
 
     @property
     def _borne_out(self) -> bool:
         """Whether each point is next to a zero of the equations of its own, as is said of it."""
-        return Proof.NONE not in self.points.proofs and self.distinct and not self.contradicted
+        told = not self.contradicted and not self.doubted
+        return Proof.NONE not in self.points.proofs and self.distinct and told
 
     @property
     def complete(self) -> bool:
@@ -112,7 +131,8 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         places = np.array([s.point for s in solutions], dtype=complex).reshape(-1, system.n)
         accuracy = np.array([s.accuracy for s in solutions], dtype=float)
         multiple = np.array([s.multiplicity > 1 for s in solutions], dtype=bool)
-        return certify_points(system.polynomials, none, places, accuracy, multiple)
+        said_real = np.array([s.real for s in solutions], dtype=bool)
+        return certify_points(system.polynomials, none, places, accuracy, multiple, said_real)
 
     points = proved(result.solutions)
     same, unknown = overlaps(points.boxes)

@@ -29,7 +29,8 @@ class Tape(NamedTuple):
     """The arrays that the kernels read; see `compile_rows`.
 
     ``first, second``: slots of the factors of each product; the first ``value_products`` products
-    suffice for the values, all are needed for the Jacobian.
+    suffice for the values, all are needed for the Jacobian. Only the first ``inner_products`` of
+    them are factors of others that the values need.
     ``value_*`` and ``jacobian_*``: blocks of terms; block ``b`` adds
     ``sum(coefficient[q] * slot[q] for q in range(start[b], start[b + 1]))`` times its part's factor
     to row ``place[b]`` of the values, or to entry ``place[b] = row * N + column`` of the Jacobian.
@@ -38,6 +39,7 @@ class Tape(NamedTuple):
     first: np.ndarray
     second: np.ndarray
     value_products: int
+    inner_products: int
     value_place: np.ndarray
     value_part: np.ndarray
     value_start: np.ndarray
@@ -185,14 +187,17 @@ class _Products:
             self.slots[(0,) * j + (1,) + (0,) * (N - 1 - j)] = j
         self.factors: list[tuple[int, int]] = []
 
-    def add(self, monomials: Iterable[Exponents]) -> None:
-        """Give slots to monomials and, besides, to as few parents of theirs as possible."""
+    def add(self, monomials: Iterable[Exponents]) -> int:
+        """Give slots to monomials and, besides, to as few parents of theirs as possible.
+
+        Returns how many of the new products are parents of others; they are the first ones.
+        """
         slots = self.slots
         levels: dict[int, dict[Exponents, tuple[Exponents, int]]] = {}
         for e in monomials:
             if e not in slots:
                 levels.setdefault(sum(e), {})[e] = (e, 0)
-        for degree in range(max(levels, default=0), 1, -1):
+        for degree in range(max(levels, default=0), 2, -1):
             level = levels.setdefault(degree, {})
             below = levels.setdefault(degree - 1, {})
             choices = [(e, _parents(e)) for e in level]
@@ -204,10 +209,15 @@ class _Products:
                 level[e] = (parent, last)
                 if parent not in slots:
                     below.setdefault(parent, (parent, 0))
-        for degree in sorted(levels):
-            for e, (parent, last) in levels[degree].items():
-                self.factors.append((slots[parent], last))
-                slots[e] = self.N + len(self.factors)
+        for e in levels.get(2, ()):
+            levels[2][e] = _parents(e)[-1]
+        new = [item for degree in sorted(levels) for item in levels[degree].items()]
+        parents = {parent for _, (parent, _) in new}
+        inner = [item for item in new if item[0] in parents]
+        for e, (parent, last) in (*inner, *(item for item in new if item[0] not in parents)):
+            self.factors.append((slots[parent], last))
+            slots[e] = self.N + len(self.factors)
+        return len(inner)
 
 
 def _parents(exponents: Exponents) -> list[tuple[Exponents, int]]:
@@ -220,7 +230,7 @@ _Block = list[tuple[Exponents, complex]]
 def _tape(rows: CompiledRows) -> Tape:
     N = rows.N
     products = _Products(N)
-    products.add(e for row in rows.in_doubles for block in row for e, _ in block)
+    inner = products.add(e for row in rows.in_doubles for block in row for e, _ in block)
     value_products = len(products.factors)
     values: list[tuple[int, int, _Block]] = []
     jacobian: list[tuple[int, int, _Block]] = []
@@ -243,6 +253,7 @@ def _tape(rows: CompiledRows) -> Tape:
         np.ascontiguousarray(factors[:, 0]),
         np.ascontiguousarray(factors[:, 1]),
         value_products,
+        inner,
         *_blocks(values, products.slots),
         *_blocks(jacobian, products.slots),
     )

@@ -23,7 +23,8 @@ def _frozen(array: np.ndarray | None, shape: tuple[int, int]) -> np.ndarray:
 
 def norms(points: np.ndarray) -> np.ndarray:
     """Euclidean norms of complex rows, shape ``(P,)``."""
-    return np.sqrt((points.real**2 + points.imag**2).sum(axis=1))
+    parts = np.ascontiguousarray(points, dtype=np.complex128).view(np.float64)
+    return np.sqrt(np.einsum("ij,ij->i", parts, parts))
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,6 +17,9 @@ class System(NamedTuple):
     """A homotopy as flat arrays (see `nag.tracking.compiled.Tape` for blocks and slots).
 
     The numbers say how long the arrays are. Factor ``2 p`` is a, ``2 p + 1`` is b of part ``p``.
+    The blocks of row ``k`` are ``value_begin[k] .. value_begin[k + 1] - 1``, and likewise those of
+    an entry of the Jacobian. ``moves`` is 1 if the factors of any part depend on t. Of the products
+    the Taylor coefficients of the first ``inner`` are kept for all orders.
     If ``toric`` is 1, each part is one term, t is real, and the factor of part ``p`` is
     ``exp(-weights[path * parts + p] t)`` instead.
     """
@@ -29,9 +32,11 @@ class System(NamedTuple):
     value_products: int
     products: int
     value_blocks: int
-    jacobian_blocks: int
+    inner: int
+    moves: int
     first: Wholes
     second: Wholes
+    value_begin: Wholes
     value_place: Wholes
     value_part: Wholes
     value_start: Wholes
@@ -39,7 +44,7 @@ class System(NamedTuple):
     value_re: Reals
     value_im: Reals
     value_real: Wholes
-    jacobian_place: Wholes
+    jacobian_begin: Wholes
     jacobian_part: Wholes
     jacobian_start: Wholes
     jacobian_slot: Wholes
@@ -62,9 +67,13 @@ class System(NamedTuple):
 class Work(NamedTuple):
     """Scratch vectors of one batch of lanes.
 
-    ``vr, vi``: slots; the first N are the point. ``cr, ci``: their Taylor coefficients of order 1
-    and up, one order after the other. ``dr, di``: changes of such coefficients.
-    ``jr, ji``: Jacobian, then its factors. ``br, bi``: right-hand side. ``pr, pi``: patch.
+    ``vr, vi``: slots; the first N are the point. ``cr, ci``: Taylor coefficients of order 1 and up
+    of coordinates and inner products, one order after the other. ``dr, di``: those of all slots of
+    the order at hand, as far as lower orders give them: 0 for coordinates. ``er, ei``: what its own
+    coefficients add to those of inner products.
+    ``jr, ji``: Jacobian, then its factors. ``mr, mi``: derivative by t of its polynomial rows.
+    ``sr, si``: a Taylor coefficient of the derivative of the rows by t alone.
+    ``br, bi``: right-hand side. ``pr, pi``: patch.
     ``fr, fi``: the parts' factors at t; in a toric system those, and minus the weights. ``base``:
     point and Taylor coefficients at the last accepted t, real and imaginary parts in turn.
     ``tr``: t. ``norms``: squared norms of the two Newton corrections, then those of the Taylor
@@ -79,8 +88,14 @@ class Work(NamedTuple):
     ci: Reals
     dr: Reals
     di: Reals
+    er: Reals
+    ei: Reals
     jr: Reals
     ji: Reals
+    mr: Reals
+    mi: Reals
+    sr: Reals
+    si: Reals
     br: Reals
     bi: Reals
     pr: Reals
@@ -112,18 +127,19 @@ def _parts(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _rows(rows: CompiledRows) -> tuple[Any, ...]:
     """The arrays of compiled rows, in the order of `System` from ``first`` on."""
-    tape = rows.tape
+    tape, m = rows.tape, len(rows)
     value, jacobian = tape.value_coefficient, tape.jacobian_coefficient
     return (
         tape.first,
         tape.second,
+        np.searchsorted(tape.value_place, np.arange(m + 1)),
         tape.value_place,
         tape.value_part,
         tape.value_start,
         tape.value_slot,
         *_parts(value),
         _real_blocks(tape.value_start, value),
-        tape.jacobian_place,
+        np.searchsorted(tape.jacobian_place, np.arange(m * rows.N + 1)),
         tape.jacobian_part,
         tape.jacobian_start,
         tape.jacobian_slot,
@@ -140,10 +156,13 @@ def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
     factors = homotopy.factors
     moving = [int(b != 0 or a != 1 or weights is not None) for a, b in factors]
     (A0_re, A0_im), (A1_re, A1_im) = map(_parts, (homotopy.A0, homotopy.A1))
+    tape, toric = homotopy.rows.tape, weights is not None
     made = replaced(
         _template(homotopy),
         linear=len(homotopy.A0),
         parts=len(factors),
+        inner=tape.value_products if toric else tape.inner_products,
+        moves=int(any(b != 0 for _, b in factors)),
         factor_re=np.array([c.real for pair in factors for c in pair]),
         factor_im=np.array([c.imag for pair in factors for c in pair]),
         moving=np.array(moving, dtype=np.int64),
@@ -152,8 +171,8 @@ def system(homotopy: Homotopy, weights: np.ndarray | None = None) -> Table:
         A1_re=A1_re,
         A1_im=A1_im,
         linear_moving=homotopy.A1.any(axis=1).astype(np.int64),
-        toric=int(weights is not None),
-        weights=np.zeros(1) if weights is None else np.ascontiguousarray(weights, float).ravel(),
+        toric=int(toric),
+        weights=np.ascontiguousarray(weights, float).ravel() if toric else np.zeros(1),
     )
     if weights is None:
         homotopy._cache["system"] = made
@@ -186,7 +205,8 @@ def _template(homotopy: Homotopy) -> Table:
                 tape.value_products,
                 len(tape.first),
                 len(tape.value_place),
-                len(tape.jacobian_place),
+                0,
+                0,
                 *_rows(rows),
                 *(nothing, nothing, none, nothing, nothing, nothing, nothing, none),
                 homotopy.group_of,
@@ -197,15 +217,17 @@ def _template(homotopy: Homotopy) -> Table:
     return rows._cache["system"]
 
 
-def work(homotopy: Homotopy, order: int) -> Table:
+def work(homotopy: Homotopy, order: int, toric: bool = False) -> Table:
     """The table of `Work` for ``homotopy`` and Taylor coefficients up to ``order``."""
-    N = homotopy.N
+    N, rows = homotopy.N, len(homotopy.rows)
     tape = homotopy.rows.tape
     slots = N + 1 + len(tape.first)
     value_slots = N + 1 + tape.value_products
+    inner_slots = value_slots if toric else N + 1 + tape.inner_products
     parts = len(homotopy.factors)
-    sizes = [slots] * 2 + [order * value_slots] * 2 + [value_slots] * 2 + [N * N] * 2 + [N] * 4
-    sizes += [parts] * 2 + [N, 2 * (order + 1) * N, 1, order + 2, 1, 1, 1, 8]
+    sizes = [slots] * 2 + [order * inner_slots] * 2 + [value_slots] * 2 + [inner_slots] * 2
+    sizes += [N * N] * 2 + [rows * N] * 2 + [N] * 6 + [parts] * 2
+    sizes += [N, 2 * (order + 1) * N, 1, order + 2, 1, 1, 1, 8]
     vectors, counters = aligned(sum(sizes)), np.zeros(48, np.int64)
     words = np.array([0, *accumulate(sizes)]) * VECTOR
     words += address(vectors)

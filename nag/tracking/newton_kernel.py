@@ -122,7 +122,7 @@ def _matrix(s, w):
     """Jacobian at the points, factorised; the squared Frobenius norm."""
     factors_at(s, w)
     products(s, w, 0, s.products)
-    jacobian(s, w)
+    jacobian(s, w, 0)
     frobenius = splat(0.0)
     for k in range(s.N * s.N):
         x = load(w.jr, k)

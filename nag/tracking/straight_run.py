@@ -18,6 +18,7 @@ from nag.tracking.kernel_arrays import System, Work
 from nag.tracking.linear_algebra import factorize, substitute
 from nag.tracking.predictor import CORRECT, PREDICT, next_step, next_t, predict
 from nag.tracking.taylor import (
+    complete_slope,
     complete_slots,
     factors_at,
     incomplete_slots,
@@ -79,7 +80,7 @@ def _newton_and_jets(s, w, order):
     factors_at(s, w)
     products(s, w, 0, s.products)
     values(s, w)
-    jacobian(s, w)
+    jacobian(s, w, s.moves)
     factorize(n, w.jr, w.ji, w.pivots)
     substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
     _correct(s, w, w.norms, 0)
@@ -96,6 +97,7 @@ def _newton_and_jets(s, w, order):
         substitute(n, w.jr, w.ji, w.pivots, w.br, w.bi)
         _measure(s, w, k)
         complete_slots(s, w, k)
+        complete_slope(s, w)
 
 
 def _accept(s, w, order):
@@ -103,7 +105,7 @@ def _accept(s, w, order):
     n = s.N
     half = splat(0.5)
     a = load(w.accepted, 0)
-    size = n + 1 + s.value_products
+    size = n + 1 + s.inner
     for j in range(n):
         store(w.base, j, select_less(half, a, load(w.vr, j), load(w.base, j)))
         store(w.base, n + j, select_less(half, a, load(w.vi, j), load(w.base, n + j)))

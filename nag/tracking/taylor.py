@@ -17,7 +17,7 @@ def _jacobian_blocks(s):
     return s.jacobian_start, s.jacobian_slot, s.jacobian_re, s.jacobian_im, s.jacobian_real
 
 
-def _block(blocks, b, vr, vi, shift):
+def _block(blocks, b, vr, vi):
     """The sum of a block's coefficients times slots."""
     start, slot, cr, ci, real = blocks
     first = start[b]
@@ -27,22 +27,17 @@ def _block(blocks, b, vr, vi, shift):
     if real[b] != 0:
         for q in range(first, last):
             c = splat(cr[q])
-            re = fma(c, load(vr, shift + slot[q]), re)
-            im = fma(c, load(vi, shift + slot[q]), im)
+            re = fma(c, load(vr, slot[q]), re)
+            im = fma(c, load(vi, slot[q]), im)
     else:
         for q in range(first, last):
             c = splat(cr[q])
             d = splat(ci[q])
-            x = load(vr, shift + slot[q])
-            y = load(vi, shift + slot[q])
+            x = load(vr, slot[q])
+            y = load(vi, slot[q])
             re = fnma(d, y, fma(c, x, re))
             im = fma(d, x, fma(c, y, im))
     return re, im
-
-
-def _add(br, bi, k, re, im):
-    store(br, k, load(br, k) + re)
-    store(bi, k, load(bi, k) + im)
 
 
 def products(s, w, first, last):
@@ -77,6 +72,7 @@ def factors_at(s, w):
 
 
 def _scaled(s, w, part, re, im):
+    """A number times the factor of a part."""
     if s.moving[part] == 0:
         return re, im
     fr = load(w.fr, part)
@@ -86,38 +82,58 @@ def _scaled(s, w, part, re, im):
     return fnma(im, fi, re * fr), fma(im, fr, re * fi)
 
 
+def _moved(s, part, re, im, mr, mi):
+    """Add a number times the derivative of a part's factor."""
+    if s.moving[part] == 0:
+        return mr, mi
+    br = splat(s.factor_re[2 * part + 1])
+    bi = splat(s.factor_im[2 * part + 1])
+    return fnma(im, bi, fma(re, br, mr)), fma(im, br, fma(re, bi, mi))
+
+
+def _row(s, w, k, vr, vi):
+    """Polynomial row ``k`` of the slots, and its derivative by t alone."""
+    re = splat(0.0)
+    im = splat(0.0)
+    mr = splat(0.0)
+    mi = splat(0.0)
+    for b in range(s.value_begin[k], s.value_begin[k + 1]):
+        xr, xi = _block(_value_blocks(s), b, vr, vi)
+        part = s.value_part[b]
+        yr, yi = _scaled(s, w, part, xr, xi)
+        re = re + yr
+        im = im + yi
+        mr, mi = _moved(s, part, xr, xi, mr, mi)
+    return re, im, mr, mi
+
+
 def values(s, w):
-    """Minus the values of all rows at the lanes' points and t, into the right-hand side."""
+    """Minus the values of all rows at the lanes' points and t, into the right-hand side.
+
+    Besides, the derivative of polynomial rows, and of linear ones that move, by t alone.
+    """
     zero = splat(0.0)
-    for k in range(s.N):
-        store(w.br, k, zero)
-        store(w.bi, k, zero)
-    for b in range(s.value_blocks):
-        re, im = _block(_value_blocks(s), b, w.vr, w.vi, 0)
-        re, im = _scaled(s, w, s.value_part[b], re, im)
-        _add(w.br, w.bi, s.value_place[b], zero - re, zero - im)
+    for k in range(s.rows):
+        re, im, mr, mi = _row(s, w, k, w.vr, w.vi)
+        store(w.br, k, zero - re)
+        store(w.bi, k, zero - im)
+        store(w.sr, k, mr)
+        store(w.si, k, mi)
     t = load(w.tr, 0)
     for k in range(s.linear):
-        re = zero
-        im = zero
-        for j in range(s.N):
-            q = k * s.N + j
-            cr = splat(s.A0_re[q])
-            ci = splat(s.A0_im[q])
-            if s.linear_moving[k] != 0:
-                dr = splat(s.A1_re[q])
-                di = splat(s.A1_im[q])
-                cr = fma(t, dr, cr)
-                ci = fma(t, di, ci)
-            x = load(w.vr, j)
-            y = load(w.vi, j)
-            re = fma(ci, y, fnma(cr, x, re))
-            im = fnma(ci, x, fnma(cr, y, im))
-        store(w.br, s.rows + k, re)
-        store(w.bi, s.rows + k, im)
+        re, im = _line(s, k, s.A0_re, s.A0_im, w.vr, w.vi)
+        if s.linear_moving[k] != 0:
+            mr, mi = _line(s, k, s.A1_re, s.A1_im, w.vr, w.vi)
+            store(w.sr, s.rows + k, mr)
+            store(w.si, s.rows + k, mi)
+            re = fma(t, mr, re)
+            im = fma(t, mi, im)
+        store(w.br, s.rows + k, zero - re)
+        store(w.bi, s.rows + k, zero - im)
     patches = s.rows + s.linear
     for g in range(s.groups):
         store(w.br, patches + g, splat(1.0))
+        store(w.bi, patches + g, zero)
     for j in range(s.N):
         k = patches + s.group_of[j]
         x = load(w.vr, j)
@@ -128,17 +144,49 @@ def values(s, w):
         store(w.bi, k, fnma(pi, x, fnma(pr, y, load(w.bi, k))))
 
 
-def jacobian(s, w):
-    """The Jacobian of all rows at the lanes' points and t."""
-    zero = splat(0.0)
+def _line(s, k, re, im, vr, vi):
+    """Row ``k`` of a matrix times the coordinates."""
+    xr = splat(0.0)
+    xi = splat(0.0)
+    for j in range(s.N):
+        cr = splat(re[k * s.N + j])
+        ci = splat(im[k * s.N + j])
+        x = load(vr, j)
+        y = load(vi, j)
+        xr = fnma(ci, y, fma(cr, x, xr))
+        xi = fma(ci, x, fma(cr, y, xi))
+    return xr, xi
+
+
+def _entry(s, w, k, moves):
+    """Entry ``k`` of the Jacobian, and of its derivative by t if that is wanted."""
+    re = splat(0.0)
+    im = splat(0.0)
+    mr = splat(0.0)
+    mi = splat(0.0)
+    for b in range(s.jacobian_begin[k], s.jacobian_begin[k + 1]):
+        xr, xi = _block(_jacobian_blocks(s), b, w.vr, w.vi)
+        part = s.jacobian_part[b]
+        yr, yi = _scaled(s, w, part, xr, xi)
+        re = re + yr
+        im = im + yi
+        if moves != 0:
+            mr, mi = _moved(s, part, xr, xi, mr, mi)
+    store(w.jr, k, re)
+    store(w.ji, k, im)
+    if moves != 0:
+        store(w.mr, k, mr)
+        store(w.mi, k, mi)
+
+
+def jacobian(s, w, moves):
+    """The Jacobian of all rows at the lanes' points and t.
+
+    Besides, if ``moves`` is 1, the derivative of its polynomial rows by t alone.
+    """
     n = s.N
-    for k in range(n * n):
-        store(w.jr, k, zero)
-        store(w.ji, k, zero)
-    for b in range(s.jacobian_blocks):
-        re, im = _block(_jacobian_blocks(s), b, w.vr, w.vi, 0)
-        re, im = _scaled(s, w, s.jacobian_part[b], re, im)
-        _add(w.jr, w.ji, s.jacobian_place[b], re, im)
+    for k in range(s.rows * n):
+        _entry(s, w, k, moves)
     t = load(w.tr, 0)
     for k in range(s.linear):
         for j in range(n):
@@ -153,6 +201,9 @@ def jacobian(s, w):
             store(w.jr, (s.rows + k) * n + j, cr)
             store(w.ji, (s.rows + k) * n + j, ci)
     patches = s.rows + s.linear
+    for k in range(patches * n, n * n):
+        store(w.jr, k, splat(0.0))
+        store(w.ji, k, splat(0.0))
     for j in range(n):
         k = patches + s.group_of[j]
         store(w.jr, k * n + j, load(w.pr, j))
@@ -161,20 +212,15 @@ def jacobian(s, w):
 
 def incomplete_slots(s, w, k):
     """Taylor coefficients of order ``k >= 2`` of the slots, those of the point taken as 0."""
-    zero = splat(0.0)
-    size = s.N + 1 + s.value_products
-    top = (k - 1) * size
-    for j in range(s.N + 1):
-        store(w.cr, top + j, zero)
-        store(w.ci, top + j, zero)
+    size = s.N + 1 + s.inner
     for q in range(s.value_products):
         a = s.first[q]
         b = s.second[q]
-        re = zero
-        im = zero
+        re = splat(0.0)
+        im = splat(0.0)
         # The second factor is a coordinate, whose coefficient of this order is taken as 0.
         if a > s.N:
-            ar, ai = load(w.cr, top + a), load(w.ci, top + a)
+            ar, ai = load(w.dr, a), load(w.di, a)
             br, bi = load(w.vr, b), load(w.vi, b)
             re = fnma(ai, bi, ar * br)
             im = fma(ai, br, ar * bi)
@@ -185,58 +231,79 @@ def incomplete_slots(s, w, k):
             br, bi = load(w.cr, n), load(w.ci, n)
             re = fnma(ai, bi, fma(ar, br, re))
             im = fma(ai, br, fma(ar, bi, im))
-        store(w.cr, top + s.N + 1 + q, re)
-        store(w.ci, top + s.N + 1 + q, im)
+        store(w.dr, s.N + 1 + q, re)
+        store(w.di, s.N + 1 + q, im)
 
 
 def complete_slots(s, w, k):
-    """Add to the coefficients of order ``k`` what the point's own coefficients contribute.
+    """The coefficients of order ``k`` of the coordinates, and with them of the inner products.
 
-    These are the solution in the right-hand side. The contribution is linear in them, so that a
-    product needs two multiplications. For order 1 there is nothing to add to.
+    Those of the coordinates are the solution in the right-hand side. What they contribute is linear
+    in them, so that a product needs two multiplications. For order 1 there is nothing to add to.
     """
-    zero = splat(0.0)
-    top = (k - 1) * (s.N + 1 + s.value_products)
+    top = (k - 1) * (s.N + 1 + s.inner)
     for j in range(s.N):
         re, im = load(w.br, j), load(w.bi, j)
-        store(w.dr, j, re)
-        store(w.di, j, im)
+        store(w.er, j, re)
+        store(w.ei, j, im)
         store(w.cr, top + j, re)
         store(w.ci, top + j, im)
-    store(w.dr, s.N, zero)
-    store(w.di, s.N, zero)
-    store(w.cr, top + s.N, zero)
-    store(w.ci, top + s.N, zero)
-    for q in range(s.value_products):
+    for q in range(s.inner):
         a = s.first[q]
         b = s.second[q]
         ar, ai = load(w.vr, a), load(w.vi, a)
-        br, bi = load(w.dr, b), load(w.di, b)
+        br, bi = load(w.er, b), load(w.ei, b)
         re = fnma(ai, bi, ar * br)
         im = fma(ai, br, ar * bi)
-        ar, ai = load(w.dr, a), load(w.di, a)
+        ar, ai = load(w.er, a), load(w.ei, a)
         br, bi = load(w.vr, b), load(w.vi, b)
         re = fnma(ai, bi, fma(ar, br, re))
         im = fma(ai, br, fma(ar, bi, im))
         m = s.N + 1 + q
-        store(w.dr, m, re)
-        store(w.di, m, im)
+        store(w.er, m, re)
+        store(w.ei, m, im)
         if k > 1:
-            re = re + load(w.cr, top + m)
-            im = im + load(w.ci, top + m)
+            re = re + load(w.dr, m)
+            im = im + load(w.di, m)
         store(w.cr, top + m, re)
         store(w.ci, top + m, im)
 
 
-def _lower_block(s, w, k, b):
-    if k == 1:
-        return _block(_value_blocks(s), b, w.vr, w.vi, 0)
-    shift = (k - 2) * (s.N + 1 + s.value_products)
-    return _block(_value_blocks(s), b, w.cr, w.ci, shift)
+def complete_slope(s, w):
+    """Add what the solution in the right-hand side contributes to the derivative by t alone.
+
+    That is linear in it: for polynomial rows, the derivative of the Jacobian times it.
+    """
+    n = s.N
+    for k in range(s.rows if s.moves != 0 else 0):
+        re = load(w.sr, k)
+        im = load(w.si, k)
+        # Two sums of each part, which do not wait for one another.
+        re_too = splat(0.0)
+        im_too = splat(0.0)
+        for j in range(n):
+            q = k * n + j
+            if s.jacobian_begin[q] < s.jacobian_begin[q + 1]:
+                mr, mi = load(w.mr, q), load(w.mi, q)
+                x, y = load(w.br, j), load(w.bi, j)
+                re = fma(mr, x, re)
+                im = fma(mr, y, im)
+                re_too = fnma(mi, y, re_too)
+                im_too = fma(mi, x, im_too)
+        store(w.sr, k, re + re_too)
+        store(w.si, k, im + im_too)
+    for k in range(s.linear):
+        if s.linear_moving[k] != 0:
+            re, im = _line(s, k, s.A1_re, s.A1_im, w.br, w.bi)
+            store(w.sr, s.rows + k, re)
+            store(w.si, s.rows + k, im)
 
 
 def _toric_right_side(s, w, k):
-    size = s.N + 1 + s.value_products
+    for j in range(s.N):
+        store(w.br, j, splat(0.0))
+        store(w.bi, j, splat(0.0))
+    size = s.N + 1 + s.inner
     for b in range(s.value_blocks):
         part = s.value_part[b]
         q = s.value_start[b]
@@ -244,60 +311,44 @@ def _toric_right_side(s, w, k):
         minus = load(w.fi, part)
         re, im = load(w.vr, slot), load(w.vi, slot)
         # Horner's rule for the sum of minus^j / j! times the coefficient of order k - j.
-        for m in range(1, k + 1):
+        for m in range(1, k):
             rate = minus * splat(1.0 / (k - m + 1))
-            re = re * rate
-            im = im * rate
-            if k > 1:
-                re = re + load(w.cr, (m - 1) * size + slot)
-                im = im + load(w.ci, (m - 1) * size + slot)
+            re = fma(re, rate, load(w.cr, (m - 1) * size + slot))
+            im = fma(im, rate, load(w.ci, (m - 1) * size + slot))
+        re = re * minus
+        im = im * minus
+        if k > 1:
+            re = re + load(w.dr, slot)
+            im = im + load(w.di, slot)
         f = load(w.fr, part)
         c = f * splat(s.value_re[q])
         d = f * splat(s.value_im[q])
-        _add(w.br, w.bi, s.value_place[b], fnma(re, c, im * d), splat(0.0) - fma(re, d, im * c))
+        row = s.value_place[b]
+        store(w.br, row, load(w.br, row) - fnma(im, d, re * c))
+        store(w.bi, row, load(w.bi, row) - fma(re, d, im * c))
 
 
 def right_side(s, w, k):
-    """Minus the Taylor coefficient of order ``k`` of the rows, that of the point taken as 0."""
+    """Minus the Taylor coefficient of order ``k`` of the rows, that of the point taken as 0.
+
+    The derivative by t alone does not depend on t: its coefficient of order ``k - 1`` is what t
+    contributes, and is replaced by the next one, as far as lower orders give it.
+    """
     zero = splat(0.0)
-    size = s.N + 1 + s.value_products
-    for j in range(s.N):
-        store(w.br, j, zero)
-        store(w.bi, j, zero)
     if s.toric != 0:
         _toric_right_side(s, w, k)
-    for b in range(0 if s.toric != 0 else s.value_blocks):
-        part = s.value_part[b]
-        if k > 1:
-            re, im = _block(_value_blocks(s), b, w.cr, w.ci, (k - 1) * size)
-            re, im = _scaled(s, w, part, re, im)
-            _add(w.br, w.bi, s.value_place[b], zero - re, zero - im)
-        if s.moving[part] != 0:
-            re, im = _lower_block(s, w, k, b)
-            c = splat(s.factor_re[2 * part + 1])
-            d = splat(s.factor_im[2 * part + 1])
-            _add(
-                w.br,
-                w.bi,
-                s.value_place[b],
-                fnma(re, c, im * d),
-                zero - fma(re, d, im * c),
-            )
-    for q in range(s.linear):
-        if s.linear_moving[q] != 0:
-            re = zero
-            im = zero
-            for j in range(s.N):
-                cr = splat(s.A1_re[q * s.N + j])
-                ci = splat(s.A1_im[q * s.N + j])
-                if k == 1:
-                    x, y = load(w.vr, j), load(w.vi, j)
-                else:
-                    x, y = load(w.cr, (k - 2) * size + j), load(w.ci, (k - 2) * size + j)
-                re = fma(ci, y, fnma(cr, x, re))
-                im = fnma(ci, x, fnma(cr, y, im))
-            store(w.br, s.rows + q, re)
-            store(w.bi, s.rows + q, im)
+        return
+    for j in range(s.N):
+        store(w.br, j, zero - load(w.sr, j))
+        store(w.bi, j, zero - load(w.si, j))
+        store(w.sr, j, zero)
+        store(w.si, j, zero)
+    for j in range(s.rows if k > 1 else 0):
+        re, im, mr, mi = _row(s, w, j, w.dr, w.di)
+        store(w.br, j, load(w.br, j) - re)
+        store(w.bi, j, load(w.bi, j) - im)
+        store(w.sr, j, mr)
+        store(w.si, j, mi)
 
 
 def normalize(s, w):

@@ -159,7 +159,9 @@ def _attempt(
             paths = _to_infinity(homotopy, paths, doubtful)
         else:
             infinite, ends = _infinite(homotopy, paths, doubtful[regular[doubtful]])
-            paths, doubtful = merged(paths, ends, infinite), np.setdiff1d(doubtful, infinite)
+            if len(infinite):
+                paths = merged(paths, ends, infinite)
+                doubtful = paths.where(PathStatus.FAILED)
             if len(doubtful):
                 more = _followed(homotopy, starts, raw, regular, doubtful, settings, threads)
                 if not endgame:
@@ -264,7 +266,8 @@ def run_in_doubles(
             settings.safety,
             settings.contraction,
         )
-        straight_run.track_lanes(arrays, kernel_arrays.work(homotopy, settings.order), paths)
+        scratch = kernel_arrays.work(homotopy, settings.order, weights is not None)
+        straight_run.track_lanes(arrays, scratch, paths)
 
     if batches == 1:
         batch(0)

@@ -56,8 +56,8 @@ class ComponentCertificate:
 
     @property
     def all_proved(self) -> bool:
-        """Whether something is proved of each point, and each pair is distinct."""
-        return Proof.NONE not in self.points.proofs and self.distinct
+        """Whether each point is proved, not on evidence, and each pair is distinct."""
+        return self.points.all_proved and self.distinct
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +83,7 @@ class DecompositionCertificate:
 
     @property
     def all_proved(self) -> bool:
-        """Whether something is proved of each point of each component and nothing against one."""
+        """Whether each point of each component is proved, and nothing against a component."""
         good = not self.same and not self.unknown and not self.multiple
         return good and all(c.all_proved for c in self.components)
 

@@ -50,7 +50,8 @@ class Sharp:
     def only(self, places: np.ndarray) -> Sharp:
         """Some of the points."""
         fine = chosen(self.fibre.fine, places)
-        fibre = replace(self.fibre, points=self.fibre.points[places], fine=fine)
+        points = self.fibre.points[places]
+        fibre = Fibre(self.fibre.cut, self.fibre.dimension, points, fine)
         return Sharp(fibre, self.radii[places], self.digits[places])
 
 

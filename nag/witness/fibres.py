@@ -95,7 +95,7 @@ class Fibre:
     def only(self, mask: np.ndarray) -> Fibre:
         """The fibre's points where ``mask`` holds."""
         fine = chosen(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
-        return replace(self, points=self.points[mask], fine=fine)
+        return Fibre(self.cut, self.dimension, self.points[mask], fine)
 
 
 @dataclass(frozen=True)
@@ -162,13 +162,14 @@ def affine(points: np.ndarray) -> np.ndarray:
 
 def moved(paths: Paths, keep: int | None = None) -> Moved:
     """The ends of ``paths`` as affine points, the first ``keep`` coordinates of them."""
-    finite = (paths.status == PathStatus.REGULAR) | (paths.status == PathStatus.SINGULAR)
+    # NumPy takes long to compare with members of an enumeration.
+    regular = paths.status == int(PathStatus.REGULAR)
+    finite = regular | (paths.status == int(PathStatus.SINGULAR))
     accuracy = np.asarray(paths.accuracy)
-    infinite = paths.status == PathStatus.AT_INFINITY
+    infinite = paths.status == int(PathStatus.AT_INFINITY)
     failed = ~finite & ~infinite
     points = affine(paths.points)
     points = points if keep is None else points[:, :keep]
-    regular = paths.status == PathStatus.REGULAR
     counts = PathCounts(len(finite), int(failed.sum()), int(infinite.sum()))
     fine = _fine(paths, points, regular) if paths.balls else {}
     return Moved(points, finite, regular, failed, accuracy, counts, fine)

@@ -1,4 +1,4 @@
-"""What families ask for: zeros, components, singular points, points on a given slice."""
+"""What families ask for: zeros, components, singular points, points on a slice, by a family."""
 
 from __future__ import annotations
 
@@ -6,12 +6,14 @@ from collections import Counter
 
 import numpy as np
 
+from nag.bench.atlas.nine_points import CARRIED
 from nag.bench.atlas.points import Problem
 from nag.bench.reference import Reference, ReferenceError
 from nag.bench.verdicts import Answer, answered
 from nag.bench.zero_set import Components
 from nag.decomposition import decompose
 from nag.decomposition.singular_locus import SingularSet, singular_locus
+from nag.solving.parameter import solve_family, solve_generic
 from nag.witness.moving import SliceError, witness_at
 from nag.witness.witness import Decomposition
 
@@ -23,7 +25,9 @@ NOT_SIMPLE = "slice that is refused"
 
 
 def asked(method: str, problem: Problem, seed: int, settings: str) -> Answer:
-    """The answer of ``"solve"``, ``"decompose"``, ``"singular"`` or ``"slice"``."""
+    """The answer of ``"solve"``, ``"decompose"``, ``"singular"``, ``"slice"`` or ``"family"``."""
+    if method == "family":
+        return _of_family(problem, seed, settings)
     if method in ("singular", "slice"):
         whole = decompose(problem.system, seed=seed, settings=settings)
         ask = _singular if method == "singular" else _on_slice
@@ -81,3 +85,20 @@ def _on_slice(problem: Problem, whole: Decomposition, seed: int, settings: str) 
         for inside in (off <= found.radii).all(axis=1):
             facts[MET if inside else ELSEWHERE] += 1
     return Answer("slice", _components(whole), complete, notes, facts)
+
+
+def _of_family(problem: Problem, seed: int, settings: str) -> Answer:
+    """The zeros for moved points, and how many of the case's they are carried to.
+
+    The family is solved once for random parameters, and from there for both.
+    """
+    points, common = problem.family, {"seed": seed, "settings": settings}
+    assert points is not None
+    count = points.case.solutions
+    solved = solve_generic(points.family, start="parameter", count=count, **common)
+    moved, unmoved = solve_family(solved, points.targets, **common)
+    found: Components = Counter((0, 1, s.multiplicity) for s in moved.solutions)
+    facts = Counter({CARRIED: points.carried(moved, unmoved)})
+    complete = moved.complete and unmoved.complete
+    notes = "; ".join([*moved.notes, *unmoved.notes])
+    return Answer("family", found, complete, f"{moved.paths} {notes}", facts)

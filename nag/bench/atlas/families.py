@@ -10,14 +10,22 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.bench.atlas import curves, linkages, points
-from nag.bench.atlas.moved import DENSE, SOLVED, SPARSE, changed_case, moved_case
+from nag.bench.atlas.moved import (
+    BY_FAMILY,
+    DENSE,
+    SOLVED,
+    SPARSE,
+    changed_case,
+    moved_case,
+    nine_points_moved,
+)
 from nag.bench.atlas.points import Problem
 
 Make = Callable[[Any, np.random.Generator], Problem]
 
 # Families of systems that take some ten seconds, or half a minute, and seeds of the latter.
-PATIENCE = {"solved-hard": 4, "sparse-large": 12, "solved-large": 12}
-SEEDS = {"sparse-large": 4, "solved-large": 4}
+PATIENCE = {"solved-hard": 4, "sparse-large": 12, "solved-large": 12, "nine-point": 6}
+SEEDS = {"sparse-large": 4, "solved-large": 4, "nine-point": 4}
 DIGITS = (2, 4, 8, 12, 16, 20, 30)
 
 
@@ -31,7 +39,8 @@ class Family:
         values: easy ones first.
         patience: how many times the usual limit of processor time an answer has.
         seeds: the most that are run; None for as many as are asked for.
-        method: what is asked for: ``"solve"``, ``"decompose"``, ``"singular"`` or ``"slice"``.
+        method: what is asked for: ``"solve"``, ``"decompose"``, ``"singular"``, ``"slice"`` or
+            ``"family"``.
     """
 
     name: str
@@ -188,4 +197,9 @@ FAMILIES: tuple[Family, ...] = (
     *_cases(DENSE, "in other coordinates", moved_case, "decompose"),
     *_cases(SPARSE, "changed, still sparse", changed_case, "decompose"),
     *_cases(SOLVED, "changed, solved", changed_case, "solve"),
+    Family(
+        "nine-point", "four-bars through nine points, the points and the family changed", "case",
+        nine_points_moved, BY_FAMILY["nine-point"], "family", PATIENCE["nine-point"],
+        SEEDS["nine-point"],
+    ),
 )  # fmt: skip

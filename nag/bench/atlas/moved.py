@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.general_position import Coordinates, mixed
+from nag.bench.atlas.nine_points import CARRIED, NinePoints
 from nag.bench.atlas.points import Problem, points
 from nag.bench.atlas.sparse_changes import sparsely_changed
 from nag.bench.zero_set import Components
@@ -123,9 +125,9 @@ SOLVED: dict[str, tuple[str, ...]] = {
     ),
     "solved-large": ("benchmarks/cyclic-8",),
 }  # fmt: skip
-GROUPS = DENSE | SPARSE | SOLVED
-# The case that is in no family: its zeros are found by what a change does not keep.
-LEFT_OUT = ("benchmarks/nine-point",)
+# Those that are solved by way of their family, which is changed with them.
+BY_FAMILY: dict[str, tuple[str, ...]] = {"nine-point": ("benchmarks/nine-point",)}
+GROUPS = DENSE | SPARSE | SOLVED | BY_FAMILY
 
 
 def moved_case(name: str, rng: np.random.Generator) -> Problem:
@@ -143,6 +145,17 @@ def changed_case(name: str, rng: np.random.Generator) -> Problem:
     """The system of one of `CASES`, changed in one of the ways that keep it sparse."""
     system, truth = case_system(name)
     return Problem(sparsely_changed(system, rng), truth)
+
+
+def nine_points_moved(name: str, rng: np.random.Generator) -> Problem:
+    """The nine points of a case in other places, and its family in other unknowns."""
+    case = read_case(CASES / f"{name}.toml")
+    assert case.family is not None
+    made = NinePoints.random(case.family, rng)
+    system = made.family.original.at(made.targets[0])
+    truth = case_system(name)[1]
+    facts = Counter({CARRIED: truth[0, 1, 1]})
+    return Problem(system, truth, ("family",), facts=facts, family=made)
 
 
 def case_system(name: str) -> tuple[PolynomialSystem, Components]:

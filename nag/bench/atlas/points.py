@@ -16,6 +16,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.general_position import NAMES, hidden, mixed
+from nag.bench.atlas.nine_points import NinePoints
 from nag.bench.verdicts import METHODS
 from nag.bench.zero_set import Components, ZeroSet
 from nag.witness.witness import Slice
@@ -28,6 +29,7 @@ class Problem:
     Attributes:
         facts: what else is known, in words, with how often it is so.
         slice: one that meets the component of the largest degree.
+        family: nine points and the family by which they are solved.
     """
 
     system: PolynomialSystem
@@ -36,6 +38,7 @@ class Problem:
     symmetries: tuple[SignedPermutation, ...] = ()
     facts: Counter[str] = field(default_factory=Counter)
     slice: Slice | None = None
+    family: NinePoints | None = None
 
     @property
     def zero_set(self) -> ZeroSet:

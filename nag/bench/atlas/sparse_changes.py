@@ -27,12 +27,12 @@ def changed(system: PolynomialSystem, rng: np.random.Generator) -> PolynomialSys
     """
     n = system.n
     x = Polynomial.variables(n)
-    forms = [_power(rng, DECADES) * x[i] + _shift(rng) for i in range(n)]
+    forms = [power(rng, DECADES) * x[i] + _shift(rng) for i in range(n)]
     for i, j in _pairs(n, MIXED, rng):
-        forms[i] = forms[i] + _small(rng) * forms[j]
+        forms[i] = forms[i] + small(rng) * forms[j]
     moved = _in_forms(system, forms)
-    polynomials = _combined(moved.polynomials, MIXED, rng)
-    scaled = tuple(_power(rng, DECADES) * f for f in polynomials)
+    polynomials = combined(moved.polynomials, MIXED, rng)
+    scaled = tuple(power(rng, DECADES) * f for f in polynomials)
     return replace(moved, polynomials=scaled)
 
 
@@ -52,18 +52,18 @@ def sparsely_changed(
     x = Polynomial.variables(n)
     forms = [x[i] for i in rng.permutation(n)]
     if kind == "scaled":
-        forms = [_power(rng, 1) * v for v in forms]
+        forms = [power(rng, 1) * v for v in forms]
     if kind == "shifted":
         forms[rng.integers(n)] += _shift(rng)
     if kind == "variables":
         for i, j in _pairs(n, 1, rng):
-            forms[i] = forms[i] + _small(rng) * forms[j]
+            forms[i] = forms[i] + small(rng) * forms[j]
     moved = _in_forms(system, forms)
     polynomials = [moved.polynomials[i] for i in rng.permutation(len(moved.polynomials))]
     if kind == "scaled":
-        polynomials = [_power(rng, 1) * f for f in polynomials]
+        polynomials = [power(rng, 1) * f for f in polynomials]
     if kind == "equations":
-        polynomials = _combined(polynomials, 1, rng)
+        polynomials = combined(polynomials, 1, rng)
     # Forms of several variables do not keep a partition of these.
     return replace(moved, polynomials=tuple(polynomials), groups=())
 
@@ -75,14 +75,14 @@ def _in_forms(system: PolynomialSystem, forms: list[Polynomial]) -> PolynomialSy
     return replace(system, polynomials=polynomials, nonzero=nonzero)
 
 
-def _combined(
+def combined(
     equations: Sequence[Polynomial], count: int, rng: np.random.Generator
 ) -> list[Polynomial]:
     """The equations, multiples of some added to others of at least their degree."""
     found = list(equations)
     for pair in _pairs(len(found), count, rng):
         i, j = sorted(pair, key=lambda k: -found[k].degree)
-        found[i] = found[i] + _small(rng) * found[j]
+        found[i] = found[i] + small(rng) * found[j]
     return found
 
 
@@ -90,11 +90,11 @@ def _shift(rng: np.random.Generator) -> Fraction:
     return Fraction(int(rng.integers(-9, 10)), int(rng.integers(1, 8)))
 
 
-def _power(rng: np.random.Generator, decades: int) -> Fraction:
+def power(rng: np.random.Generator, decades: int) -> Fraction:
     return Fraction(10) ** int(rng.integers(-decades, decades + 1))
 
 
-def _small(rng: np.random.Generator) -> Fraction:
+def small(rng: np.random.Generator) -> Fraction:
     return Fraction(int(rng.choice([-3, -2, -1, 1, 2, 3])), int(rng.integers(1, 4)))
 
 

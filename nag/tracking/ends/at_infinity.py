@@ -8,6 +8,7 @@ is therefore looked at in more.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import log2
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,9 @@ BITS = 700
 # Coordinates of size one that are zero; Newton's method has arrived before a step as small.
 ZERO = 1e-150
 MOST_STEPS = 12
+# Bits in which Newton's method takes its first step, and those that a later one needs beside the
+# digits that it brings.
+FIRST_BITS, MORE_BITS = 256, 128
 # Errors of coordinates of size one in two words.
 DOUBLE_DOUBLE = 2.0**-104
 
@@ -37,6 +41,7 @@ def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) ->
     import flint
 
     with flint.ctx.workprec(BITS):
+        terms.work_out()
         return _zero(flint, terms, [number(c) for c in centre], coordinates) is not None
 
 
@@ -53,6 +58,7 @@ def regular_paths(
 
     terms, balls = Terms(homotopy), {}
     with flint.ctx.workprec(BITS):
+        terms.work_out()
         for i, point in enumerate(points.tolist()):
             start = [flint.acb(z) for z in point]
             zero = _zero(flint, terms, start, homotopy.infinity)
@@ -78,21 +84,29 @@ def regular_paths(
 
 
 def _zero(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) -> list[Any] | None:
-    """The zero near a point, by Newton's method, if one of the coordinates vanishes there."""
-    patches, last = patches_through(flint, terms, x), 0.0
+    """The zero near a point, by Newton's method, if one of the coordinates vanishes there.
+
+    The terms must have been worked out in all digits.
+    """
+    patches, last, bits = patches_through(flint, terms, x), 0.0, FIRST_BITS
     size = max(abs(complex(z.mid())) for z in x)
     for _ in range(MOST_STEPS):
-        values, jacobian = system_at(flint, terms, patches, x)
-        try:
-            step = jacobian.solve(values, algorithm="approx").entries()
-        except ZeroDivisionError:
-            return None
-        x = [(z - change).mid() for z, change in zip(x, step, strict=True)]
+        with flint.ctx.workprec(bits):
+            values, jacobian = system_at(flint, terms, patches, x)
+            try:
+                # Half of the digits are right already.
+                with flint.ctx.workprec(bits // 2 + MORE_BITS // 2):
+                    step = jacobian.solve(values, algorithm="approx").entries()
+            except ZeroDivisionError:
+                return None
+            x = [(z - change).mid() for z, change in zip(x, step, strict=True)]
         length = max(abs(complex(change)) for change in step) / size
         # The quotient of two steps is squared from one to the next; of one step nothing is known,
         # unless it is as small already.
-        if length < ZERO or (length < last and length * (length / last) ** 2 < ZERO):
+        arrived = length < ZERO or (length < last and length * (length / last) ** 2 < ZERO)
+        if length == 0 or (arrived and bits == BITS):
             vanishes = any(abs(complex(x[j])) < ZERO * size for j in coordinates)
             return x if vanishes else None
-        last = length
+        # The next step is about as long as the square of this one, and brings as many digits again.
+        last, bits = length, min(BITS, MORE_BITS + int(4 * max(0.0, -log2(length))))
     return None

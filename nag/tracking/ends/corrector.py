@@ -15,6 +15,7 @@ from nag.tracking.ends.lane_scalars import (
     KNOWN,
     LAST,
     MODE,
+    ROUGH,
     SETTLED,
 )
 from nag.tracking.ends.linear_algebra import equilibrate, factorize, newton_correction, vanishing
@@ -29,34 +30,45 @@ MOST_CORRECTIONS = 12
 STAGNANT = 1e2
 
 
-def weigh(s, r, f, floor):
-    """Sizes of the coordinates by which columns are scaled.
+def lay_floors(s, r, f):
+    """The least sizes by which columns are scaled, and in which corrections count.
 
-    What did not exceed its rounding errors at the base has no size of its own. Scaled by it, rows
-    that hold nothing else would be pivots, and rounding errors of others all that is left of these.
+    Small coordinates are not known at points that come from doubles; nor are those that have never
+    exceeded their rounding errors, or vanish at a limit. What does not exceed its rounding errors
+    at the base has no size of its own. Scaled by it, rows that hold nothing else would be pivots,
+    and rounding errors of others all that is left of these.
     """
+    half = splat(0.5)
+    zero = splat(0.0)
+    floor = splat(FLOOR)
+    rough = load(f, ROUGH)
     based = load(f, BASE)
     for j in range(s.N):
+        size = z.magnitude(z.read(r.slots, j))
+        begun = select_less(half, rough, floor, zero)
+        begun = select_less(half, load(r.met, j), begun, floor)
+        begun = select_less(zero, size, begun, floor)
         known, weight = load(r.base_sizes, j), load(r.base_weights, j)
-        least = select_less(known, weight, weight, splat(0.0))
-        least = z.largest(floor, select_less(splat(0.5), based, least, splat(0.0)))
-        weigh_one(r, j, least)
+        least = select_less(known, weight, weight, zero)
+        store(r.least, j, select_less(half, based, least, begun))
+        store(r.floors, j, select_less(half, based, zero, begun))
 
 
-def weigh_one(r, j, least):
-    """The size of a coordinate, or what is the least that it may be."""
-    size = z.largest(z.magnitude(z.read(r.slots, j)), least)
-    store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
+def weigh(s, r):
+    """Sizes of the coordinates by which columns are scaled."""
+    for j in range(s.N):
+        size = z.largest(z.magnitude(z.read(r.slots, j)), load(r.least, j))
+        store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
 
 
-def linearize(s, r, floor, rough):
+def linearize(s, r, rough):
     """The factorised Jacobian at the points, Newton's correction and its measures."""
     products(s, r, s.products)
     values(s, r)
     jacobian(s, r)
     equilibrate(s, r)
     factorize(s, r)
-    newton_correction(s, r, floor, rough)
+    newton_correction(s, r, rough)
 
 
 def correct(s, r, f, b):
@@ -69,15 +81,15 @@ def correct(s, r, f, b):
         f[8 * SETTLED + lane] = 0.0 if f[8 * MODE + lane] > IDLE else 2.0
     lay_patches(s, r)
     factors_at(s, r)
-    # Small coordinates are not known at points that come from doubles, and what vanishes along a
-    # path is as large there as their rounding errors are.
     half = splat(0.5)
     nothing = z.exact(splat(0.0), splat(0.0))
-    floor = select_less(load(f, BASE), half, splat(FLOOR), splat(0.0))
-    rough = select_less(load(f, BASE), half, splat(DOUBLES / number.EPSILON), splat(0.0))
-    weigh(s, r, f, floor)
+    # What vanishes along a path is as large, at points from doubles, as their rounding errors are.
+    from_doubles = load(f, ROUGH) - load(f, BASE)
+    rough = select_less(half, from_doubles, splat(DOUBLES / number.EPSILON), splat(0.0))
+    lay_floors(s, r, f)
+    weigh(s, r)
     for k in range(MOST_CORRECTIONS):
-        linearize(s, r, floor, rough)
+        linearize(s, r, rough)
         for lane in range(8):
             if f[8 * SETTLED + lane] < 0.5:
                 f[8 * EVALUATED + lane] += 1.0
@@ -95,8 +107,8 @@ def correct(s, r, f, b):
                     busy += 1
         if busy == 0:
             break
-    weigh(s, r, f, floor)
-    linearize(s, r, floor, rough)
+    weigh(s, r)
+    linearize(s, r, rough)
     for lane in range(8):
         excess = r.measures[8 + lane]
         f[8 * EVALUATED + lane] += 1.0

@@ -39,6 +39,7 @@ from nag.tracking.ends.lane_scalars import (
     MODE,
     PATH,
     REJECTED,
+    ROUGH,
     SAVED,
     SETTLED,
     STEP,
@@ -68,8 +69,9 @@ class Batch(NamedTuple):
 
     ``starts``: points of the paths, numbers as in `Equations`, shape (count, N, 2, words), at
     ``t``, shape (count, words). ``ends``: points at which to try Newton's method at t = 0 first,
-    like ``starts``, if ``tried`` is 0; ``straight``: 0 where not to try it later. ``latest``:
-    largest t at which a limit is taken for one.
+    like ``starts``, if ``tried`` is 0; ``straight``: 0 where not to try it later. ``rough,
+    rough_ends``: 1 where starts, or ends, are known to the digits of doubles only; ``rough`` is set
+    to 0 where a safe point is found. ``latest``: largest t at which a limit is taken for one.
     ``outcome, winding, steps, evaluations``: one for each path. ``points``: like ``starts``, the
     end, or where the path is, at ``t``; ``safe, safe_t``: likewise the last point that is known
     well.
@@ -88,6 +90,8 @@ class Batch(NamedTuple):
     ends: Reals
     tried: Wholes
     straight: Wholes
+    rough: Wholes
+    rough_ends: Wholes
     starts: Reals
     t: Reals
     latest: Reals
@@ -123,7 +127,7 @@ def _set_time(r, lane, t, path, zero):
 
 def _fill(s, r, f, lane, path, b):
     """Put a path into a lane."""
-    for k in range(20):
+    for k in range(21):
         f[8 * k + lane] = 0.0
     f[8 * PATH + lane] = path
     f[8 * TRIED + lane] = 1e-2
@@ -132,6 +136,7 @@ def _fill(s, r, f, lane, path, b):
         r.met[8 * j + lane] = b.met[s.N * path + j]
     if b.tried[path] == 0:
         f[8 * MODE + lane] = FINISH
+        f[8 * ROUGH + lane] = b.rough_ends[path]
         _set_time(r, lane, b.t, path, True)
         _put(s, r, lane, b.ends, path)
     else:
@@ -142,6 +147,7 @@ def _begin(s, r, f, lane, b):
     """Go to the path's own point."""
     path = int(f[8 * PATH + lane])
     f[8 * MODE + lane] = STEP
+    f[8 * ROUGH + lane] = b.rough[path]
     _set_time(r, lane, b.t, path, False)
     _put(s, r, lane, b.starts, path)
 
@@ -173,6 +179,7 @@ def _close(s, r, f, lane, b, outcome, data):
             for k in range(number.WORDS):
                 b.t[number.WORDS * path + k] = r.time[8 * k + lane]
     if f[8 * SAVED + lane] > 0.5:
+        b.rough[path] = 0
         for k in range(numbers):
             b.safe[numbers * path + k] = r.safe[8 * k + lane]
         for k in range(number.WORDS):

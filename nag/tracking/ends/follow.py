@@ -39,8 +39,9 @@ class States:
 
     ``where, t``: the last points; ``safe, safe_t``: the last ones that are known well;
     ``found``: regular ends; ``limits``: others, or where they are tried as regular ones first.
-    ``straight``: 0 where Newton's method at t = 0 is of no use; ``regular``: where the first trial
-    needs no proof; ``last``: the limits that were looked at last; ``most``: steps;
+    ``straight``: 0 where Newton's method at t = 0 is of no use; ``rough``: 1 where ``safe`` is
+    known to the digits of doubles only; ``regular``: where the first trial needs no proof;
+    ``last``: the limits that were looked at last; ``most``: steps;
     ``met``: 1 for coordinates that have exceeded their rounding errors;
     ``starts``: points at t = 1, of those that have gone on from others; ``close``: whether other
     paths run beside these.
@@ -55,6 +56,7 @@ class States:
     ends: np.ndarray
     tried: np.ndarray
     straight: np.ndarray
+    rough: np.ndarray
     regular: np.ndarray
     outcome: np.ndarray
     winding: np.ndarray
@@ -78,6 +80,7 @@ class States:
         states.t = np.tile(np.eye(1, words), (P, 1))
         states.safe_t = states.t.copy()
         states.curvature, states.most[:], states.close = curvature.copy(), MOST_STEPS, True
+        states.rough[:] = 0
         return states
 
     @classmethod
@@ -93,6 +96,7 @@ class States:
             np.ones(P),
             _in_words(ends),
             np.where(reached, 0, 1),
+            np.ones(P, dtype=np.int64),
             np.ones(P, dtype=np.int64),
             np.zeros(P, dtype=bool),
             *whole,
@@ -121,7 +125,7 @@ class States:
             return False
         self.where[path] = self.safe[path] = _in_words(self.starts[[path]], words)[0]
         self.t[path] = self.safe_t[path] = np.eye(1, words)[0]
-        self.met[path], self.most[path] = 0.0, MOST_STEPS
+        self.met[path], self.most[path], self.rough[path] = 0.0, MOST_STEPS, 1
         return True
 
     def point(self, path: int) -> np.ndarray:

@@ -10,12 +10,11 @@ Reference:
 
 from __future__ import annotations
 
-from operator import mul
 from typing import Any
 
 import numpy as np
 
-from nag.tracking.ends.terms import BITS, Terms, number
+from nag.tracking.ends.terms import BITS, Factors, Terms, number
 
 # Most that the radii of the box are, in rounding errors of the coordinates, and in Newton's steps.
 WIDER, STEPS = 64.0, 16.0
@@ -49,8 +48,12 @@ def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) ->
     if not np.isfinite(centre).all() or not np.isfinite(errors).all():
         return None
     x = [number(c) for c in centre]
-    floor = np.abs(centre[:, :, 0]).max(initial=0.0) * 2.0 ** -(BITS[centre.shape[-1]] // 2 + 8)
-    radii = [WIDER * float(e) + floor * 2.0**-32 for e in errors]
+    sizes = np.hypot(*centre[:, :, 0].T)
+    # A coordinate that vanishes has no size of its own; of one that does not, the box must not be
+    # larger than it.
+    sizes = np.where(sizes > 0, sizes, sizes.max(initial=0.0))
+    floor = sizes * 2.0 ** -(BITS[centre.shape[-1]] // 2 + 40)
+    radii = (WIDER * errors + floor).tolist()
     patches = patches_through(flint, terms, x)
     values, jacobian = system_at(flint, terms, patches, x)
     try:
@@ -83,33 +86,41 @@ def patches_through(flint: Any, terms: Terms, x: list[Any]) -> list[list[Any]]:
 
 
 def system_at(flint: Any, terms: Terms, patches: list[list[Any]], x: list[Any]) -> tuple[Any, Any]:
-    """Values and Jacobian of the rows at t = 0 and of the patches."""
-    N, linear = terms.homotopy.N, len(terms.homotopy.rows)
-    values: list[Any] = []
-    jacobian: list[Any] = []
-    for row in terms.rows[:linear]:
-        value = flint.acb(0)
-        slopes = [flint.acb(0)] * N
-        for factors, c, _ in row:
-            if c == 0:
-                continue
-            powers = [x[j] ** k for j, k in factors]
-            after = [flint.acb(1)]
-            for p in reversed(powers):
-                after.append(after[-1] * p)
-            value += c * after[-1]
-            before = c
-            for i, (j, k) in enumerate(factors):
-                rest = before * after[len(factors) - 1 - i]
-                slopes[j] += rest * k * x[j] ** (k - 1) if k > 1 else rest
-                before = before * powers[i]
-        values.append(value)
-        jacobian += slopes
-    for row in terms.rows[linear:]:
-        slopes = [c for _, c, _ in row]
-        values.append(sum(map(mul, slopes, x), flint.acb(0)))
-        jacobian += slopes
-    for patch in patches:
-        values.append(sum(map(mul, patch, x), flint.acb(-1)))
-        jacobian += patch
-    return flint.acb_mat(N, 1, values), flint.acb_mat(N, N, jacobian)
+    """Values and Jacobian of the rows at t = 0 and of the patches.
+
+    The rows are homogeneous: what their derivatives make of the point is their degree times their
+    value (Euler).
+    """
+    N = terms.homotopy.N
+    degrees = [sum(k for _, k in row[0][0]) if row else 1 for row in terms.at_end]
+    rows = [_slopes(row, x, [flint.acb(0)] * N) for row in terms.at_end]
+    rows += terms.lines
+    first = len(rows)
+    rows += patches
+    jacobian = flint.acb_mat(rows)
+    values = (jacobian * flint.acb_mat([[z] for z in x])).entries()
+    for i, degree in enumerate(degrees):
+        if degree > 1:
+            values[i] = values[i] / degree
+    values[first:] = [value - 1 for value in values[first:]]
+    return flint.acb_mat(N, 1, values), jacobian
+
+
+def _slopes(row: list[tuple[Factors, Any]], x: list[Any], slopes: list[Any]) -> list[Any]:
+    """The derivatives of a row, added to ``slopes``."""
+    for factors, c in row:
+        if len(factors) == 2 and factors[0][1] == factors[1][1] == 1:
+            (i, _), (j, _) = factors
+            slopes[i] += c * x[j]
+            slopes[j] += c * x[i]
+            continue
+        after = [c]
+        for j, k in reversed(factors[1:]):
+            after.append(after[-1] * x[j] ** k)
+        before = None
+        for j, k in factors:
+            rest = after.pop() if before is None else after.pop() * before
+            slopes[j] += rest * k * x[j] ** (k - 1) if k > 1 else rest
+            power = x[j] ** k
+            before = power if before is None else before * power
+    return slopes

@@ -24,4 +24,5 @@ IDLE, STEP, FINISH = 0.0, 1.0, 2.0
     EXCESS,
     SAVED,
     EVALUATED,
-) = range(20)
+    ROUGH,
+) = range(21)

@@ -155,14 +155,14 @@ def make_noise(s, r):
         z.write(r.noise, i, z.exact(size * splat(re), size * splat(im)))
 
 
-def newton_correction(s, r, floor, rough):
+def newton_correction(s, r, rough):
     """Newton's correction into the right-hand side, rounding errors of the point, and measures.
 
     Measures of each lane: the largest correction over its coordinate's weight; the largest over
     its coordinate's rounding error; the largest rounding error over a coordinate that exceeds
     it a thousandfold; and 1 if the largest coordinate of a group does not. Corrections of
-    coordinates smaller than ``floor``, or than ``rough`` rounding errors and `ROUGHEST`, count as
-    if they were of that size.
+    coordinates smaller than their ``floors``, or than ``rough`` rounding errors and `ROUGHEST`,
+    count as if they were of that size.
     """
     n = s.N
     substitute(s, r, r.right)
@@ -190,7 +190,7 @@ def newton_correction(s, r, floor, rough):
         error = select_less(half, gone, z.largest(error, step), error)
         most = rough * error
         most = select_less(splat(ROUGHEST), most, splat(ROUGHEST), most)
-        weight = z.largest(z.largest(weight, floor), most)
+        weight = z.largest(z.largest(weight, load(r.floors, j)), most)
         store(r.errors, j, error)
         store(r.weights, j, weight)
         eta = z.largest(eta, step / weight)

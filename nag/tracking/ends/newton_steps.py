@@ -8,10 +8,10 @@ import flint
 import numpy as np
 
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import splat
+from nag.machine_code.lanes import splat, store
 from nag.machine_code.records import Reals
 from nag.tracking.ends import records
-from nag.tracking.ends.corrector import linearize, weigh_one
+from nag.tracking.ends.corrector import linearize, weigh
 from nag.tracking.ends.evaluation import factors_at, lay_patches
 from nag.tracking.ends.records import Equations, Room
 from nag.tracking.homotopy import Homotopy
@@ -34,7 +34,9 @@ class Steps(NamedTuple):
 def newton_batch(s: Equations, r: Room, b: Steps) -> None:
     """Newton's method at t = 0, eight points at a time."""
     size = 2 * number.WORDS * s.N
-    floor = splat(0.0)
+    for j in range(s.N):
+        store(r.least, j, splat(0.0))
+        store(r.floors, j, splat(0.0))
     for first in range(0, b.count, 8):
         for lane in range(8):
             path = min(first + lane, b.count - 1)
@@ -45,9 +47,8 @@ def newton_batch(s: Equations, r: Room, b: Steps) -> None:
         lay_patches(s, r)
         factors_at(s, r)
         for _ in range(b.steps):
-            for j in range(s.N):
-                weigh_one(r, j, floor)
-            linearize(s, r, floor, splat(0.0))
+            weigh(s, r)
+            linearize(s, r, splat(0.0))
             for j in range(s.N):
                 z.write(r.slots, j, z.add(z.read(r.slots, j), z.read(r.right, j)))
         for lane in range(min(8, b.count - first)):

@@ -76,7 +76,8 @@ class Room(NamedTuple):
     logarithms``: Taylor coefficients of the coordinates and of their logarithms at the base, order
     by order from 1 on; ``plain, logs``: the same rounded to doubles, coordinate by coordinate from
     order 0 on. ``weights, errors``: sizes in which corrections count, and rounding errors, of each
-    coordinate at the point; ``base_sizes``: of the coordinates at the base, ``base_weights,
+    coordinate at the point; ``least, floors``: the least sizes that columns are scaled by, and in
+    which corrections count; ``base_sizes``: of the coordinates at the base, ``base_weights,
     base_errors``: as above there; ``met``: 1 for those that have exceeded their rounding errors.
     ``scalars``: see the kernel. ``measures``: of the last
     correction. ``accepted``: 1 in the lanes whose step is accepted. ``limits``: see
@@ -108,6 +109,8 @@ class Room(NamedTuple):
     plain: Reals
     logs: Reals
     weights: Reals
+    least: Reals
+    floors: Reals
     errors: Reals
     base_sizes: Reals
     base_weights: Reals
@@ -120,7 +123,7 @@ class Room(NamedTuple):
 
 
 # Numbers of the rows of the lanes' scalars, and of inverses of whole numbers.
-SCALARS = 20
+SCALARS = 21
 MOST_INVERSES = 64
 
 
@@ -284,5 +287,5 @@ def room(homotopy: Homotopy, count: int, order: int) -> Room:
         2 * count * order * N,
         2 * count * order * N,
     ]
-    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 6, SCALARS, 4, 1, 8 * count * N]
+    sizes += [2 * (order + 1) * N, 2 * (order + 1) * N, *[N] * 8, SCALARS, 4, 1, 8 * count * N]
     return Room(*separate(aligned(sum(sizes)), sizes))

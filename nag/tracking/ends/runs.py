@@ -9,6 +9,8 @@ import numpy as np
 
 from nag.tracking import evaluations
 from nag.tracking.ends import records
+from nag.tracking.ends.exponent_range import powers_of_two, scaled
+from nag.tracking.ends.records import Equations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.settings import Settings
 
@@ -47,52 +49,69 @@ def run(
     compiled.prepare()
     order = ORDER[words]
     system = records.equations(homotopy, words, order)
-    batches = max(1, min(threads, len(chosen) // 8))
     limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
+    powers = powers_of_two(homotopy, states.where[chosen])
 
-    def part(first: int) -> int:
-        own = chosen[first::batches]
-        batch = _batch(homotopy, states, own, words, settings)
-        compiled(system, records.room(homotopy, words, order), batch)
-        _keep(states, own, batch)
-        limits[first::batches] = batch.limits.reshape(len(own), *limits.shape[1:])
+    def part(places: np.ndarray, own: Equations = system, shift: np.ndarray | None = None) -> int:
+        batch = _batch(homotopy, states, chosen[places], words, settings, shift)
+        compiled(own, records.room(homotopy, words, order), batch)
+        _keep(states, chosen[places], batch, shift)
+        limits[places] = batch.limits.reshape(len(places), *limits.shape[1:])
         return int(batch.evaluations.sum())
 
+    apart = powers.any(axis=1)
+    within = np.flatnonzero(~apart)
+    batches = max(1, min(threads, len(within) // 8))
     if batches == 1:
-        spent = part(0)
+        spent = part(within) if len(within) else 0
     else:
         with ThreadPoolExecutor(batches) as pool:
-            spent = sum(pool.map(part, range(batches)))
+            spent = sum(pool.map(part, [within[first::batches] for first in range(batches)]))
+    for place in np.flatnonzero(apart).tolist():
+        own = scaled(system, homotopy, powers[place])
+        spent += part(np.array([place]), own, powers[place])
     evaluations.count(spent)
     return limits
 
 
 def _batch(
-    homotopy: Homotopy, states: States, own: np.ndarray, words: int, settings: Settings
+    homotopy: Homotopy,
+    states: States,
+    own: np.ndarray,
+    words: int,
+    settings: Settings,
+    shift: np.ndarray | None,
 ) -> Batch:
-    """Some paths from where they are, and room for where they get to."""
+    """Some paths from where they are, and room for where they get to.
+
+    Args:
+        shift: binary logarithms over which coordinates are, shape ``(N,)``.
+    """
     from nag.tracking.ends.end_run import Batch
 
     count, N = len(own), homotopy.N
     most = states.most[own]
     if words == max(ORDER):
         most = np.maximum(1, most - states.steps[own])
+    ends, where, safe = (_over(x[own], shift) for x in (states.ends, states.where, states.safe))
     outcome, winding, steps, spent = (np.zeros(count, dtype=np.int64) for _ in range(4))
     return Batch(
         count,
         ORDER[words],
-        states.ends[own].ravel(),
+        ends.ravel(),
         states.tried[own],
         states.straight[own],
-        states.where[own].ravel(),
+        states.rough[own],
+        (states.steps[own] == 0).astype(np.int64),
+        where.ravel(),
         states.t[own].ravel(),
         states.latest[own],
         outcome,
         winding,
         steps,
         spent,
-        states.where[own].ravel(),
-        states.safe[own].ravel(),
+        where.flatten(),
+        safe.ravel(),
         states.safe_t[own].ravel(),
         np.zeros(count * N * 4 * 2 * words),
         np.zeros(count * N),
@@ -107,20 +126,29 @@ def _batch(
     )
 
 
-def _keep(states: States, own: np.ndarray, batch: Batch) -> None:
+def _over(points: np.ndarray, shift: np.ndarray | None) -> np.ndarray:
+    """Coordinates, shape ``(P, N, 2, words)``, over powers of two."""
+    return points.copy() if shift is None else np.ldexp(points, -shift[:, None, None])
+
+
+def _keep(states: States, own: np.ndarray, batch: Batch, shift: np.ndarray | None) -> None:
     """What a run says of its paths."""
     from nag.tracking.ends import end_run
 
     count = len(own)
-    points = batch.points.reshape(count, *states.where.shape[1:])
+    back = None if shift is None else -shift
+    shape = (count, *states.where.shape[1:])
+    points, safe = (_over(x.reshape(shape), back) for x in (batch.points, batch.safe))
     states.outcome[own], states.winding[own] = batch.outcome, batch.winding
     states.steps[own] += batch.steps
     regular = batch.outcome == end_run.REGULAR
     states.found |= {int(own[k]): points[k] for k in np.flatnonzero(regular)}
     states.where[own[~regular]] = points[~regular]
-    states.errors[own] = batch.errors.reshape(count, -1)
+    errors = batch.errors.reshape(count, -1)
+    states.errors[own] = errors if shift is None else np.ldexp(errors, shift)
     states.met[own] = batch.met.reshape(count, -1)
-    states.safe[own] = batch.safe.reshape(points.shape)
+    states.safe[own] = safe
     states.safe_t[own] = batch.safe_t.reshape(count, -1)
     states.t[own], states.curvature[own] = batch.t.reshape(count, -1), batch.curvature
     states.tried[own] = 1
+    states.rough[own] = batch.rough

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -14,8 +13,9 @@ from nag.tracking.homotopy import Homotopy
 
 # Bits of working precision for numbers of as many words.
 BITS = {2: 140, 4: 280, 8: 560}
-# Exponents as (coordinate, exponent) pairs, and the coefficients of 1 and of t.
-Term = tuple[tuple[tuple[int, int], ...], Any, Any]
+# Exponents as (coordinate, exponent) pairs; with them, the coefficients of 1 and of t.
+Factors = tuple[tuple[int, int], ...]
+Term = tuple[Factors, Any, Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +44,37 @@ class Terms:
             pairs = zip(first, second, strict=True)
             rows.append([(((j, 1),), flint.acb(a), flint.acb(b)) for j, (a, b) in enumerate(pairs)])
         return rows
+
+    @cached_property
+    def at_end(self) -> list[list[tuple[Factors, Any]]]:
+        """The terms of the polynomial rows at t = 0: exponents, and coefficients that are not 0."""
+        import flint
+
+        factors = [flint.acb(a) if a != 1 else None for a, _ in self.homotopy.factors]
+        rows = []
+        for row in self.homotopy.rows.parts:
+            terms = []
+            for part, own in row:
+                a = factors[part]
+                if a is not None and a == 0:
+                    continue
+                for e, c in own.items():
+                    value = exact(c) if a is None else exact(c) * a
+                    if value != 0:
+                        terms.append((tuple((j, int(k)) for j, k in enumerate(e) if k), value))
+            rows.append(terms)
+        return rows
+
+    @cached_property
+    def lines(self) -> list[list[Any]]:
+        """The linear rows at t = 0."""
+        import flint
+
+        return [[flint.acb(c) for c in row] for row in self.homotopy.A0.tolist()]
+
+    def work_out(self) -> None:
+        """Give what there is at t = 0 the digits that are worked with now."""
+        _ = self.at_end, self.lines
 
 
 def real(parts: np.ndarray) -> Any:
@@ -78,5 +109,5 @@ def exact(c: Number | complex) -> Any:
         return flint.acb(complex(c))
     if isinstance(c, Irrational):
         c = rounded_fraction(c, max(100, flint.ctx.dps + 10))
-    c = Fraction(c)
-    return flint.acb(flint.fmpq(c.numerator, c.denominator))
+    p, q = c.as_integer_ratio()
+    return flint.acb(flint.fmpq(p, q) if q != 1 else p)

@@ -1,0 +1,193 @@
+"""What a work-precision diagram consists of: points, each of one setting, and curves of them."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.bench.reference import Found, Reference, joined
+from nag.bench.sharpening import Sharpened
+from nag.bench.whole_paths import ARITHMETICS, WHOLE_TOLERANCES, WholePaths, tracked_in
+from nag.tracking.ends import end_run
+from nag.tracking.settings import NAMED, Settings
+
+ORDERS = (3, 4, 6, 8)
+TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
+DIGITS = (16, 32, 64)
+# Seconds for one answer of another program.
+PATIENCE = 120.0
+# Errors to which times are compared.
+ACCURATE = 1e-12
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A case to be measured.
+
+    Attributes:
+        degrees: for a decomposition, dimension, degree and number of the components known.
+    """
+
+    name: str
+    system: PolynomialSystem
+    decomposed: bool
+    degrees: tuple[tuple[int, int, int], ...] = ()
+
+
+@dataclass(frozen=True)
+class Point:
+    """What one setting gave.
+
+    Attributes:
+        name: which one of its curve.
+        seconds: processor time, median over seeds; evaluations: of the system, see
+            `nag.tracking.evaluations`, median, 0 where they are not counted.
+        share: of the solutions, or components, that are right, mean over seeds; in arithmetics of
+            the components' witness points.
+        false: points that are none, or are found twice, over all seeds.
+        largest, median: relative errors of the solutions found.
+    """
+
+    name: str
+    seconds: float
+    evaluations: int
+    share: float
+    false: int
+    largest: float
+    median: float
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Points that belong together.
+
+    Attributes:
+        kind: ``"settings"``, ``"order"``, ``"digits"``, ``"arithmetic"`` (see
+            `nag.bench.whole_paths`) or ``"peer"``.
+        remark: why there are no points; or in which form a program was given the equations.
+    """
+
+    kind: str
+    label: str
+    points: tuple[Point, ...]
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class Chart:
+    """All of one case.
+
+    Attributes:
+        what: ``"solutions"`` or ``"components"``; expected: their number.
+        certification: processor seconds of proving all of them; certified: how many were.
+        path_proof: processor seconds of proving that no path jumped, or that loops connect the
+            points of components; proved_paths: for how many paths, or components, that was proved,
+            out of ``paths``.
+        sharpened: errors after each Newton step, by arithmetic.
+    """
+
+    case: str
+    what: str
+    expected: int
+    seeds: int
+    curves: tuple[Curve, ...]
+    certified: int
+    certification: float
+    path_proof: float
+    proved_paths: int
+    paths: int
+    sharpened: dict[str, tuple[Sharpened, ...]]
+
+
+def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+    """Processor seconds of a call, and what it returns."""
+    begin = time.process_time()
+    result = work()
+    return time.process_time() - begin, result
+
+
+def settings_of_curves() -> Iterator[tuple[str, str, list[tuple[str, Settings | str]]]]:
+    """Kind, label and settings of our own curves."""
+    yield "settings", "settings", [(name, name) for name in NAMED]
+    default = NAMED["default"]
+    for order in ORDERS:
+        several = [
+            (f"{tolerance:.0e}", replace(default, order=order, tolerance=tolerance))
+            for tolerance in TOLERANCES
+        ]
+        yield "order", f"order {order}, tolerances 1e-1 to 1e-5", several
+    several = [(f"{digits} digits", replace(default, digits=digits)) for digits in DIGITS]
+    yield "digits", "ends in at most 16, 32, 64 digits", several
+
+
+def own_curves(
+    measured: Callable[[int, Settings | str], tuple[float, int, Found]],
+    seeds: int,
+    progress: Progress | None,
+) -> list[Curve]:
+    """Those of `settings_of_curves`: seconds, evaluations and what was found are ``measured``."""
+    # What is loaded, or compiled, on first use is no part of anyone's time.
+    for kernel in end_run.KERNELS.values():
+        kernel.prepare()
+    measured(0, "default")
+    curves = []
+    for kind, label, several in settings_of_curves():
+        if progress is not None:
+            progress(label)
+        points = [
+            over_seeds(name, lambda seed, s=settings: measured(seed, s), seeds)
+            for name, settings in several
+        ]
+        curves.append(Curve(kind, label, tuple(points)))
+    return curves
+
+
+def in_arithmetics(
+    system: PolynomialSystem,
+    reference: Reference,
+    seeds: int,
+    progress: Progress | None,
+) -> Iterator[Curve]:
+    """Paths tracked wholly in each arithmetic, at several tolerances."""
+    each = [WholePaths.of(system, seed) for seed in range(seeds)]
+    for arithmetic in ARITHMETICS:
+        if progress is not None:
+            progress(arithmetic)
+        points = [
+            over_seeds(
+                f"{tolerance:.0e}",
+                lambda seed, a=arithmetic, t=tolerance: tracked_in(each[seed], reference, a, t),
+                seeds,
+            )
+            for tolerance in WHOLE_TOLERANCES
+        ]
+        yield Curve("arithmetic", arithmetic, tuple(points))
+
+
+def best_form(curves: Iterable[Curve]) -> Curve:
+    """Of curves of another program, for the same equations written differently, the best.
+
+    That which finds the most, then to `ACCURATE`, then the fastest.
+    """
+
+    def quality(curve: Curve) -> tuple[float, bool, float]:
+        if not curve.points:
+            return -1.0, False, 0.0
+        (point,) = curve.points
+        return point.share, point.largest <= ACCURATE, -point.seconds
+
+    return max(curves, key=quality)
+
+
+def over_seeds(name: str, measured: Callable[[int], tuple[float, int, Found]], seeds: int) -> Point:
+    """One point of a curve."""
+    runs = [measured(seed) for seed in range(seeds)]
+    seconds = float(np.median([r[0] for r in runs]))
+    evaluations = int(np.median([r[1] for r in runs]))
+    return Point(name, seconds, evaluations, **asdict(joined([r[2] for r in runs])))

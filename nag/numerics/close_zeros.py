@@ -1,0 +1,100 @@
+"""Simple zeros so close to each other that doubles about them do not say which is meant.
+
+Newton's method from anywhere near leads to one of them, slowly at first: while the others are as
+good as at the same place a step leads part of the way. From random places about the points it leads
+to each; those that are found are proved, and proved to be distinct, in balls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import flint
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.box_relations import holds_conjugate, one_zero
+from nag.numerics.digits import log_norm, middle
+from nag.numerics.krawczyk import BITS, FineBox, ball_box
+
+# Places to begin at, for each zero, and steps from there: each may lead part of the way only.
+PLACES, STEPS = 10, 200
+# Rounding of a double, beside the point; and steps, as decimal logarithms, below which one that is
+# no shorter than the one before is rounding, and any is.
+ROUNDING, REST, DEEP = 2.0**-52, -45.0, -140.0
+# Size of a point that is zero, as decimal logarithm.
+LEAST = -300.0
+
+
+def close_zeros(
+    system: BallPolynomials, points: np.ndarray, reach: float, rng: np.random.Generator
+) -> list[FineBox]:
+    """Boxes of as many distinct simple zeros next to points as there are of these, or fewer.
+
+    Args:
+        system: as many rows as unknowns.
+        points: complex, shape ``(k, n)``, close together.
+        reach: how far from the points zeros may be, absolute.
+    """
+    size = max(float(np.abs(points).max(initial=0.0)), np.finfo(float).tiny)
+    spread = float(np.abs(points - points[0]).max(initial=0.0))
+    least = 4 * ROUNDING * size
+    found: list[FineBox] = []
+    with flint.ctx.workprec(BITS[-1]):
+        for place in range(PLACES * len(points)):
+            begin = points[place % len(points)]
+            # Distances of all sizes: the points may be zeros of several groups.
+            off = least * max(1.0, spread / least) ** rng.random()
+            shape = rng.standard_normal(len(begin)) + 1j * rng.standard_normal(len(begin))
+            box = _zero_from(system, begin + off * shape)
+            if box is None or not _near(box, points, reach):
+                continue
+            if all(one_zero(box, other) is False for other in found):
+                found.append(box)
+            if len(found) == len(points):
+                break
+    return found
+
+
+def _zero_from(system: BallPolynomials, start: np.ndarray) -> FineBox | None:
+    """The box of the simple zero that Newton's method leads to, however slowly, or None."""
+    x, last = [flint.acb(complex(z)) for z in start], np.inf
+    for _ in range(STEPS):
+        try:
+            moves = (system.jacobian(x).mid().inv().mid() * system(x)).entries()
+        except ZeroDivisionError:
+            return None
+        x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
+        # The origin itself has no size.
+        length = log_norm(map(middle, moves)) - max(log_norm(x), LEAST)
+        if length < DEEP or last <= length < REST:
+            return ball_box(system, x)
+        last = length
+    return None
+
+
+def _near(box: FineBox, points: np.ndarray, reach: float) -> bool:
+    centre = np.array([complex(z) for z in box.centre])
+    return bool((np.abs(points - centre).max(axis=1) < reach).any())
+
+
+def matched(
+    boxes: Sequence[FineBox], points: np.ndarray, accuracy: np.ndarray, real: np.ndarray | None
+) -> list[FineBox]:
+    """One box for each point: the nearest, and of those that are as near one that is as real.
+
+    Args:
+        accuracy: estimated relative errors of the points, shape ``(k,)``.
+        real: which points are said to be real, shape ``(k,)``, or None.
+    """
+    size = max(float(np.abs(points).max(initial=0.0)), np.finfo(float).tiny)
+    centres = np.array([[complex(z) for z in box.centre] for box in boxes])
+    cost = np.abs(points[:, None] - centres).max(axis=2) / size
+    if real is not None:
+        differs = real[:, None] != np.array([holds_conjugate(box) for box in boxes])
+        # What the points' errors leave open decides nothing else.
+        unclear = 8 * np.maximum(np.nan_to_num(accuracy, posinf=0.0), ROUNDING)
+        cost = cost + differs * unclear[:, None]
+    _, chosen = linear_sum_assignment(cost)
+    return [boxes[k] for k in chosen.tolist()]
