@@ -17,17 +17,18 @@ from nag.tracking.homotopy import Homotopy
 EXPONENTS, WORD = 1022, 53
 
 
-def powers_of_two(homotopy: Homotopy, points: np.ndarray) -> np.ndarray:
+def powers_of_two(homotopy: Homotopy, points: np.ndarray, known: np.ndarray) -> np.ndarray:
     """Binary logarithms by which coordinates leave the range, 0 in all others' rows.
 
     Args:
         points: in words, shape ``(P, N, 2, words)``.
+        known: which coordinates are more than rounding errors, shape ``(P, N)``.
 
     Returns:
         Whole numbers, shape ``(P, N)``: a row is 0 where the point is within the range.
     """
     size = np.hypot(points[:, :, 0, 0], points[:, :, 1, 0])
-    logs = np.rint(np.log2(np.where(size > 0, size, 1.0)))
+    logs = np.rint(np.log2(np.where(known & (size > 0), size, 1.0)))
     # Products of two numbers are to have twice their words.
     least = -(EXPONENTS - 2 * WORD * points.shape[-1])
     beyond = 2 * logs.min(axis=1, initial=0.0) < least

@@ -80,7 +80,6 @@ class States:
         states.t = np.tile(np.eye(1, words), (P, 1))
         states.safe_t = states.t.copy()
         states.curvature, states.most[:], states.close = curvature.copy(), MOST_STEPS, True
-        states.rough[:] = 0
         return states
 
     @classmethod

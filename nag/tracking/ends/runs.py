@@ -50,7 +50,7 @@ def run(
     order = ORDER[words]
     system = records.equations(homotopy, words, order)
     limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
-    powers = powers_of_two(homotopy, states.where[chosen])
+    powers = powers_of_two(homotopy, states.where[chosen], states.met[chosen] > 0)
 
     def part(places: np.ndarray, own: Equations = system, shift: np.ndarray | None = None) -> int:
         batch = _batch(homotopy, states, chosen[places], words, settings, shift)
