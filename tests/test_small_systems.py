@@ -84,6 +84,44 @@ SYSTEMS = {
         ),
         {SIMPLE: 12, (0, 1, 2): 9},
     ),
+    # Coordinates of 1e-89 and 1e45 of one zero, beside a curve where the first is zero.
+    "a tiny coordinate beside a huge one": (
+        (
+            "60000*y*z^2 - 440/9*z*w^2 + 9/1000*y*z + 75000",
+            "-1/12500*x*z^2 + 980*x*w",
+            "-600000*x^2*z - 1/125*y*w^2 + 920000/9*w^3 - 1/50000*x*y - 1/6250*w^2 + 70",
+            "-1/10*x^2*y - 1/500*x*w^2",
+        ),
+        {SIMPLE: 18, (1, 9, 1): 1},
+    ),
+    # A simple zero with coordinates of 1e-117 and 1e40, by their own sizes in a small box only.
+    "a box no larger than a coordinate": (
+        (
+            "-9/10000*x^2*z^2 + 8*x*y*w^2 + 7000*y^3*z - 14/75*z",
+            "-3/500*x^2 + 20000*x*y - 6*z*w - 7/1000*x - 800000",
+            "500000*x*y*w + 45*z^2*w + 1/12500",
+            "60000*y*z^2*w + 3/5000*y*w^3 + 250",
+        ),
+        {SIMPLE: 43},
+    ),
+    # Zeros far out beside lines through the origin: small coordinates of limits count by their size.
+    "a far zero beside a line": (
+        (
+            "-3/100000*x*y*z^2 + 26/5*y^3 - 1/20*x*z + 1/2*y",
+            "-100000*x*y*z^3 - 1300000*y^5 - 1/2500*x^3",
+            "-69/100000*x^4 + 800*x*y^3 + 2/5*y*z^3 + 2100*x*y",
+        ),
+        {SIMPLE: 53, (1, 1, 1): 1},
+    ),
+    "a far zero beside double lines": (
+        (
+            "-4/5*x*y + 5*w^2 - 3/100*y",
+            "80*x^2*w + 33/50*z*w^2",
+            "3/100*x^4*y + 60/7*x^3*z^2 + 10*x*z^3 + 500*y*w^3",
+            "-7800*x^2*y*z + 7*y*w^3 - 400*x*y^2",
+        ),
+        {SIMPLE: 15, (1, 1, 2): 2, (1, 2, 1): 1},
+    ),
 }
 
 

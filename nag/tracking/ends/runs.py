@@ -127,8 +127,14 @@ def _batch(
 
 
 def _over(points: np.ndarray, shift: np.ndarray | None) -> np.ndarray:
-    """Coordinates, shape ``(P, N, 2, words)``, over powers of two."""
-    return points.copy() if shift is None else np.ldexp(points, -shift[:, None, None])
+    """Coordinates, shape ``(P, N, 2, words)``, over powers of two.
+
+    Those of points that are elsewhere may leave the range: nothing is then gained by trying these.
+    """
+    if shift is None:
+        return points.copy()
+    with np.errstate(over="ignore", under="ignore"):
+        return np.ldexp(points, -shift[:, None, None])
 
 
 def _keep(states: States, own: np.ndarray, batch: Batch, shift: np.ndarray | None) -> None:
