@@ -104,7 +104,7 @@ SYSTEMS = {
         ),
         {SIMPLE: 43},
     ),
-    # Zeros far out beside lines through the origin: small coordinates of limits count by their size.
+    # Zeros far out beside lines: small coordinates of limits count by their own size.
     "a far zero beside a line": (
         (
             "-3/100000*x*y*z^2 + 26/5*y^3 - 1/20*x*z + 1/2*y",
