@@ -18,14 +18,14 @@ EXPONENTS, WORD = 1022, 53
 
 
 def powers_of_two(homotopy: Homotopy, points: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Binary logarithms by which coordinates leave the range, 0 in all others' rows.
+    """Binary logarithms of the coordinates of points that leave the range, whole numbers.
 
     Args:
         points: in words, shape ``(P, N, 2, words)``.
         known: which coordinates are more than rounding errors, shape ``(P, N)``.
 
     Returns:
-        Whole numbers, shape ``(P, N)``: a row is 0 where the point is within the range.
+        Shape ``(P, N)``; rows are 0 where the point is within the range.
     """
     size = np.hypot(points[:, :, 0, 0], points[:, :, 1, 0])
     logs = np.rint(np.log2(np.where(known & (size > 0), size, 1.0)))
