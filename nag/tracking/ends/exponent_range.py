@@ -34,7 +34,7 @@ def powers_of_two(homotopy: Homotopy, points: np.ndarray, known: np.ndarray) -> 
     beyond = 2 * logs.min(axis=1, initial=0.0) < least
     degree = max((sum(e) for row in homotopy.rows.parts for _, own in row for e in own), default=1)
     doubtful = np.flatnonzero(degree * logs.min(axis=1, initial=0.0) < least)
-    if len(doubtful):
+    if len(doubtful) and len(homotopy.rows):
         exponents, first = _exponents(homotopy)
         rows = np.maximum.reduceat(logs[doubtful] @ exponents.T, first, axis=1)
         beyond[doubtful] |= (rows < least).any(axis=1)
