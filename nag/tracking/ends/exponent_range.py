@@ -29,8 +29,8 @@ def powers_of_two(homotopy: Homotopy, points: np.ndarray, known: np.ndarray) -> 
     """
     size = np.hypot(points[:, :, 0, 0], points[:, :, 1, 0])
     logs = np.rint(np.log2(np.where(known & (size > 0), size, 1.0)))
-    # Products of two numbers are to have twice their words.
-    least = -(EXPONENTS - 2 * WORD * points.shape[-1])
+    # Products of two coordinates, and terms, are to have all their words.
+    least = -(EXPONENTS - WORD * points.shape[-1])
     beyond = 2 * logs.min(axis=1, initial=0.0) < least
     degree = max((sum(e) for row in homotopy.rows.parts for _, own in row for e in own), default=1)
     doubtful = np.flatnonzero(degree * logs.min(axis=1, initial=0.0) < least)
