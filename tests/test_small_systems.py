@@ -171,3 +171,36 @@ def test_paths_that_end_at_too_few_zeros_are_followed_further_and_no_others() ->
     assert [s.multiplicity for s in result.solutions] == [1] * 66
     assert result.complete
     assert result.paths.at_infinity == 28
+
+
+@pytest.mark.parametrize(
+    ("equations", "simple"),
+    [
+        # A coordinate of 3/1750 in one branch, which doubles only round.
+        (
+            (
+                "-350/3*x*w + 1/5*w",
+                "-1/5000*y^3*z^2 + 200000*x*z*w - 9/1000",
+                "-12*x^3*w + 200*x*y^2*w - 21/1000*x*z^2 + 100*y^2*w + 4/5",
+                "17/20*z*w^2 + 100/3*x*y - 1/5",
+            ),
+            33,
+        ),
+        # Coordinates that vanish, written as 1e-213.
+        (
+            (
+                "-65*x*y^2 - 3/4*x*y*w - 8*y^2*z - 4*z^3 - 7*y^2 - 8*w^2 + 9",
+                "-3*x^4 - 7*x*y^3 - 29*x*z^3 + 19*z^4 + 76*x^3 + 5*x^2*y",
+                "2/3*y^2*z*w - x*w",
+                "-53/3*x*w + w^2",
+            ),
+            33,
+        ),
+    ],
+)
+def test_errors_of_coordinates_hold_also_those_of_writing_them(
+    equations: tuple[str, ...], simple: int
+) -> None:
+    result = solve(system("x y z w", *equations))
+    assert result.complete
+    assert sum(s.multiplicity == 1 for s in result.solutions) == simple

@@ -68,14 +68,15 @@ def surely_differs(f: Polynomial, x: np.ndarray, radii: np.ndarray) -> bool:
     together, but not to its own.
 
     Args:
-        radii: errors of the coordinates, shape ``(n,)``.
+        radii: errors of the coordinates, shape ``(n,)``; to them comes that of writing them.
     """
     import flint
 
+    wide = SLACK * (radii + np.finfo(float).eps * np.abs(x))
     with flint.ctx.workprec(BITS):
         ball = [
             flint.acb(flint.arb(z.real, r), flint.arb(z.imag, r))
-            for z, r in zip(x.tolist(), (SLACK * radii).tolist(), strict=True)
+            for z, r in zip(x.tolist(), wide.tolist(), strict=True)
         ]
         return not bool(ball_values((f,)).at(ball)[0].contains(0))
 

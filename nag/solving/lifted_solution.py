@@ -12,7 +12,7 @@ import numpy as np
 from nag.algebra.elimination import Elimination
 from nag.algebra.high_precision import DIGITS
 from nag.numerics.zero_values import possible_zeros
-from nag.solving.isolated_zero import ROUNDING
+from nag.solving.isolated_zero import ROUNDING, WRITTEN
 from nag.solving.solutions import Solution
 
 # Coordinates with larger errors than this, relative to their sizes, are worked out in more digits.
@@ -34,8 +34,9 @@ def lifted_solution(solution: Solution, elimination: Elimination) -> Solution:
     if solution.multiplicity == 1 and (errors > ROUGH * np.abs(x))[others].any():
         fine = _in_digits(elimination, y, solution.accuracy if radii is None else radii)
         if fine is not None:
-            x = fine
-            return replace(solution, point=x, radii=ROUNDING * np.abs(x))
+            # What is written to so many digits does not say whether it vanishes.
+            written = elimination.lift_radii(y, WRITTEN * (1 + np.abs(y)))
+            return replace(solution, point=fine, radii=ROUNDING * np.abs(fine) + written)
     return replace(solution, point=x, radii=None if radii is None else errors)
 
 
