@@ -15,6 +15,8 @@ from nag.witness.certificate import DecompositionCertificate
 from nag.witness.certified_loops import ProvedMonodromy
 
 Rows = list[tuple[str, str]]
+# What is seen of points as they are written: doubles do not tell all zeros apart.
+ONE_ZERO = "lead to one zero: they are the same, or nearer than doubles tell"
 
 WORDS = {
     Proof.SIMPLE: "simple zeros of all equations, one in each box",
@@ -40,9 +42,9 @@ def solution_rows(certificate: SolutionsCertificate, seconds: float) -> Rows:
     if evidence.any():
         real, complex_ = (int((side & evidence).sum()) for side in sides)
         rows.append(("", f"on evidence {real} real, {complex_} not real"))
-    rows += _pairs_rows("solutions", "the same zero", certificate.same, certificate.unknown) or [
-        ("distinct", "the zeros in the boxes are proved to be distinct")
-    ]
+    rows += _pairs_rows(
+        "solutions", "are the same zero", certificate.same, certificate.unknown
+    ) or [("distinct", "the zeros in the boxes are proved to be distinct")]
     for what, count in certificate.contradicted.items():
         text = f"{count} of the solutions that are said to be {what} are proved not to be"
         rows.append(("refuted", text))
@@ -91,7 +93,7 @@ def decomposition_rows(certificate: DecompositionCertificate, seconds: float) ->
     if certificate.multiple:
         text = f"{len(certificate.multiple)} components that are said to be multiple are not"
         rows.append(("refuted", text))
-    rows += _pairs_rows("components", "the same", certificate.same, certificate.unknown)
+    rows += _pairs_rows("components", ONE_ZERO, certificate.same, certificate.unknown)
     for dimension, bound in sorted(certificate.bounds.items(), reverse=True):
         if bound:
             text = (
@@ -186,7 +188,7 @@ def _pairs_rows(
 ) -> Rows:
     rows = []
     for label, pairs, text in (
-        ("repeated", same, f"are {one}"),
+        ("repeated", same, one),
         ("doubt", unknown, "were not told apart"),
     ):
         if pairs:

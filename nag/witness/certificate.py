@@ -67,8 +67,8 @@ class DecompositionCertificate:
     Attributes:
         decomposition: the components.
         components: what is proved of each.
-        same, unknown: pairs of indices of components that are proved to be the same one, and of
-            which points were not told apart.
+        same, unknown: pairs of indices of components of which points, as they are written, lead to
+            one zero, and of which points were not told apart.
         bounds: by dimension, a number that the sum of the degrees of the components of that
             dimension is proved not to be below.
         most: the sum of the degrees of all components is at most this.
