@@ -126,16 +126,11 @@ def test_a_double_zero_and_what_is_no_zero_are_not_located() -> None:
 
 
 def test_all_paths_of_katsura_are_proved_and_lead_to_all_solutions() -> None:
-    katsura = [
-        "u + 2*x + 2*y + 2*z - 1",
-        "u^2 + 2*x^2 + 2*y^2 + 2*z^2 - u",
-        "2*u*x + 2*x*y + 2*y*z - x",
-        "x^2 + 2*u*y + 2*x*z - y",
-    ]
-    proved = prove_paths(solve(nag.system(katsura, "u x y z"), start="total"))
+    result = solve(read_case(CASES / "benchmarks" / "katsura-6.toml").system)
+    proved = prove_paths(result)
     assert proved.distinct
-    assert (proved.arrived, proved.followed, proved.lost) == (8, 0, 0)
-    assert sorted(proved.ends.tolist()) == list(range(8))
+    assert (proved.arrived, proved.followed, proved.lost) == (64, 0, 0)
+    assert sorted(proved.ends.tolist()) == list(range(64))
 
 
 def test_paths_to_infinity_end_in_no_solution() -> None:

@@ -84,17 +84,9 @@ def texts() -> dict[str, str]:
     return {name: str(Module(k.function, k.modules).ir) for name, k in ALL.items()}
 
 
-# The largest kernel asks other levels of x86-64 for nothing that the others do not ask for.
-ASKED = [
-    (kernel, platform)
-    for kernel in ALL
-    for platform in PLATFORMS
-    if kernel != "ends" or not platform.endswith(("v3", "v4"))
-]
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(("kernel", "platform"), ASKED)
+@pytest.mark.parametrize("platform", PLATFORMS)
+@pytest.mark.parametrize("kernel", ALL)
 def test_kernels_need_nothing_but_the_c_library(
     kernel: str, platform: str, texts: dict[str, str]
 ) -> None:

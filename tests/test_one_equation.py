@@ -110,16 +110,3 @@ def test_a_zero_on_what_is_excluded_need_not_be_on_the_only_component() -> None:
     places = [(Fraction(0), Fraction(5)), (Fraction(0), Fraction(1)), (Fraction(1), Fraction(0))]
     found = through_points(answer, [(str(at), at) for at in places])
     assert [one.components for one in found] == [(), (0,), (0,)]
-
-
-@pytest.mark.parametrize(
-    ("equation", "degree"),
-    [("(x^2 + y^2 - 1)^2 - 2/10^80", 4), ("(x + y + z)^3 - 2/10^90", 3)],
-)
-def test_sheets_that_doubles_do_not_tell_apart_are_missed_by_the_degree(
-    equation: str, degree: int
-) -> None:
-    answer = nag.decompose([equation])
-    found = sum(c.degree * c.multiplicity for c in answer.components)
-    assert answer.complete == (found == degree)
-    assert answer.complete or f"the equation has degree {degree}" in answer.notes[-1]

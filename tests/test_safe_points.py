@@ -32,9 +32,9 @@ def test_ends_that_ask_for_more_digits_are_reached_at_the_first_attempt(seed: in
     assert {d: sum(map(len, f)) for d, f in found.fibres.items() if f} == {1: 16}
 
 
-def test_ends_that_64_digits_lose_are_found_in_120(monkeypatch) -> None:
+@pytest.mark.parametrize("seed", [6, 11])
+def test_ends_that_64_digits_lose_are_found_in_120(seed: int, monkeypatch) -> None:
     monkeypatch.chdir(SPATIAL.parent.parent)
-    seed = 6
     name = "literature/sphere-curve-lines-point"
     system = moved_case(name, np.random.default_rng([seed, 20])).system
     assert not decompose(system, settings=Settings(digits=64), seed=seed).complete

@@ -19,6 +19,7 @@ from nag.mechanism.dh_euler import dh_euler_model, euler_closings
 TABLES = [
     "spatial/bennett-isogram-equilateral",
     "spatial/planar-four-bar",
+    "spherical/flat-foldable-vertex",
     "spherical/four-bar",
     "spherical/four-bar-equal",
     "spherical/four-bar-equal-opposite",

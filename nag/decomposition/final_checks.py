@@ -199,6 +199,8 @@ def checked_witness_set(
         multiple = multiplicity(reduced.polynomials, rows, nearest, rng)
     if scheme and coranks[0] != d and not chosen[0].cut.deflated:
         reasons.append("its points are regular and singular at once: zeros too close")
+    if scheme and coranks[0] != d and multiple == 1:
+        reasons.append("its points are singular and of multiplicity 1: zeros too close")
     if scheme and multiple == 0:
         reasons.append("its multiplicity was not found")
     multidegree = None

@@ -7,12 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.algebra.factoring import factored
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once, with_points
-from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.orbits import Action
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Ambient, Superset, intersection_order, witness_superset
@@ -67,26 +65,7 @@ def decompose_several(
     # Zeros of a section that is whole were counted before.
     if whole is None or not answer.complete:
         answer = counted(answer, scheme)
-    answer = _measured(answer, reduction, scheme)
     return replace(answer, seed=seed, settings=tracker.settings)
-
-
-def _measured(answer: Decomposition, reduction: Reduction, scheme: bool) -> Decomposition:
-    """The answer for one equation, beside its degree: that of all components together.
-
-    Sheets nearer to each other than doubles tell have one point for several.
-    """
-    reduced = reduction.reduced
-    if not is_one_equation(reduction) or reduced.nonzero:
-        return answer
-    (f,) = reduced.polynomials
-    if not scheme and any(k > 1 for _, k in factored(f)):
-        return answer
-    found = sum((c.multiplicity if scheme else 1) * c.degree * c.orbit for c in answer.components)
-    if found == f.degree:
-        return answer
-    note = f"components of degree {found} were found, and the equation has degree {f.degree}"
-    return replace(answer, complete=False, notes=(*answer.notes, note))
 
 
 def _one_by_one(
