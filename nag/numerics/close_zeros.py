@@ -15,8 +15,8 @@ from scipy.optimize import linear_sum_assignment
 
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import holds_conjugate, one_zero
-from nag.numerics.digits import log_norm, middle
-from nag.numerics.krawczyk import BITS, FineBox, ball_box
+from nag.numerics.digits import log_norm
+from nag.numerics.krawczyk import BITS, FineBox, ball_box, newton_step
 
 # Places to begin at, for each zero, and steps from there: each may lead part of the way only.
 PLACES, STEPS = 10, 200
@@ -61,13 +61,12 @@ def _zero_from(system: BallPolynomials, start: np.ndarray) -> FineBox | None:
     """The box of the simple zero that Newton's method leads to, however slowly, or None."""
     x, last = [flint.acb(complex(z)) for z in start], np.inf
     for _ in range(STEPS):
-        try:
-            moves = (system.jacobian(x).mid().inv().mid() * system(x)).entries()
-        except ZeroDivisionError:
+        step = newton_step(system, x)
+        if step is None:
             return None
-        x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
+        x, length = step
         # The origin itself has no size.
-        length = log_norm(map(middle, moves)) - max(log_norm(x), LEAST)
+        length -= max(log_norm(x), LEAST)
         if length < DEEP or last <= length < REST:
             return ball_box(system, x)
         last = length

@@ -243,16 +243,25 @@ def box_about(
     return None
 
 
+def newton_step(
+    system: BallPolynomials, x: Sequence[flint.acb]
+) -> tuple[list[flint.acb], float] | None:
+    """Where a step of Newton's method leads, and its length as a logarithm; None if nowhere."""
+    try:
+        moves = (system.jacobian(x).mid().inv().mid() * system(x)).entries()
+    except ZeroDivisionError:
+        return None
+    return [middle(a - b) for a, b in zip(x, moves, strict=True)], log_norm(map(middle, moves))
+
+
 def _newton(system: BallPolynomials, start: Sequence[flint.acb]) -> list[flint.acb] | None:
     """Where Newton's method comes to rest from a point; None at a singular matrix."""
     x, last = list(start), np.inf
     for _ in range(STEPS):
-        try:
-            moves = (system.jacobian(x).mid().inv().mid() * system(x)).entries()
-        except ZeroDivisionError:
+        step = newton_step(system, x)
+        if step is None:
             return None
-        x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
-        size = log_norm(map(middle, moves))
+        x, size = step
         # A step that is no shorter than the one before it is rounding.
         if size >= last or size == -np.inf:
             break
