@@ -303,8 +303,8 @@ numerics.curves: CLOSE, CLOSER, PATIENCE; numerics.deflated_system:
 MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK; numerics.digits:
 LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST,
 LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: ROUNDING;
-numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: REACHES;
-numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
+numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
+REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
 numerics.rounds_in_doubles: APART; numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
 numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP; numerics.small_values: LEAST;
 tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
@@ -317,7 +317,7 @@ tracking.linear_algebra: PIVOT; tracking.numbers.complex_numbers: HALVED, SMALL_
 tracking.numbers.double_double: EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL;
 tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
 tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
-solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING, WRITTEN;
+solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING;
 solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP;
 solving.start.centring: FAR, CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy:
 SHARP; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.target:

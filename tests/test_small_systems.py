@@ -122,6 +122,16 @@ SYSTEMS = {
         ),
         {SIMPLE: 15, (1, 1, 2): 2, (1, 2, 1): 1},
     ),
+    # Of two zeros that agree but for y, which is 0 and 1e-95: that is more than their errors.
+    "a coordinate that is smaller than most digits tell": (
+        (
+            "-80000*x*y + 1/100*x*w - 3/100000*y^2 + 11/100000*z*w + 1/10*w",
+            "23/5*x^2*w - 7/10*y*z^2 + 1/200*y*z*w - 3/10000*x^2 + 540000*x*y - 1/12500*x*z - 10",
+            "-13/100*x^3*y - 50000*y^2*w^2",
+            "-1/20000*x*y + 3/400000*x*w - 89*z^2",
+        ),
+        {SIMPLE: 36, (0, 1, 2): 2},
+    ),
 }
 
 

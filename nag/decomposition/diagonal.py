@@ -16,14 +16,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.excluded import ROUNDED, forbidden
 from nag.decomposition.factor import Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import clusters, coincident, compared
-from nag.numerics.zero_values import possible_zeros
+from nag.numerics.zero_values import possible_zeros, vanishes_at
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
@@ -226,7 +225,7 @@ class _Diagonal:
             error, slices = max(float(accuracy[i]), ROUNDED), padded(rows, 1 + x.shape[1])
             rng = np.random.default_rng(0)
             zeros = possible_zeros(reduced.polynomials, x[i], error, rng, slices)
-            there = {any(vanish_at([g], z.digits) for g in reduced.nonzero) for z in zeros}
+            there = {any(vanishes_at(z, g) for g in reduced.nonzero) for z in zeros}
             result[i] = there == {False}
             unclear += len(there) != 1
         if unclear:

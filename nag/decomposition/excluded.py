@@ -7,11 +7,10 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import SAFETY
 from nag.numerics.small_values import ON
-from nag.numerics.zero_values import possible_zeros
+from nag.numerics.zero_values import possible_zeros, vanishes_at
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Moved
@@ -90,4 +89,4 @@ def _beside(
     """
     slices, rng = padded(rows, 1 + len(z)), np.random.default_rng(0)
     zeros = possible_zeros(cut.polynomials, z, max(accuracy, ROUNDED), rng, slices, True)
-    return not all(any(vanish_at([g], zero.digits) for g in nonzero) for zero in zeros)
+    return not all(any(vanishes_at(zero, g) for g in nonzero) for zero in zeros)

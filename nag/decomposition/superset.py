@@ -12,12 +12,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.excluded import excluded
 from nag.decomposition.hypersurface import Crossing, Sections, crossing
 from nag.numerics.coincidence import SAFETY, clusters, coincident
 from nag.numerics.small_values import ON
+from nag.numerics.zero_values import vanishes_at
 from nag.witness.close_to_sets import Meant, among, meant, regular_fibre
 from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
@@ -244,7 +244,7 @@ class _Stage:
         notes, found = [], meant(cluster, so_far, rows, self.rng, patience)
         for zero in found.zeros:
             known = among(zero, own, rows)
-            if known or any(vanish_at([g], zero.digits) for g in self.avoid):
+            if known or any(vanishes_at(zero, g) for g in self.avoid):
                 continue
             fibre = regular_fibre(zero, so_far, rows)
             if fibre is None or known is None:
@@ -274,7 +274,10 @@ class _Stage:
             # Singular ends mostly lie on the set that they seem to lie on, however hard to judge.
             patience = IN_PASSING if answer is Membership.MEMBER else 1.0
             doubts, found = self.beside(cluster, so_far, kept[d], rows, patience)
-            if found.decided or answer is Membership.MEMBER:
+            if found.decided:
+                return doubts, counts
+            if answer is Membership.MEMBER:
+                doubts.append(f"a point of dimension {d} could not be told from a larger set")
                 return doubts, counts
         holding = self.holding(so_far, x, accuracy)
         if answer is Membership.FOREIGN and admit(

@@ -44,6 +44,9 @@ FIRST_ATTEMPTS, FIRST_STEPS = 3, 15
 MOST_DIGITS = 2000
 # Written digits of a point.
 WRITTEN = 100
+# Errors of such a point in units of its coordinates: at least this, and as much as rounding makes
+# of it by the inverse Jacobian; none is said to be smaller than the last.
+ERROR, ROUNDED, LEAST = 1e-120, 1e-135, 1e-300
 # Of these, how many may differ in two points that are one.
 REPEATED = 20.0
 # Clusters of clusters are not resolved further than this.
@@ -305,6 +308,7 @@ def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]
         dimension,
         digits=end.digits,
         nearby=isolated,
+        radii=end.radii,
     )
 
 
@@ -324,8 +328,11 @@ def _end(
     digits = tuple((decimal(c.real), decimal(c.imag)) for c in x)
     exact = rational_point(x, DIGITS) if system.rational and not found.free else None
     condition = 10.0 ** max(found.inverse, 0.0)
+    rounded = doubles(x)
+    error = max(ERROR, condition * ROUNDED)
+    radii = error * np.exp2(system.scales) + 10.0 ** (1 - WRITTEN) * np.abs(rounded)
     return SingularEnd(
-        doubles(x),
+        rounded,
         place,
         multiplicity,
         2.0**-52,
@@ -334,6 +341,7 @@ def _end(
         dimension,
         digits,
         tuple(exact) if exact is not None else None,
+        radii=np.maximum(radii, LEAST),
     )
 
 

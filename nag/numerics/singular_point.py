@@ -41,6 +41,7 @@ class SingularEnd:
         digits: real and imaginary parts as decimals, to 100 digits; empty if undecided.
         rational: the exact coordinates, if they are rational.
         nearby: the isolated zeros of a cluster, each judged by itself.
+        radii: errors of ``digits``, absolute, shape ``(n,)``; None if undecided.
     """
 
     point: np.ndarray
@@ -53,6 +54,7 @@ class SingularEnd:
     digits: tuple[tuple[str, str], ...] = ()
     rational: tuple[Fraction, ...] | None = None
     nearby: tuple[SingularEnd, ...] = ()
+    radii: np.ndarray | None = None
 
 
 def analyse(

@@ -19,6 +19,8 @@ from nag.numerics.small_values import SLACK
 ALIKE, NOTHING = 1e-6, 1e-60
 # Relative error of a zero that is known by its written digits.
 WRITTEN = 1e-90
+# Decimal digits in which balls about zeros are evaluated.
+DIGITS = 150
 # Of the centres of balls that doubles are known to.
 BITS = 128
 
@@ -55,9 +57,24 @@ def alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularEnd, ...
     return tuple(chosen) if len(chosen) == 1 else tuple(zeros)
 
 
+def vanishes_at(zero: SingularEnd, f: Polynomial) -> bool:
+    """Whether a polynomial vanishes at a zero, in the digits that each coordinate is known to."""
+    if zero.radii is not None and zero.digits:
+        import flint
+
+        with flint.ctx.workdps(DIGITS):
+            ball = [
+                flint.acb(flint.arb(re, r), flint.arb(im, r))
+                for (re, im), r in zip(zero.digits, zero.radii.tolist(), strict=True)
+            ]
+            if not bool(ball_values((f,)).at(ball[: f.n])[0].contains(0)):
+                return False
+    return vanish_at([f], zero.digits)
+
+
 def vanishes_at_all(zeros: Sequence[SingularEnd], f: Polynomial) -> bool | None:
     """Whether a polynomial vanishes at all zeros, or at none; None else, or if there are none."""
-    answers = {vanish_at([f], zero.digits) for zero in zeros}
+    answers = {vanishes_at(zero, f) for zero in zeros}
     return answers.pop() if len(answers) == 1 else None
 
 

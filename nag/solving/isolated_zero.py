@@ -13,9 +13,8 @@ from nag.solving.start.target import Start
 from nag.tracking.ends.terms import number
 from nag.tracking.paths import Ball
 
-# Digits in which the quotients of projective coordinates are worked out, and errors of points that
-# are written to 100 digits.
-DIGITS, WRITTEN = 110, 1e-95
+# Digits in which the quotients of projective coordinates are worked out.
+DIGITS = 110
 # Relative error of a coordinate in doubles, where a few operations led to it.
 ROUNDING = 2.0**-50
 # Least distance, beside their size or one, of zeros that are two.
@@ -55,14 +54,14 @@ class FinePoint:
         Args:
             scales: powers of two over which the end's variables are these.
         """
-        if not end.digits:
+        if not end.digits or end.radii is None:
             return None
         import flint
 
         from nag.numerics.digits import point
 
         with flint.ctx.workdps(DIGITS):
-            x, radii = point(end.digits), WRITTEN * (1 + np.abs(end.point))
+            x, radii = point(end.digits), end.radii
             if len(scales):
                 x = [c * flint.arb(2) ** int(k) for c, k in zip(x, scales, strict=True)]
                 radii = radii * np.exp2(scales)

@@ -12,7 +12,7 @@ import numpy as np
 from nag.algebra.elimination import Elimination
 from nag.algebra.high_precision import DIGITS
 from nag.numerics.zero_values import possible_zeros
-from nag.solving.isolated_zero import ROUNDING, WRITTEN
+from nag.solving.isolated_zero import ROUNDING
 from nag.solving.solutions import Solution
 
 # Coordinates with larger errors than this, relative to their sizes, are worked out in more digits.
@@ -34,24 +34,28 @@ def lifted_solution(solution: Solution, elimination: Elimination) -> Solution:
     if solution.multiplicity == 1 and (errors > ROUGH * np.abs(x))[others].any():
         fine = _in_digits(elimination, y, solution.accuracy if radii is None else radii)
         if fine is not None:
-            # What is written to so many digits does not say whether it vanishes.
-            written = elimination.lift_radii(y, WRITTEN * (1 + np.abs(y)))
-            return replace(solution, point=fine, radii=ROUNDING * np.abs(fine) + written)
+            point, zero_radii = fine
+            # What is known to so many digits does not say whether it vanishes.
+            known = elimination.lift_radii(y, zero_radii)
+            return replace(solution, point=point, radii=ROUNDING * np.abs(point) + known)
     return replace(solution, point=x, radii=None if radii is None else errors)
 
 
 def _in_digits(
     elimination: Elimination, y: np.ndarray, error: float | np.ndarray
-) -> np.ndarray | None:
-    """The point above the regular zero near ``y``, to rounding; None if there is none."""
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """The point above the regular zero near ``y``, to rounding, and the errors of that zero.
+
+    None if there is none.
+    """
     import flint
 
     from nag.numerics.digits import doubles, number, point
 
     zeros = possible_zeros(elimination.system.polynomials, y, error, np.random.default_rng(0))
-    if len(zeros) != 1 or zeros[0].multiplicity != 1:
+    if len(zeros) != 1 or zeros[0].multiplicity != 1 or zeros[0].radii is None:
         return None
     with flint.ctx.workdps(DIGITS):
         zero = point(zeros[0].digits)
         x = [flint.acb(image(zero, number)).mid() for image in elimination.images]
-    return doubles(x)
+    return doubles(x), zeros[0].radii

@@ -55,28 +55,30 @@ def meant(
     """The isolated zeros on the slice ``rows`` that ends may stand for; others lie on larger sets.
 
     Args:
-        ends: points in doubles with their relative errors.
+        ends: limits in doubles with their errors, relative to each coordinate.
         patience: part of the usual work after which multiple zeros are left undecided.
     """
     zeros: list[SingularEnd] = []
-    known: list[list[flint.acb]] = []
+    met: list[list[flint.acb]] = []
     slices, decided = padded(rows, 1 + equations.n), True
     seen = np.zeros((0, equations.n), dtype=complex)
     # What lies within the error of one end is looked at with it: the least known ones come first.
     for x, accuracy in sorted(ends, key=lambda end: -end[1]):
         error = max(accuracy, ROUNDED)
-        if (np.linalg.norm(seen - x, axis=1) <= REACH * error * (1 + np.linalg.norm(x))).any():
+        if (np.abs(seen - x) <= REACH * error * np.abs(x)).all(axis=1).any():
             continue
-        end = analyse(equations.polynomials, x, error, rng, slices, patience=patience)
+        # The coordinates of a limit either vanish or are known each by itself.
+        known = error * np.abs(x)
+        end = analyse(equations.polynomials, x, known, rng, slices, patience=patience)
         seen = np.vstack([seen, x])
         decided &= end.place is not Place.UNDECIDED
         for zero in end.nearby or ((end,) if end.place is Place.ISOLATED else ()):
             with flint.ctx.workdps(DIGITS):
                 here = point(zero.digits)
-                new = not any(_same(here, z) for z in known)
+                new = not any(_same(here, z) for z in met)
             if new:
                 zeros.append(zero)
-                known.append(here)
+                met.append(here)
     return Meant(tuple(zeros), decided)
 
 

@@ -8,10 +8,11 @@ from types import MappingProxyType
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import DIGITS, vanish, vanish_at, vanish_in_balls
+from nag.algebra.high_precision import DIGITS, vanish, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.small_values import ON
+from nag.numerics.zero_values import vanishes_at
 from nag.witness.close_points import Fine, zero_from
 from nag.witness.cutting import Cut
 from nag.witness.multiplicity import ACCURACY
@@ -108,4 +109,6 @@ def _at_zero(
         return answer
     # Coordinates may differ too much in size for Newton's method with an inverse in doubles.
     zero = analyse(cut.polynomials, z, ACCURACY, np.random.default_rng(0), slices)
-    return vanish_at(equations, zero.digits) if zero.place is Place.ISOLATED else None
+    if zero.place is not Place.ISOLATED:
+        return None
+    return all(vanishes_at(zero, f) for f in equations)
