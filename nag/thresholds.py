@@ -98,9 +98,10 @@ tracking.track.PROOF *                      1e5     Smallest singular value over
                                                     theorem asks for a few times the second
                                                     derivatives; what fails gets 32 digits.
 tracking.track.RESIDUAL *                   1e-29   A homogenising coordinate of a regular end in
-                                                    doubles, residuals in double-double, exceeds
-                                                    zero where it exceeds this over the smallest
-                                                    singular value. Others get 32 digits.
+                                                    doubles, residuals in double-double, is known
+                                                    to this over the smallest singular value.
+tracking.track.SHARE                        1e-14   Part of it that this may be, as points are as
+                                                    accurate after division. Others get 32 digits.
 tracking.track.STRAYED                      1e3     Errors by which Newton's method may move an end
                                                     in doubles; what moves further gets 32 digits.
 tracking.track.SHARP                        1e-12   Newton's last step at a regular end in doubles;
@@ -123,18 +124,19 @@ tracking.ends.at_infinity.ZERO              1e-150  Coordinates of size one that
                                                     digits, and Newton's last step.
 tracking.ends.follow.KNOWN *                1e3     A coordinate over its rounding error that is not
                                                     zero.
-tracking.ends.follow.LEAST_EVIDENCE *       14      Digits to which the exact equations' terms of
+tracking.ends.follow.SHARP                  1e-15   The same part in more digits.
+tracking.ends.evidence.LEAST_EVIDENCE *     14      Digits to which the exact equations' terms of
                                                     least order must cancel at a limit, so that
                                                     coefficients that doubles rounded would show. No
                                                     gap: a limit that does not pass is looked for
                                                     further in.
-tracking.ends.follow.ROUND_NUMBERS          6       Digits of coefficients that ask for no more;
+tracking.ends.evidence.ROUND_NUMBERS        6       Digits of coefficients that ask for no more;
                                                     each further asks for one more.
 tracking.ends.follow.GAINED                 0.1     Residual of a limit over that of the last one,
                                                     further out: more is rounding, if it is below
                                                     NEARLY, and asks for more digits.
 tracking.ends.follow.NEARLY                 1e-6    See there.
-tracking.ends.follow.MOST_EVIDENCE          58      More cannot be asked of 64 digits, and 120 are
+tracking.ends.evidence.MOST_EVIDENCE        58      More cannot be asked of 64 digits, and 120 are
                                                     for paths that these lose.
 tracking.ends.follow.BEYOND                 30      Error of a limit in last terms of its series.
 tracking.ends.runs.TAIL                     1e-11   Last terms of a path's power series that is

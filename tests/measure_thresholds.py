@@ -32,7 +32,7 @@ from nag.solving import judged_ends, reality
 from nag.solving import solve as solving
 from nag.tracking import jumps, projective
 from nag.tracking import track as tracking
-from nag.tracking.ends import follow, limits
+from nag.tracking.ends import evidence, follow, limits
 from nag.tracking.homotopy import norms
 from nag.tracking.paths import PathStatus
 from nag.witness import confirm, cutting
@@ -130,7 +130,7 @@ def watched(measured: Measured) -> ExitStack:
 
     def initial_forms(limit: Any, *_: Any) -> None:
         if limit is not None:
-            need = 10.0**-follow.LEAST_EVIDENCE
+            need = 10.0**-evidence.LEAST_EVIDENCE
             measured.add("LEAST_EVIDENCE (residuals)", need, limit.residual)
 
     def denominator(found: int, slopes: np.ndarray, least: int) -> None:

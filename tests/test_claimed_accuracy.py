@@ -10,6 +10,7 @@ import flint
 import numpy as np
 import pytest
 
+import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -74,6 +75,22 @@ def test_solutions_are_as_accurate_as_they_say(name: str, value: int | None) -> 
     claimed = np.array([s.accuracy for s in result.solutions])
     assert (errors(reference, result.points) <= claimed).all()
     assert within(reference, certify_solutions(result).points)
+
+
+def test_zeros_far_out_are_as_accurate_as_they_say_and_conjugates_are_seen() -> None:
+    # Homogenising coordinates of 1e-25, whose phase doubles hardly know.
+    equations = (
+        "x^2 - 12000*z^2 - 90*z + 1/100000",
+        "3/50*y^2*z^2 - 10000*x + 43000",
+        "-34000/9*x*y - 1/500*y^2 - 2/25*y - 7/1500*z - 50000",
+    )
+    result = solve(nag.system(equations, "x y z"))
+    assert result.complete
+    assert len(result.solutions) == 12
+    reference = Reference.of(result.system, result.points, np.zeros((0, 4), dtype=complex))
+    claimed = np.array([s.accuracy for s in result.solutions])
+    assert np.abs(result.points).max() > 1e25
+    assert (errors(reference, result.points) <= claimed).all()
 
 
 def test_what_a_shift_of_variables_cancels_counts_as_an_error() -> None:

@@ -12,7 +12,8 @@ import nag
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.ends.at_infinity import at_infinity
-from nag.tracking.ends.follow import Unfinished, digits_of_evidence, follow
+from nag.tracking.ends.evidence import digits_of_evidence
+from nag.tracking.ends.follow import Unfinished, follow
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limits
 from nag.tracking.ends.terms import Terms

@@ -277,7 +277,9 @@ class _Stage:
             if found.decided:
                 return doubts, counts
             if answer is Membership.MEMBER:
-                doubts.append(f"a point of dimension {d} could not be told from a larger set")
+                # A multiple zero is where paths of the set end, if its local ring is too long.
+                if not found.located:
+                    doubts.append(f"a point of dimension {d} could not be told from a larger set")
                 return doubts, counts
         holding = self.holding(so_far, x, accuracy)
         if answer is Membership.FOREIGN and admit(

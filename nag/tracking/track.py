@@ -31,8 +31,9 @@ AT_INFINITY = 1e-10
 # Least ratio of a singular value to a Newton step that proves a regular zero.
 PROOF = 1e5
 # Rounding errors of a homogenising coordinate that Newton's method found with residuals in
-# double-double, times the inverse of the smallest singular value.
-RESIDUAL = 1e-29
+# double-double, times the inverse of the smallest singular value; and the part of such a coordinate
+# that they may be at a finite end.
+RESIDUAL, SHARE = 1e-29, 1e-14
 # A coordinate that exceeds the error of its point so many times does not vanish.
 NONZERO = 1e3
 # Below so many paths a second thread costs more than it brings.
@@ -299,7 +300,7 @@ def _judged(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
         proved = near & (sharp.smallest > 0.5 * sharp.before)
         proved &= (sharp.error < SHARP) & (sharp.smallest > PROOF * sharp.error)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
-        known = sizes * np.maximum(sharp.smallest, 1e-300) > RESIDUAL
+        known = sizes * np.maximum(sharp.smallest, 1e-300) > RESIDUAL / SHARE
         points[ended] = sharp.points
         condition[ended] = sharp.condition
         regular[ended] = proved

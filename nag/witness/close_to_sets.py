@@ -39,10 +39,14 @@ REACH = 10.0
 
 @dataclass(frozen=True, eq=False)
 class Meant:
-    """What ends may stand for: isolated zeros, each once, and whether that is known of all ends."""
+    """What ends may stand for: isolated zeros, each once, and whether that is known of all ends.
+
+    ``located``: whether at least the exact zero is known that each end leads to.
+    """
 
     zeros: tuple[SingularEnd, ...]
     decided: bool
+    located: bool
 
 
 def meant(
@@ -60,7 +64,7 @@ def meant(
     """
     zeros: list[SingularEnd] = []
     met: list[list[flint.acb]] = []
-    slices, decided = padded(rows, 1 + equations.n), True
+    slices, decided, located = padded(rows, 1 + equations.n), True, True
     seen = np.zeros((0, equations.n), dtype=complex)
     # What lies within the error of one end is looked at with it: the least known ones come first.
     for x, accuracy in sorted(ends, key=lambda end: -end[1]):
@@ -72,6 +76,7 @@ def meant(
         end = analyse(equations.polynomials, x, known, rng, slices, patience=patience)
         seen = np.vstack([seen, x])
         decided &= end.place is not Place.UNDECIDED
+        located &= bool(end.digits)
         for zero in end.nearby or ((end,) if end.place is Place.ISOLATED else ()):
             with flint.ctx.workdps(DIGITS):
                 here = point(zero.digits)
@@ -79,7 +84,7 @@ def meant(
             if new:
                 zeros.append(zero)
                 met.append(here)
-    return Meant(tuple(zeros), decided)
+    return Meant(tuple(zeros), decided, located)
 
 
 def among(zero: SingularEnd, fibres: Sequence[Fibre], rows: np.ndarray) -> bool | None:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.algebra.number import decimal_digits
 from nag.tracking.ends.at_infinity import at_infinity
+from nag.tracking.ends.evidence import LEAST_EVIDENCE, digits_of_evidence
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import Limit, Limits
-from nag.tracking.ends.runs import LAST_STEPS, MAX_STEPS, MAX_WINDING, MOST_STEPS, ORDER, run
+from nag.tracking.ends.runs import LAST_STEPS, MAX_STEPS, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
@@ -24,13 +24,12 @@ DIGITS = {2: 32, 4: 64, 8: 120}
 # Residual of a limit over that of the last one, further out: more says that rounding decides, if
 # the forms nearly vanish.
 GAINED, NEARLY = 0.1, 1e-6
-# Digits to which equations with coefficients of so few digits must hold at least, and the most
-# that may be asked for.
-LEAST_EVIDENCE, ROUND_NUMBERS, MOST_EVIDENCE = 14, 6, 58
 # The error of a limit, in last terms of its power series.
 BEYOND = 30.0
 # A coordinate is known if it exceeds its rounding error so many times.
 KNOWN = 1e3
+# Relative error of a finite end, as a point of affine space, that more digits need not better.
+SHARP = 1e-15
 
 
 @dataclass(eq=False)
@@ -213,31 +212,6 @@ def follow_whole(
     return _paths(homotopy, states)
 
 
-def digits_of_evidence(homotopy: Homotopy, beyond: int) -> tuple[int, ...]:
-    """To how many digits an end must satisfy the equations: so many more than these have.
-
-    What holds only because coefficients were rounded then does not count. Entry ``k`` is for
-    winding numbers that ``2 ** k`` divides: what joins two branches may be a coincidence of
-    coefficients, and the zeros that several of these move away are as much farther out.
-    """
-    most = _rows_digits(homotopy) if homotopy.digits is None else homotopy.digits
-    long = max(0, most - ROUND_NUMBERS)
-    return tuple(
-        min(LEAST_EVIDENCE + beyond + max(1, k) * long, MOST_EVIDENCE)
-        for k in range(MAX_WINDING.bit_length())
-    )
-
-
-def _rows_digits(homotopy: Homotopy) -> int:
-    """Decimal digits of the coefficients of the rows at t = 0."""
-    most = 0
-    for row in homotopy.rows.parts:
-        for part, terms in row:
-            if homotopy.factors[part][0] != 0:
-                most = max(most, *map(decimal_digits, terms.values()))
-    return most
-
-
 def _follow_in(
     homotopy: Homotopy,
     states: States,
@@ -256,6 +230,7 @@ def _follow_in(
     terms, fine = Terms(homotopy), Terms(homotopy)
     limits = Limits(terms, words, ORDER[words])
     needs = [10.0**-digits for digits in digits_of_evidence(homotopy, settings.evidence)]
+    more = DIGITS[words] < min(settings.digits, max(DIGITS.values()))
     later: list[int] = []
     while len(pending):
         found = run(homotopy, states, pending, words, settings, threads)
@@ -276,27 +251,32 @@ def _follow_in(
                     hopeful = verdict == end_run.OPEN and may_go_on
                     (again if hopeful else later).append(path)
             elif outcome == end_run.REGULAR:
-                centre = states.found[path]
-                trusted = states.regular[path] and states.steps[path] == 1
-                box = None if trusted else proved(terms, centre, states.errors[path])
-                if box is not None:
-                    states.errors[path] = np.minimum(states.errors[path], box)
-                elif not trusted:
+                if not _confirmed(states, path, terms):
                     # Newton's method converged, but not to a regular zero: go on without it.
                     states.straight[path] = 0
                     states.outcome[path] = end_run.LIMIT if at_limit else end_run.LOST
                     if not at_limit:
                         again.append(path)
                     del states.found[path]
-                    continue
-                if _ambiguous(homotopy, states, path, needs[0], fine):
-                    states.ends[path], states.tried[path] = centre, 0
+                elif _ambiguous(homotopy, states, path, needs[0], fine) or (
+                    more and _affine_error(homotopy, states, path) > SHARP
+                ):
+                    states.ends[path], states.tried[path] = states.found.pop(path), 0
                     states.limits.pop(path, None)
                     states.outcome[path] = end_run.LOST
                     later.append(path)
-                    del states.found[path]
         pending = np.array(again, dtype=np.int64)
     return np.array(sorted(later), dtype=np.int64)
+
+
+def _confirmed(states: States, path: int, terms: Terms) -> bool:
+    """Whether a path's end is a regular zero: as it is known to be, or by a proof, in a box."""
+    if states.regular[path] and states.steps[path] == 1:
+        return True
+    box = proved(terms, states.found[path], states.errors[path])
+    if box is not None:
+        states.errors[path] = np.minimum(states.errors[path], box)
+    return box is not None
 
 
 def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, fine: Terms) -> bool:
@@ -305,6 +285,18 @@ def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, fine:
     if not far or float(KNOWN * states.errors[path][far].max()) > need:
         return bool(far)
     return not at_infinity(fine, states.found[path], far)
+
+
+def _affine_error(homotopy: Homotopy, states: States, path: int) -> float:
+    """Largest relative error of a coordinate by which others are divided; 0 of an end at infinity.
+
+    A finite end that is far out may be known well as a point of projective space only.
+    """
+    infinite = list(homotopy.infinity)
+    if not states.known(path)[infinite].all():
+        return 0.0
+    sizes = np.abs(states.point(path)[infinite])
+    return float((states.errors[path][infinite] / sizes).max(initial=0.0))
 
 
 def _limit(
@@ -357,7 +349,8 @@ def _paths(homotopy: Homotopy, states: States) -> Paths:
         if states.outcome[path] == end_run.REGULAR:
             finite = bool(states.known(path)[infinite].all())
             status[path] = PathStatus.REGULAR if finite else PathStatus.AT_INFINITY
-            accuracy[path] = max(ROUNDING, float(states.errors[path].max()))
+            own = float(states.errors[path].max())
+            accuracy[path] = max(ROUNDING, own, _affine_error(homotopy, states, path))
             balls[path] = Ball(states.found[path], states.errors[path])
         elif states.outcome[path] == end_run.LIMIT:
             limit = states.limits[path]
