@@ -125,6 +125,15 @@ tracking.ends.at_infinity.ZERO              1e-150  Coordinates of size one that
 tracking.ends.follow.KNOWN *                1e3     A coordinate over its rounding error that is not
                                                     zero.
 tracking.ends.follow.SHARP                  1e-15   The same part in more digits.
+tracking.ends.initial_forms.ZERO            -100    Decimal logarithm of forms that are zero at a
+                                                    limit at infinity, of 120 digits.
+tracking.ends.initial_forms.GROWN           2       Digits by which others must grow away from it,
+                                                    as about a multiple zero: a constant shows that
+                                                    the forms have no zero.
+tracking.ends.initial_forms.AWAY            1e4     How far away that is, in errors of the limit.
+tracking.ends.initial_forms.CLOSE           1e-10   The least that this is.
+tracking.ends.initial_forms.RANK            1e-6    Singular values of their Jacobian that are none,
+                                                    beside the largest.
 tracking.ends.evidence.LEAST_EVIDENCE *     14      Digits to which the exact equations' terms of
                                                     least order must cancel at a limit, so that
                                                     coefficients that doubles rounded would show. No
@@ -138,7 +147,7 @@ tracking.ends.follow.GAINED                 0.1     Residual of a limit over tha
 tracking.ends.follow.NEARLY                 1e-6    See there.
 tracking.ends.evidence.MOST_EVIDENCE        58      More cannot be asked of 64 digits, and 120 are
                                                     for paths that these lose.
-tracking.ends.follow.BEYOND                 30      Error of a limit in last terms of its series.
+tracking.ends.limits.BEYOND                 30      Error of a limit in last terms of its series.
 tracking.ends.runs.TAIL                     1e-11   Last terms of a path's power series that is
                                                     taken to converge, for the winding number in
                                                     question.
@@ -312,7 +321,8 @@ numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP; numerics.small
 tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
 ENDGAME; tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE;
 tracking.ends.branch: LONGEST; tracking.ends.corrector:
-DOUBLES; tracking.ends.inclusion: TINY; tracking.ends.kept_points: RESIDUAL, SECOND;
+DOUBLES; tracking.ends.inclusion: TINY; tracking.ends.initial_forms: GAIN;
+tracking.ends.kept_points: RESIDUAL, SECOND;
 tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
 tracking.linear_algebra: PIVOT; tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER;

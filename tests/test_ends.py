@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import product
 
+import flint
 import numpy as np
 import pytest
 
@@ -15,6 +16,7 @@ from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.evidence import digits_of_evidence
 from nag.tracking.ends.follow import Unfinished, follow
 from nag.tracking.ends.inclusion import proved
+from nag.tracking.ends.initial_forms import FINE, InitialForms
 from nag.tracking.ends.limits import Limits
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy, straight_line
@@ -175,6 +177,29 @@ def test_evidence_grows_with_the_digits_of_the_coefficients() -> None:
     assert set(digits_of_evidence(few, 0)) == {14}
     assert digits_of_evidence(many, 0)[:4] == (23, 23, 32, 41)
     assert set(digits_of_evidence(few, 60)) == {58}
+
+
+@pytest.mark.parametrize("k", [30, 60, 90])
+def test_forms_that_are_small_but_have_no_zero_do_not_vanish(k: int) -> None:
+    x, y = Polynomial.variables(2)
+    far = [x**2 - y**2 + x - 1, x - y - y * Fraction(1, 10**k) + 2]
+    point = [flint.acb(1)] * 3
+    for equations, infinite in ((far, False), ([far[0], x - y + 2], True)):
+        homotopy, _ = homotopy_of(equations)
+        # Along x : y = 1 : 1, where only the homogenising coordinate is smaller.
+        forms = InitialForms(Terms(homotopy), FINE)
+        assert forms.residual((1, 0, 0), 1, point) < 10.0 ** (1 - k)
+        assert forms.vanish((1, 0, 0), 1, point, 1e-20) is infinite
+
+
+def test_a_multiple_zero_of_forms_is_told_from_a_constant() -> None:
+    x, y = Polynomial.variables(2)
+    for gap, infinite in ((Fraction(0), True), (Fraction(1, 10**30), False)):
+        # Both touch the line at infinity there, or the second only all but touches it.
+        equations = [(x - y) ** 2 + x - 1, (x - y) ** 2 + (x - y) * y * 2 + gap * y**2 + y]
+        homotopy, _ = homotopy_of(equations)
+        point = [flint.acb(1), flint.acb(1), flint.acb(1 + 1e-12)]
+        assert InitialForms(Terms(homotopy), FINE).vanish((1, 0, 0), 1, point, 1e-11) is infinite
 
 
 def test_orders_that_are_no_rational_numbers_give_no_limit() -> None:

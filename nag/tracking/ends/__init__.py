@@ -5,5 +5,5 @@ where it was safe. In order of reading: `follow` (what becomes of the paths), `r
 them, and with `exponent_range` those that leave the range of doubles), `end_run` (one step for
 eight paths, with `corrector`, `evaluation`, `linear_algebra`, `kept_points`, `branch`), `inclusion`
 (proof that an end is regular), `limits` (other ends, and whether the exact equations agree, to as
-many digits as `evidence` says).
+many digits as `evidence` says), `initial_forms` (whether those at infinity are ends at all).
 """

@@ -10,7 +10,7 @@ import numpy as np
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.evidence import LEAST_EVIDENCE, digits_of_evidence
 from nag.tracking.ends.inclusion import proved
-from nag.tracking.ends.limits import Limit, Limits
+from nag.tracking.ends.limits import BEYOND, Limit, Limits
 from nag.tracking.ends.runs import LAST_STEPS, MAX_STEPS, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
@@ -24,8 +24,6 @@ DIGITS = {2: 32, 4: 64, 8: 120}
 # Residual of a limit over that of the last one, further out: more says that rounding decides, if
 # the forms nearly vanish.
 GAINED, NEARLY = 0.1, 1e-6
-# The error of a limit, in last terms of its power series.
-BEYOND = 30.0
 # A coordinate is known if it exceeds its rounding error so many times.
 KNOWN = 1e3
 # Relative error of a finite end, as a point of affine space, that more digits need not better.
@@ -308,14 +306,14 @@ def _limit(
     known, t, w = states.known(path), states.t[path, 0], int(states.winding[path])
     limit = limits.of(states.where[path], found, known, states.t[path], w)
     need = needs[(w & -w).bit_length() - 1]
-    if limit is not None and limit.residual <= need:
+    noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
+    if limit is not None and limit.residual <= need and limits.exists(limit, noise):
         states.limits[path] = limit
         if limit.winding > 1:
             return end_run.LIMIT
         # No branch point at t = 0: Newton's method is tried at the limit before it counts.
         states.ends[path], states.tried[path] = limit.centre, 0
         return end_run.OPEN
-    noise = (states.errors[path][known] / np.abs(states.point(path)[known])).max(initial=0.0)
     # Where no digits are gained on the way in, rounding errors are what is left.
     before = states.last.get(path)
     further = np.inf if before is None else before.residual

@@ -1,18 +1,19 @@
 """Limits of branches as t goes to 0: orders, leading coefficients, and whether the equations agree.
 
 A branch is ``x_j = t^v_j (X_j + ..)`` with rational orders v. In the direction (v, 1) the terms of
-least order of each equation of the homotopy must cancel at X; these initial forms are exact
-(Huber & Verschelde, Polyhedral end games for polynomial continuation, 1998). That they vanish to
-many digits is evidence, no proof: an end so near to it would look the same.
+least order of each equation of the homotopy must cancel at X: its initial forms. That they vanish
+to many digits is evidence, no proof: an end so near to it would look the same.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from nag.tracking.ends.initial_forms import FINE, InitialForms
 from nag.tracking.ends.terms import BITS, Terms, doubles, number, real
 from nag.tracking.paths import NEVER, relative
 
@@ -20,6 +21,8 @@ from nag.tracking.paths import NEVER, relative
 WHOLE = 1e-3
 LARGEST = 100
 LOG_2 = 0.6931471805599453
+# The error of a limit, in last terms of its power series.
+BEYOND = 30.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +39,7 @@ class Limit:
             group, 0 for coordinates that are not known, shape ``(N,)``.
         bends: derivatives of the coordinates' logarithms with respect to ``t ** (1 / w)`` at t = 0,
             less that of the same one of each group, shape ``(N,)``.
+        leading: leading coefficients, in FLINT's ``acb``, 0 for coordinates that are not known.
         tail: size of the last terms of the power series.
         residual: largest value of an initial form over the sum of its terms.
     """
@@ -46,6 +50,7 @@ class Limit:
     centre: np.ndarray
     branch: np.ndarray
     bends: np.ndarray
+    leading: tuple[Any, ...]
     tail: float
     residual: float
 
@@ -57,7 +62,26 @@ class Limits:
     terms: Terms
     words: int
     order: int
-    _initial: dict[tuple[int, ...], Any] = field(default_factory=dict)
+
+    @cached_property
+    def forms(self) -> InitialForms:
+        """The initial forms of the homotopy, in the digits that are worked with."""
+        return InitialForms(self.terms, BITS[self.words])
+
+    @cached_property
+    def _fine(self) -> InitialForms:
+        return InitialForms(Terms(self.terms.homotopy), FINE)
+
+    def exists(self, limit: Limit, noise: float) -> bool:
+        """Whether a limit at infinity is one exactly: what finite ones are is decided elsewhere.
+
+        Args:
+            noise: largest relative rounding error of the coordinates that it was found from.
+        """
+        if (limit.point[list(self.terms.homotopy.infinity)] != 0).all():
+            return True
+        error = BEYOND * limit.tail + noise
+        return self._fine.vanish(limit.orders, limit.winding, limit.leading, error)
 
     def of(
         self, x: np.ndarray, found: np.ndarray, known: np.ndarray, t: np.ndarray, winding: int
@@ -123,12 +147,15 @@ class Limits:
         bends = np.where(known, bends - winding * self.order * rates, 0.0)
         bends = relative(bends, orders, self.terms.homotopy.groups) / t[0] ** (1.0 / winding)
         winding = denominator
-        residual = self._residual(flint, tuple(orders), leading, winding)
+        residual = self.forms.residual(tuple(orders), winding, leading)
         centre = self._centre(orders, leading)
         parts = centre.sum(axis=2)
         point = parts[:, 0] + 1j * parts[:, 1]
         branch = self._branch(orders, leading)
-        return Limit(tuple(orders), winding, point, centre, branch, bends, tail, residual)
+        return Limit(
+            *(tuple(orders), winding, point, centre, branch, bends),
+            *(tuple(leading), tail, residual),
+        )
 
     def _centre(self, orders: list[int], leading: list[Any]) -> np.ndarray:
         centre = np.zeros((self.terms.homotopy.N, 2, self.words))
@@ -149,42 +176,6 @@ class Limits:
                 if orders[j] < NEVER:
                     logs[j] = complex((leading[j] / leading[first]).log())
         return logs
-
-    def _forms(self, flint: Any, orders: tuple[int, ...], winding: int) -> Any:
-        key = (winding, *orders)
-        if key not in self._initial:
-            forms = []
-            for row in self.terms.rows:
-                least, form = NEVER, []
-                for factors, a, b in row:
-                    order = sum(k * orders[j] for j, k in factors)
-                    for c, d in ((a, order), (b, order + winding)):
-                        if c == 0 or d > least:
-                            continue
-                        if d < least:
-                            least, form = d, []
-                        form.append((factors, c))
-                if least < NEVER // 2:
-                    forms.append(form)
-            self._initial[key] = forms
-        return self._initial[key]
-
-    def _residual(
-        self, flint: Any, orders: tuple[int, ...], point: list[Any], winding: int
-    ) -> float:
-        powers: dict[tuple[int, int], Any] = {}
-        worst = 0.0
-        for form in self._forms(flint, orders, winding):
-            total, size = flint.acb(0), flint.arb(0)
-            for factors, c in form:
-                for factor in factors:
-                    if factor not in powers:
-                        powers[factor] = point[factor[0]] ** factor[1]
-                    c = c * powers[factor]
-                total += c
-                size += abs(c)
-            worst = max(worst, float(abs(total).mid() / size.mid()) if size > 0 else 0.0)
-        return worst
 
 
 def _denominator(values: np.ndarray, least: int) -> int:
