@@ -7,11 +7,10 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
-from nag.cli.running import run_row
+from nag.cli.running import Progress, compilation_notice, progress_line, run_row
 
 if TYPE_CHECKING:
     from nag.check.statement import Statement, Verdict
-    from nag.cli.progress import Progress
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,8 +29,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or a case that the papers say nothing of.
     """
-    from nag.cli.progress import compilation_notice, progress_line
-
     if options.all == (options.case is not None):
         raise UsageError("give either a case file or --all, and not both")
     if options.all and options.set:

@@ -15,7 +15,7 @@ from nag.cli.arguments import (
     whole,
 )
 from nag.cli.certify import add_certify, certified
-from nag.cli.running import seconds
+from nag.cli.running import compilation_notice, progress_line, seconds
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
 
@@ -91,8 +91,6 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         raise UsageError("--starts: is for --method sampling")
     case, model = read_problem(arguments)
     model = _in_coordinates(arguments, case, model)
-
-    from nag.cli.progress import compilation_notice, progress_line
 
     with (
         compilation_notice(sys.stderr, arguments.quiet),

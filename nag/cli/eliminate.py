@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running, read_problem, whole
-from nag.cli.running import seconds
+from nag.cli.running import compilation_notice, progress_line, seconds
 from nag.cli.witness_input import (
     add_input,
     component_number,
@@ -73,8 +73,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    from nag.cli.progress import compilation_notice, progress_line
-
     if options.at is not None and options.component is not None:
         raise UsageError("--at: --component names a component already; give one of the two")
     with compilation_notice(sys.stderr, options.quiet):

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import run_row
+from nag.cli.running import compilation_notice, run_row
 from nag.cli.witness_input import is_export, write_document
 
 FORMAT = "nag-singular-parameters"
@@ -19,7 +19,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    from nag.cli.progress import compilation_notice
     from nag.files.case_table import CaseError
     from nag.files.cases import read_case
     from nag.files.freed_parameters import freed_system

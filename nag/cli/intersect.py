@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import run_row
+from nag.cli.running import compilation_notice, progress_line, run_row
 from nag.cli.witness_input import (
     add_input,
     component_number,
@@ -45,8 +45,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    from nag.cli.progress import compilation_notice, progress_line
-
     with compilation_notice(sys.stderr, options.quiet):
         from nag.decomposition.intersection import IntersectionError, intersect_components
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_case, add_running, read_problem
-from nag.cli.running import seconds
+from nag.cli.running import compilation_notice, progress_line, seconds
 from nag.cli.witness_input import Points, add_point, named_point, point_at, write_document
 
 if TYPE_CHECKING:
@@ -132,7 +132,6 @@ def _through(
     options: argparse.Namespace,
 ) -> dict[str, Any]:
     """For each point what the components through it say, beside a local dimension."""
-    from nag.cli.progress import compilation_notice, progress_line
 
     with compilation_notice(sys.stderr, options.quiet):
         from nag.decomposition.components import decompose

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import run_row
+from nag.cli.running import compilation_notice, run_row
 from nag.cli.witness_input import (
     Given,
     Points,
@@ -48,7 +48,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
     from nag.algebra.evaluation import Evaluator
     from nag.algebra.number import is_zero, number_text
-    from nag.cli.progress import compilation_notice
 
     if (options.point is None) == (options.at is None):
         raise UsageError("give either the name of a point of the case or --at, and not both")

@@ -16,7 +16,7 @@ from nag.cli.arguments import (
     read_case_file,
     read_problem,
 )
-from nag.cli.running import run_row
+from nag.cli.running import compilation_notice, run_row
 from nag.cli.witness_input import point_at, write_document
 
 if TYPE_CHECKING:
@@ -73,7 +73,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             "reference configuration, for tables in half-angles, linkages and frameworks; one in "
             "space needs a second triangle of bars, and no --at"
         )
-    from nag.cli.progress import compilation_notice
     from nag.mechanism.mobility_report import MobilityStatus
     from nag.text.table import labelled, printable
 

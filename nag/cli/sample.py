@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import add_running, whole
-from nag.cli.running import run_row
+from nag.cli.running import compilation_notice, run_row
 from nag.cli.witness_input import (
     Given,
     add_input,
@@ -56,8 +56,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    from nag.cli.progress import compilation_notice
-
     with compilation_notice(sys.stderr, options.quiet):
         from nag.witness.sampling import SamplingError, sample
 

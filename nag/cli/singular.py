@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from nag.cli import free_parameters
 from nag.cli.arguments import add_running
-from nag.cli.running import run_row
+from nag.cli.running import compilation_notice, run_row
 from nag.cli.witness_input import (
     Given,
     add_input,
@@ -53,7 +53,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """
     if options.free is not None:
         return free_parameters.run(options)
-    from nag.cli.progress import compilation_notice
 
     with compilation_notice(sys.stderr, options.quiet):
         from nag.decomposition.singular_locus import singular_locus

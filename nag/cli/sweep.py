@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from nag.cli.arguments import UsageError, read_problem
-from nag.cli.running import seconds
+from nag.cli.running import compilation_notice, seconds
 
 MOST_VALUES = 1000
 _NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
@@ -75,8 +75,6 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     if model is not None:
         # One formulation for all values, so that their systems are one family.
         arguments.formulation = model.formulation
-
-    from nag.cli.progress import compilation_notice
 
     with compilation_notice(sys.stderr, arguments.quiet):
         from nag.decomposition.sweep import sweep

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_formulation, add_parameters, read_problem
-from nag.cli.running import writing_json
+from nag.cli.running import progress_line, writing_json
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -87,7 +87,6 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
         file = origin.file if origin else Path(options.case).name
         return Given(expanded(export.decomposition), title, file, {})
 
-    from nag.cli.progress import progress_line
     from nag.files.problem import decomposed, points_of, system_of
 
     case, model = read_problem(options)
