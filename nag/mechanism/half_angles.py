@@ -17,7 +17,6 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import difference
-from nag.mechanism.charts import Charts
 from nag.mechanism.configuration import (
     Arithmetic,
     Configuration,
@@ -26,7 +25,7 @@ from nag.mechanism.configuration import (
     configuration,
 )
 from nag.mechanism.euler import slide_directions
-from nag.mechanism.joint_factors import Factor
+from nag.mechanism.joint_factors import Charts, Factor
 from nag.mechanism.loop_product import (
     Closure,
     Element,

@@ -224,6 +224,11 @@ def _joint_elements(joint: Joint, mode: int, forward: bool) -> Iterator[Element]
         yield Element(None, (mode_constant(joint, mode),))
 
 
+def factors_in(elements: Sequence[Element]) -> list[Factor]:
+    """The factors of a product, each once."""
+    return list(dict.fromkeys(e.factor for e in elements if e.factor is not None))
+
+
 def opposite(elements: Sequence[Element]) -> list[Element]:
     """The elements of the opposite displacement."""
     return [Element(e.factor, reversed_generators(e.generators)) for e in reversed(elements)]

@@ -18,7 +18,6 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import across, cross, difference, dot
-from nag.mechanism.charts import Charts, factors_in
 from nag.mechanism.configuration import (
     Arithmetic,
     Configuration,
@@ -28,10 +27,11 @@ from nag.mechanism.configuration import (
 )
 from nag.mechanism.euler import slide_directions
 from nag.mechanism.graph import Joint
-from nag.mechanism.joint_factors import free_factor
+from nag.mechanism.joint_factors import Charts, free_factor
 from nag.mechanism.loop_product import (
     Element,
     displacement,
+    factors_in,
     joint_elements,
     moved,
     opposite,
