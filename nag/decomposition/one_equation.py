@@ -20,8 +20,8 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.factoring import factored, most_absolute_factors
+from nag.algebra.linear_algebra import rational_matrix
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.rational_matrix import rational_matrix
 from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction

@@ -14,6 +14,7 @@ from fractions import Fraction
 from math import acos, degrees, sqrt
 from typing import Any
 
+from nag.algebra.linear_algebra import independent_polynomials, left_inverse, null_space
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -27,7 +28,6 @@ from nag.mechanism.quaternion import (
     rotate,
     translation,
 )
-from nag.mechanism.row_reduction import independent_polynomials, left_inverse, null_space
 
 HalfAngle = tuple[Number, Number]
 

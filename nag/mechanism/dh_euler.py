@@ -17,6 +17,7 @@ from string import ascii_lowercase
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.linear_algebra import independent_polynomials
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -35,7 +36,6 @@ from nag.mechanism.quaternion import (
     scale,
     translation,
 )
-from nag.mechanism.row_reduction import independent_polynomials
 from nag.witness.witness import Decomposition
 
 ZERO, ONE = Fraction(0), Fraction(1)

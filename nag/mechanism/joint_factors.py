@@ -19,6 +19,7 @@ from functools import cached_property
 from math import gcd, lcm
 from typing import Any, Literal
 
+from nag.algebra.linear_algebra import independent_polynomials
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -26,7 +27,6 @@ from nag.mechanism.assembly_modes import mode_rotation
 from nag.mechanism.axes import across, direction, dot
 from nag.mechanism.graph import Joint
 from nag.mechanism.quaternion import DualQuaternion, Quaternion, dual_conjugate, line
-from nag.mechanism.row_reduction import independent_polynomials
 
 Kind = Literal["turn", "slide", "ball", "plane", "free"]
 

@@ -21,6 +21,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from nag.algebra.linear_algebra import left_inverse, null_space, row_echelon
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.mechanism.axes import dot
@@ -38,7 +39,6 @@ from nag.mechanism.quaternion import (
     dual_multiply,
     translation,
 )
-from nag.mechanism.row_reduction import left_inverse, null_space, row_echelon
 
 
 @dataclass(frozen=True)

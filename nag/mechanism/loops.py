@@ -1,5 +1,7 @@
 """What of a mechanism can move: bodies that are tied rigidly are one, and the rest has loops.
 
+Gruebler and Kutzbach count freedoms without looking at the geometry.
+
 Triangles of bodies and the like are left as they are: each of their assemblies belongs to other
 components. In half-angles a planar triangle's equation factors, so that exact algebra takes it out.
 """
@@ -12,8 +14,9 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from nag.mechanism.axes import space_of
 from nag.mechanism.graph import Body, Joint, Mechanism
-from nag.mechanism.joint_types import JOINT_FREEDOMS
+from nag.mechanism.joint_types import JOINT_FREEDOMS, freedoms_in
 
 if TYPE_CHECKING:
     import networkx
@@ -278,3 +281,20 @@ def _ordered(joints: list[Joint]) -> Loop:
         chain.append(joint)
         bodies.append(joint.other(bodies[-1]))
     return Loop(tuple(bodies[:-1]), tuple(chain))
+
+
+def gruebler_kutzbach(mechanism: Mechanism) -> int:
+    """Freedoms of all moving bodies minus the conditions of all joints.
+
+    A body has 6 freedoms in space and 3 in planar and spherical mechanisms. The count is wrong
+    for overconstrained mechanisms: it knows nothing of the geometry (T25, section 7).
+
+    >>> import nag
+    >>> nag.gruebler_kutzbach(nag.read_case("cases/bennett.toml").mechanism)  # and yet it moves
+    -2
+    """
+    space = space_of(mechanism.joints)
+    freedoms = 6 if space == "spatial" else 3
+    moving = len(mechanism.body_names) - 1
+    lost = sum(freedoms - freedoms_in(j.type, space) for j in mechanism.joints)
+    return freedoms * moving - lost

@@ -28,8 +28,7 @@ from nag.mechanism.formulations import (
 )
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.half_angles import HalfAngleModel
-from nag.mechanism.loops import LoopStructure, loop_structure
-from nag.mechanism.mobility import gruebler_kutzbach
+from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
 from nag.mechanism.path_estimates import path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.projection import projected

@@ -1,12 +1,19 @@
-"""Exact linear algebra: small matrices of numbers, linear dependence of polynomials."""
+"""Exact linear algebra: row reduction, linear dependence of polynomials, matrices of FLINT's.
+
+FLINT is loaded when one of its matrices is made; it takes rational numbers only.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
+
+if TYPE_CHECKING:
+    import flint
 
 Row = tuple[Number, ...]
 
@@ -86,3 +93,20 @@ def left_inverse(columns: Sequence[Sequence[Number]]) -> list[Row]:
         )
         for weights in inverse
     ]
+
+
+def rational_matrix(rows: Sequence[Sequence[Fraction | int]]) -> flint.fmpq_mat:
+    """Rows, of which there are some, as a matrix of FLINT's."""
+    import flint
+
+    return flint.fmpq_mat([[flint.fmpq(c.numerator, c.denominator) for c in row] for row in rows])
+
+
+def rational_rank(rows: Sequence[Sequence[Fraction | int]]) -> int:
+    """The rank of a matrix that may be empty."""
+    return int(rational_matrix(rows).rank()) if rows else 0
+
+
+def jacobian_rank(polynomials: Sequence[Polynomial], point: Sequence[Fraction]) -> int:
+    """The rank of the Jacobian of exact polynomials at a rational point."""
+    return rational_rank([[f.derivative(i)(point) for i in range(f.n)] for f in polynomials])
