@@ -179,7 +179,7 @@ def _document(
     from pathlib import Path
 
     from nag.algebra.number import number_text
-    from nag.files.local_document import local_document
+    from nag.files.answers_at_points import local_document
 
     return {
         "format": FORMAT,

@@ -258,7 +258,7 @@ def _document(
     from pathlib import Path
 
     from nag.algebra.number import number_text
-    from nag.files.mobility_document import mobility_document
+    from nag.files.answers_at_points import mobility_document
 
     return {
         "format": FORMAT,
