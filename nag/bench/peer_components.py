@@ -21,10 +21,9 @@ from nag.bench.peer_points import (
     pairs,
     said,
     solutions,
-    told_by_bertini,
     told_by_macaulay2,
 )
-from nag.bench.peers import in_phcpack, installed, plain_texts
+from nag.bench.peers import in_bertini, in_phcpack, installed, plain_texts
 from nag.bench.reference import NEAR
 
 
@@ -165,7 +164,7 @@ def _bertini(system: PolynomialSystem, limit: float, _seed: int) -> Answer:
         "except RuntimeError as error:\n"
         "    print('refused', error)\n"
     )
-    output = told_by_bertini(system, work, limit)
+    output = in_bertini(system, work, limit)
     if output is None:
         return f"no answer in {limit:.0f} s"
     refused = re.search(r"^refused (.+)$", output, re.MULTILINE)

@@ -5,15 +5,12 @@ from __future__ import annotations
 import importlib.util
 import re
 import resource
-import sys
-import tempfile
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.bench.peers import call, in_macaulay2, in_phcpack, installed, plain_texts
+from nag.bench.peers import in_bertini, in_macaulay2, in_phcpack, installed, plain_texts
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,18 +143,6 @@ def _coordinates(block: str) -> list[tuple[str, complex]]:
     return [(name, complex(float(re), float(im))) for name, re, im in found]
 
 
-def told_by_bertini(system: PolynomialSystem, work: str, limit: float) -> str | None:
-    """What Bertini 2, a package of Python, prints of its work with ``system``; None if too long."""
-    names, texts = plain_texts(system)
-    functions = [f"f{i}" for i in range(len(texts))]
-    equations = " ".join(f"{f} = {t};" for f, t in zip(functions, texts, strict=True))
-    source = f"variable_group {', '.join(names)}; function {', '.join(functions)}; {equations}"
-    script = f"import time, bertini\nsystem = bertini.parse.system({source!r})\n{work}"
-    with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "work.py").write_text(script, "utf-8")
-        return call([sys.executable, "work.py"], folder, limit)[1]
-
-
 def _bertini(system: PolynomialSystem, limit: float) -> Answer:
     work = (
         "begin = time.process_time()\n"
@@ -168,5 +153,5 @@ def _bertini(system: PolynomialSystem, limit: float) -> Answer:
         "        z = complex(z)\n"
         "        print('value', repr(z.real), repr(z.imag))\n"
     )
-    output = told_by_bertini(system, work, limit)
+    output = in_bertini(system, work, limit)
     return None if output is None else (said(output), pairs(output))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 from collections.abc import Sequence
@@ -116,6 +117,18 @@ def in_phcpack(
             return process, None
         own, answer = (f.read_text("utf-8", "replace") if f.exists() else "" for f in files)
         return process, (own, answer)
+
+
+def in_bertini(system: PolynomialSystem, work: str, limit: float) -> str | None:
+    """What Bertini 2, a package of Python, prints of its work with ``system``; None if too long."""
+    names, texts = plain_texts(system)
+    functions = [f"f{i}" for i in range(len(texts))]
+    equations = " ".join(f"{f} = {t};" for f, t in zip(functions, texts, strict=True))
+    source = f"variable_group {', '.join(names)}; function {', '.join(functions)}; {equations}"
+    script = f"import time, bertini\nsystem = bertini.parse.system({source!r})\n{work}"
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "work.py").write_text(script, "utf-8")
+        return call([sys.executable, "work.py"], folder, limit)[1]
 
 
 def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
