@@ -101,7 +101,7 @@ def _lines(
     options: argparse.Namespace,
 ) -> list[str]:
     from nag.report.elimination import elimination_lines, essential_text, image_text
-    from nag.text.table import labelled, printable
+    from nag.text.table import sheet
 
     head = [*top, ("onto", _onto_text(found))]
     head += [("image", image_text(found)), ("essential", essential_text(found))]
@@ -122,9 +122,7 @@ def _lines(
             + f"{seconds(options):.1f} s",
         ),
     ]
-    width = max(len(label) for label, _ in head + tail)
-    lines = [printable(title), "", *labelled(head, width), "", *elimination_lines(found), ""]
-    return [*lines, *labelled(tail, width)]
+    return sheet(title, head, elimination_lines(found), tail)
 
 
 def _onto_text(found: ImageIdeal) -> str:

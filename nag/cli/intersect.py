@@ -66,8 +66,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if options.json is not None:
         document = head(found, FORMAT, options) | _document(options, pair, result, complete)
         write_document(document, options.json)
+    from nag.text.table import sheet
+    from nag.witness.shown import component_table
+
     top, tail = _rows(options, pair, result, complete)
-    return _lines(found.title, top, result, tail), complete
+    return sheet(found.title, top, component_table(result), tail), complete
 
 
 def _document(
@@ -103,7 +106,7 @@ def _rows(
     complete: bool,
 ) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     """What is written above the table, and below it."""
-    from nag.witness.shown import paths_line, remarks, title_line
+    from nag.witness.shown import paths_text, remarks, title_line
 
     top = []
     for number, component in zip(options.components, pair, strict=True):
@@ -116,22 +119,7 @@ def _rows(
     tail = [("open", line) for line in remarks(result)]
     tail += [("open", f"component {number} is undecided") for number in undecided]
     tail += [
-        ("paths", paths_line(result)),
+        ("paths", paths_text(result.paths)),
         run_row(options),
     ]
     return top, tail
-
-
-def _lines(
-    title: str,
-    top: list[tuple[str, str]],
-    result: Decomposition,
-    tail: list[tuple[str, str]],
-) -> list[str]:
-    from nag.text.table import labelled, printable
-    from nag.witness.shown import component_table
-
-    width = max(len(label) for label, _ in top + tail)
-    table = component_table(result)
-    lines = [printable(title), "", *labelled(top, width), ""]
-    return [*lines, *([*table, ""] if table else []), *labelled(tail, width)]

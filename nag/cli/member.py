@@ -109,7 +109,7 @@ def _lines(
     residual: float,
     answers: tuple[Any, ...],
 ) -> list[str]:
-    from nag.text.table import align, labelled, magnitude, printable
+    from nag.text.table import align, magnitude, printable, sheet
     from nag.witness.membership import Membership
 
     components = found.decomposition.components
@@ -146,12 +146,4 @@ def _lines(
         tail.append(("open", f"membership could not be decided for component {numbers}"))
     tail.append(run_row(options))
     top = [("point", printable(point)), ("equations", equations), ("answer", text)]
-    width = max(len(label) for label, _ in top + tail)
-    return [
-        printable(found.title),
-        "",
-        *labelled(top, width),
-        "",
-        *([*align(rows, [4]), ""] if components else []),
-        *labelled(tail, width),
-    ]
+    return sheet(found.title, top, align(rows, [4]) if components else [], tail)

@@ -98,7 +98,7 @@ def _lines(
     samples: Samples,
     doubt: str,
 ) -> list[str]:
-    from nag.text.table import align, labelled, magnitude, printable
+    from nag.text.table import align, magnitude, sheet
 
     variables = found.decomposition.system.variables
     dots = ["..."] if len(variables) > MOST_COLUMNS else []
@@ -116,6 +116,4 @@ def _lines(
     ]
     if len(samples.points) > MOST_ROWS:
         tail.insert(0, ("points", f"{len(samples.points)}, the first {MOST_ROWS} are shown"))
-    width = max(len(label) for label, _ in top + tail)
-    lines = [printable(found.title), "", *labelled(top, width), "", *align(rows), ""]
-    return [*lines, *labelled(tail, width)]
+    return sheet(found.title, top, align(rows), tail)

@@ -21,7 +21,6 @@ from nag.mechanism.formulations import (
     ModelError,
     alternative,
     alternatives,
-    counted,
     description,
     joints_text,
     smallest,
@@ -34,6 +33,7 @@ from nag.mechanism.planar import PlanarModel
 from nag.mechanism.projection import projected
 from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
+from nag.text.table import counted
 
 __all__ = ["Model", "ModelError", "formulations", "model"]
 

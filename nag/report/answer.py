@@ -17,9 +17,9 @@ from nag.report.agreement import agreement_text, compare, in_words, kinds
 from nag.report.assemblies import assembly_rows, parts_rows, rank_rows
 from nag.report.formulations import alternative_lines, joint_lines, parts_lines, table_lines
 from nag.report.variables import body_rows, eliminated_lines
-from nag.text.table import labelled, printable
+from nag.text.table import labelled, printable, sheet
 from nag.witness.expansion import expanded
-from nag.witness.shown import component_table, paths_line, remarks, title_line
+from nag.witness.shown import component_table, paths_text, remarks, title_line
 from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
@@ -105,22 +105,13 @@ def answer_lines(
         tail += assembly_rows(case.kind, case.assembly, decomposition)
     tail += [("open", line) for line in remarks(decomposition)]
     tail += [
-        ("paths", paths_line(decomposition)),
+        ("paths", paths_text(decomposition.paths)),
         ("run", f"seed {decomposition.seed}, settings {decomposition.settings}, {seconds:.1f} s"),
     ]
     agreement = compare(decomposition, case.truth, model.formulation if model else None)
     if agreement is not None:
         tail.append(("known", printable(agreement_text(agreement))))
-    width = max(len(label) for label, _ in head + tail)
-    table = component_table(decomposition)
-    return [
-        printable(case.title),
-        "",
-        *labelled(head, width),
-        "",
-        *([*table, ""] if table else []),
-        *labelled(tail, width),
-    ]
+    return sheet(case.title, head, component_table(decomposition), tail)
 
 
 def model_lines(case: Case, model: Model | None) -> list[str]:
