@@ -31,6 +31,7 @@ from nag.mechanism.joint_factors import Charts, free_factor
 from nag.mechanism.loop_product import (
     Element,
     displacement,
+    dot4,
     factors_in,
     joint_elements,
     moved,
@@ -225,11 +226,6 @@ def _distance(motion: DualQuaternion, a: Sequence[Number], b: Sequence[Number]) 
     gap = tuple(x + 2 * y for x, y in zip(gap, dual, strict=True))
     link = difference(b, a)
     return norm_squared(gap) - norm_squared(real) * dot(link, link)
-
-
-def dot4(p: Sequence[Any], q: Sequence[Any]) -> Any:
-    """The scalar product of two quaternions."""
-    return p[0] * q[0] + dot(p[1:], q[1:])
 
 
 def _motion(elements: Sequence[Element], values: Any, convert: Any) -> DualQuaternion:
