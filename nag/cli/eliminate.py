@@ -157,7 +157,7 @@ def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled
 
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import source_of_component
-    from nag.report.variables import body_rows
+    from nag.report.model import body_rows
     from nag.witness.fibres import Tracker
 
     rng = np.random.default_rng([options.seed, 4])

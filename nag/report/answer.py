@@ -13,13 +13,20 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
 from nag.files.dh_case import is_table
 from nag.files.problem import points_of, system_of
-from nag.report.agreement import agreement_text, compare, in_words, kinds
-from nag.report.assemblies import assembly_rows, parts_rows, rank_rows
-from nag.report.formulations import alternative_lines, joint_lines, parts_lines, table_lines
-from nag.report.variables import body_rows, eliminated_lines
+from nag.report.agreement import agreement_text, compare
+from nag.report.assemblies import assembly_rows, parts_rows
+from nag.report.model import (
+    alternative_lines,
+    body_rows,
+    eliminated_lines,
+    joint_lines,
+    parts_lines,
+    rank_rows,
+    table_lines,
+)
 from nag.text.table import labelled, printable, sheet
 from nag.witness.expansion import expanded
-from nag.witness.shown import component_table, paths_text, remarks, title_line
+from nag.witness.shown import component_table, in_words, kinds, paths_text, remarks, title_line
 from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:

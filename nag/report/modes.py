@@ -6,9 +6,8 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from nag.mechanism.joint_types import JOINT_TYPES
-from nag.report.agreement import in_words, kinds
 from nag.text.table import align, printable, sheet
-from nag.witness.shown import paths_text, remarks
+from nag.witness.shown import in_words, kinds, paths_text, remarks
 from nag.witness.witness import PathCounts
 
 if TYPE_CHECKING:
