@@ -15,7 +15,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.peers import in_macaulay2
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.files.cases import Truth
 from nag.report.agreement import Verdict, compare
 

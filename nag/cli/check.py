@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
 def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:
     from nag.check.subjects import WITH_CASES, everything, recognised
-    from nag.decomposition import decompose
+    from nag.decomposition.components import decompose
 
     def decomposed(system: Any) -> Any:
         return decompose(

@@ -167,7 +167,7 @@ def _decomposed(
         "progress": progress,
     }
     if arguments.method == "sampling":
-        from nag.decomposition import by_sampling
+        from nag.decomposition.discovery import by_sampling
 
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
         starts["symmetries"] = symmetries_of(case, model)

@@ -6,7 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from nag.algebra.linear_algebra import row_echelon
-from nag.decomposition import decompose, intersect_components
+from nag.decomposition.components import decompose
+from nag.decomposition.intersection import intersect_components
 from nag.mechanism.coordinates import euler_decomposition
 from nag.mechanism.euler import mode_conditions
 from nag.mechanism.graph import Mechanism
