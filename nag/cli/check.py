@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
-from nag.cli.running import Progress, compilation_notice, progress_line, run_row
+from nag.cli.running import Progress, as_chosen, compilation_notice, progress_line, run_row
 
 if TYPE_CHECKING:
     from nag.check.statement import Statement, Verdict
@@ -55,9 +55,7 @@ def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[S
     from nag.decomposition.components import decompose
 
     def decomposed(system: Any) -> Any:
-        return decompose(
-            system, seed=options.seed, threads=options.threads, settings=options.settings
-        )
+        return decompose(system, **as_chosen(options))
 
     if case is None:
         return everything(decomposed)

@@ -15,7 +15,7 @@ from nag.cli.arguments import (
     whole,
 )
 from nag.cli.certify import add_certify, certified
-from nag.cli.running import compilation_notice, progress_line, seconds, writing_json
+from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds, writing_json
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
 
@@ -160,12 +160,7 @@ def _decomposed(
     """The components, and the case or the model in whose coordinates they are."""
     from nag.files.problem import decomposed, symmetries_of, system_of
 
-    options = {
-        "seed": arguments.seed,
-        "threads": arguments.threads,
-        "settings": arguments.settings,
-        "progress": progress,
-    }
+    options = {**as_chosen(arguments), "progress": progress}
     if arguments.method == "sampling":
         from nag.decomposition.discovery import by_sampling
 
@@ -201,9 +196,7 @@ def _all_modes(
             case.mechanism,
             arguments.formulation or "auto",
             arguments.coordinates or ("joint" if arguments.formulation == "H" else "euler"),
-            seed=arguments.seed,
-            threads=arguments.threads,
-            settings=arguments.settings,
+            **as_chosen(arguments),
             progress=progress,
         )
     except ModelError as error:

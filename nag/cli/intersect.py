@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import compilation_notice, progress_line, run_row
+from nag.cli.running import as_chosen, compilation_notice, progress_line, run_row
 from nag.cli.witness_input import (
     add_input,
     component_number,
@@ -55,9 +55,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
                 result = intersect_components(
                     found.decomposition.system,
                     *pair,
-                    seed=options.seed,
-                    threads=options.threads,
-                    settings=options.settings,
+                    **as_chosen(options),
                     progress=progress,
                 )
         except IntersectionError as error:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_case, add_running, read_problem
-from nag.cli.running import compilation_notice, progress_line, seconds
+from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds
 from nag.cli.witness_input import Points, add_point, named_point, point_at, write_document
 
 if TYPE_CHECKING:
@@ -142,9 +142,7 @@ def _through(
         with progress_line(sys.stderr, options.quiet) as progress:
             decomposition = decompose(
                 system,
-                seed=options.seed,
-                threads=options.threads,
-                settings=options.settings,
+                **as_chosen(options),
                 progress=progress,
                 symmetries=symmetries_of(case, model),
             )

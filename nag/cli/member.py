@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import compilation_notice, run_row
+from nag.cli.running import as_chosen, compilation_notice, run_row
 from nag.cli.witness_input import (
     Given,
     Points,
@@ -67,9 +67,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
                 found.decomposition,
                 at,
                 accuracy=1e-15 if exact else max(1e-12, 10 * residual),
-                seed=options.seed,
-                threads=options.threads,
-                settings=options.settings,
+                **as_chosen(options),
             )
     open_ = sum(answer is Membership.UNDECIDED for answer in answers)
     lost = exact and not open_ and Membership.MEMBER not in answers

@@ -16,7 +16,7 @@ from nag.cli.arguments import (
     read_case_file,
     read_problem,
 )
-from nag.cli.running import compilation_notice, run_row
+from nag.cli.running import as_chosen, compilation_notice, run_row
 from nag.cli.witness_input import point_at, write_document
 
 if TYPE_CHECKING:
@@ -174,9 +174,7 @@ def _report(
             at,
             formulation=formulation,
             detail="curves" if options.curves else "local" if options.local else "components",
-            seed=options.seed,
-            threads=options.threads,
-            settings=options.settings,
+            **as_chosen(options),
         )
     except NoAssembly as reason:
         raise UsageError(f"{options.case}: {reason}") from None

@@ -7,7 +7,7 @@ import contextlib
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
-from typing import TextIO
+from typing import Any, TextIO
 
 from nag.cli.arguments import UsageError
 
@@ -37,6 +37,11 @@ def begin(options: argparse.Namespace) -> None:
     if target is not None:
         source = getattr(options, "case", None) or getattr(options, "export", "")
         _check_target(target, source if isinstance(source, str) else "")
+
+
+def as_chosen(options: argparse.Namespace) -> dict[str, Any]:
+    """The keywords of whatever tracks paths: the seed, the threads and the settings chosen."""
+    return {name: getattr(options, name) for name in ("seed", "threads", "settings")}
 
 
 def seconds(options: argparse.Namespace) -> float:

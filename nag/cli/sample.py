@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import add_running, whole
-from nag.cli.running import compilation_notice, run_row
+from nag.cli.running import as_chosen, compilation_notice, run_row
 from nag.cli.witness_input import (
     Given,
     add_input,
@@ -63,14 +63,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         component = component_of(found, options.component, "--component")
         system = found.decomposition.system
         try:
-            samples = sample(
-                system,
-                component,
-                options.count,
-                seed=options.seed,
-                threads=options.threads,
-                settings=options.settings,
-            )
+            samples = sample(system, component, options.count, **as_chosen(options))
             doubt = ""
         except SamplingError as error:
             samples, doubt = error.found, str(error)

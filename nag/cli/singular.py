@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import compilation_notice, run_row
+from nag.cli.running import as_chosen, compilation_notice, run_row
 from nag.cli.witness_input import (
     Given,
     add_input,
@@ -64,9 +64,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         locus = singular_locus(
             found.decomposition,
             only=None if options.component is None else [options.component - 1],
-            seed=options.seed,
-            threads=options.threads,
-            settings=options.settings,
+            **as_chosen(options),
         )
     complete = locus.complete and found.decomposition.complete
     if options.json is not None:
@@ -133,13 +131,7 @@ def _for_parameters(options: argparse.Namespace) -> tuple[list[str], bool]:
         from nag.decomposition.singular_parameters import singular_parameters
 
         try:
-            found = singular_parameters(
-                system,
-                len(names),
-                seed=options.seed,
-                threads=options.threads,
-                settings=options.settings,
-            )
+            found = singular_parameters(system, len(names), **as_chosen(options))
         except ValueError as reason:
             raise UsageError(f"{options.case}: --free: {reason}") from None
     title = read_case(options.case).title
