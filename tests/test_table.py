@@ -12,8 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.shown import system_line
-from nag.algebra.system import PolynomialSystem
+from nag.algebra.system import PolynomialSystem, system_line
 from nag.cli.running import INTERVAL, progress_line
 from nag.report.agreement import Verdict, agreement_text, compare
 from nag.text.table import align, labelled, magnitude, printable

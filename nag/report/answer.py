@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
-from nag.algebra.shown import system_line
-from nag.algebra.system import PolynomialSystem
+from nag.algebra.system import PolynomialSystem, system_line
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from nag.algebra.shown import system_line
+from nag.algebra.system import system_line
 from nag.report.assemblies import real_row
 from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
 from nag.text.table import align, printable, sheet

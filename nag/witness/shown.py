@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.algebra.shown import system_line
+from nag.algebra.system import system_line
 from nag.text.table import align, counted, html_table, lines_of, magnitude, printable
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
