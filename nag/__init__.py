@@ -51,7 +51,7 @@ _HOME = {
     "WitnessSet": "nag.witness.witness",
     "decompose": "nag.interface.decompose",
     "local_dimension": "nag.numerics.local_dimension",
-    "gruebler_kutzbach": "nag.mechanism.mobility",
+    "gruebler_kutzbach": "nag.mechanism.loops",
     "mobility": "nag.mechanism.mobility_at",
     "model": "nag.mechanism.model",
     "read_case": "nag.files.cases",

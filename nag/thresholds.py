@@ -180,7 +180,7 @@ solving.isolated_zero.TWO                   1e-80   Distance, beside their size,
                                                     place stand for.
 solving.judged_ends.NEARLY                  1e-5    Values, beside their terms, of ends that are no
                                                     zeros, however badly they are known.
-solving.reality.REAL *                      1e-10   Imaginary parts, beside a point's size, of zeros
+solving.isolated_zero.REAL *                1e-10   Imaginary parts, beside a point's size, of zeros
                                                     in doubles that are real unless another zero is
                                                     their conjugate; beyond that, or their errors in
                                                     more digits, they are not. `nag certify` proves
@@ -262,7 +262,7 @@ witness.moving.DEPENDENT                    1e-10   Singular values of a slice, 
                                                     that make its equations dependent.
 witness.multiplicity.ACCURACY               1e-11   Error of points that a badly conditioned
                                                     deflation sharpened in doubles.
-witness.point_multiplicity.MULTIPLE         1e-7    Relative error of singular ends, about a root of
+witness.multiplicity.MULTIPLE               1e-7    Relative error of singular ends, about a root of
                                                     rounding.
 witness.projection.SHARP                    1e-8    Newton's last step at points that are counted.
 witness.sampling.SHARP                      1e-10   Newton's last step at a sample; a larger one is

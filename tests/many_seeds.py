@@ -32,7 +32,8 @@ from nag.files.problem import symmetries_of
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.model import model
 from nag.mechanism.parts_decomposition import decompose_parts
-from nag.report.agreement import Verdict, compare, in_words, kinds
+from nag.report.agreement import Verdict, compare
+from nag.witness.shown import in_words, kinds
 from nag.witness.witness import Status
 
 CASES = Path(__file__).resolve().parent.parent / "cases"

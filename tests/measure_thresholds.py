@@ -28,7 +28,7 @@ from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.files.problem import system_of
 from nag.numerics import coincidence, small_values
-from nag.solving import judged_ends, reality
+from nag.solving import isolated_zero, judged_ends
 from nag.solving import solve as solving
 from nag.tracking import jumps, projective
 from nag.tracking import track as tracking
@@ -152,7 +152,7 @@ def watched(measured: Measured) -> ExitStack:
         for one in found[0]:
             size = 1 + np.abs(one.point).max(initial=0.0)
             imaginary = np.abs(one.point.imag).max(initial=0.0)
-            measured.add("REAL", reality.REAL, imaginary / size)
+            measured.add("REAL", isolated_zero.REAL, imaginary / size)
 
     def judged(paths: Any, *_: Any) -> None:
         regular = paths.status == PathStatus.REGULAR

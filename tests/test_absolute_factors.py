@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import nag
-from nag.algebra.absolute_factors import is_absolutely_irreducible
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.factoring import is_absolutely_irreducible
 from nag.algebra.system import PolynomialSystem
 
 

@@ -7,8 +7,8 @@ from fractions import Fraction
 import flint
 import numpy as np
 
-from nag.algebra.ball_values import BallValues
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.high_precision import BallValues
 
 NAMES = ("x", "y", "z")
 TEXTS = ("x^3*y - 2/7*z + 5", "y^2*z^2 - x", "3", "0", "x*y*z - 1/3*x*y + 11*z^4")
@@ -20,7 +20,7 @@ def rational(c: Fraction) -> flint.arb:
 
 def test_values_and_sizes_of_terms_are_exact_to_the_last_digits() -> None:
     polynomials = [parse_polynomial(text, NAMES) for text in TEXTS]
-    values = BallValues(polynomials, rational)
+    values = BallValues(polynomials)
     rng = np.random.default_rng(0)
     for digits in (20, 200):
         with flint.ctx.workdps(digits + 5):

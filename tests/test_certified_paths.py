@@ -22,14 +22,13 @@ from nag.files.cases import read_case
 from nag.files.export import document, export_of, write_decomposition
 from nag.files.schemas import schema
 from nag.files.solutions_export import write_solutions
-from nag.numerics.disc_series import series_product, values_along
 from nag.numerics.discs import DiscPolynomials, Discs
 from nag.solving.certified_paths import prove_paths
 from nag.solving.solve import solve
 from nag.tracking.certified_paths import certified_paths, distinct, located
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.moving_discs import MovingSystem
+from nag.tracking.moving_discs import MovingSystem, series_product, values_along
 from nag.tracking.settings import Settings
 from nag.tracking.track import track
 from nag.witness.certified_loops import prove_all, prove_monodromy

@@ -12,13 +12,13 @@ from linkages import four_bar
 
 from nag.check import bennett_geometry, joints, known_planar
 from nag.check import four_bar as four_bar_statements
-from nag.check.bennett_parameters import bennett_parameters
 from nag.check.four_way import Compared, four_ways
 from nag.check.identities import identity
 from nag.check.known import Known, PaperComponent, Parametrisation
 from nag.check.mechanisms import (
     ComparedMechanism,
     KnownMechanism,
+    bennett_parameters,
     degree_in_half_angles,
     known_bennett,
     known_bricard,

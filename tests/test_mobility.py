@@ -1,6 +1,6 @@
 from linkages import case, general_loop, spherical_four_bar
 
-from nag.mechanism.mobility import gruebler_kutzbach
+from nag.mechanism.loops import gruebler_kutzbach
 
 
 def test_counting_fails_for_the_overconstrained_mechanisms():

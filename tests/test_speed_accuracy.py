@@ -12,7 +12,7 @@ import pytest
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench import peer_components, peer_points, sharpening
+from nag.bench import peer_components, peer_points, peers, sharpening
 from nag.bench.chart_data import document, read_charts
 from nag.bench.component_curves import Listed, agreement, witness_section
 from nag.bench.peer_points import forms
@@ -158,7 +158,7 @@ def test_paths_that_end_on_a_curve_are_not_sharpened_in_balls() -> None:
 
 def test_answers_of_other_programs_are_read_to_all_digits(monkeypatch) -> None:
     monkeypatch.setattr(
-        peer_points, "call",
+        peers, "call",
         lambda *_: (1.0, "seconds .25\nvalue .5p53e1 -.125p53e-2\nvalue 1 0\n"),
     )  # fmt: skip
     found = peer_points.peer_points("M2", SYSTEM, 1.0)
@@ -221,7 +221,7 @@ def _program_says(monkeypatch, text: str) -> None:
         (Path(folder) / "answer").write_text(text)
         return 1.0, text
 
-    monkeypatch.setattr(peer_components, "call", call)
+    monkeypatch.setattr(peers, "call", call)
 
 
 @pytest.mark.parametrize(("program", "text"), [("M2", M2_SAYS), ("phc", PHC_SAYS)])

@@ -12,9 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.shown import system_line
-from nag.algebra.system import PolynomialSystem
-from nag.cli.progress import INTERVAL, progress_line
+from nag.algebra.system import PolynomialSystem, system_line
+from nag.cli.running import INTERVAL, progress_line
 from nag.report.agreement import Verdict, agreement_text, compare
 from nag.text.table import align, labelled, magnitude, printable
 from nag.witness.shown import component_table, multidegree_text, remarks, title_line
@@ -266,7 +265,7 @@ def test_progress_is_shown_on_a_terminal_only_and_erased() -> None:
 
 def test_progress_is_not_written_more_often_than_it_can_be_read(monkeypatch) -> None:
     clock = iter([0.0, INTERVAL / 2, 1.5 * INTERVAL])
-    monkeypatch.setattr("nag.cli.progress.time.monotonic", lambda: next(clock))
+    monkeypatch.setattr("nag.cli.running.time.monotonic", lambda: next(clock))
     terminal = Terminal()
     with progress_line(terminal) as progress:
         for step in (1, 2, 3):

@@ -31,7 +31,7 @@ from nag.algebra.number import PI, Irrational, Number, cosine, sine, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.tokens import ExpressionError, Token, nearest, quote, tokenize
 
-__all__ = ["Budget", "ExpressionError", "parse_number", "parse_polynomial"]
+__all__ = ["ExpressionError", "parse_number", "parse_polynomial"]
 
 MAX_NESTING = 50
 

@@ -12,9 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.ball_values import BallValues
 from nag.algebra.number import Number, to_mpf
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import Exponents, Polynomial
 
 DIGITS = 100
 # Two zeros nearer to each other than this, relative to their size, are taken for one.
@@ -26,6 +25,71 @@ NEWTON_STEPS = 60
 NEAR = 1e-9
 
 
+class BallValues:
+    """Polynomials, ready to be evaluated in balls.
+
+    Args:
+        polynomials: in the same variables.
+    """
+
+    def __init__(self, polynomials: Sequence[Polynomial]) -> None:
+        self._polynomials = tuple(polynomials)
+        places: dict[Exponents, int] = {}
+        # Each monomial is one before it times a variable.
+        self._steps: list[tuple[int, int]] = []
+        for f in self._polynomials:
+            for exponents in f.terms:
+                self._place(exponents, places)
+        self._places = places
+        self._matrices: dict[tuple[int, bool], Any] = {}
+
+    def _place(self, exponents: Exponents, places: dict[Exponents, int]) -> int:
+        if exponents not in places:
+            last = max((i for i, k in enumerate(exponents) if k), default=-1)
+            before = 0
+            if last >= 0:
+                smaller = (*exponents[:last], exponents[last] - 1, *exponents[last + 1 :])
+                before = self._place(smaller, places)
+            places[exponents] = len(self._steps)
+            self._steps.append((before, last))
+        return places[exponents]
+
+    def at(self, point: Sequence[Any]) -> list[Any]:
+        """The values at a point of ``acb``."""
+        import flint
+
+        return self._sums(flint.acb_mat, point, flint.acb(1), False)
+
+    def sizes_at(self, sizes: Sequence[Any]) -> list[Any]:
+        """Sums of the absolute values of the terms where coordinates have these sizes, ``arb``."""
+        import flint
+
+        return self._sums(flint.arb_mat, sizes, flint.arb(1), True)
+
+    def _sums(self, matrix: Any, point: Sequence[Any], one: Any, absolute: bool) -> list[Any]:
+        monomials: list[Any] = []
+        for before, variable in self._steps:
+            monomials.append(one if variable < 0 else monomials[before] * point[variable])
+        if not monomials:
+            return [0 * one for _ in self._polynomials]
+        column = matrix(len(monomials), 1, monomials)
+        sums = self._coefficients(matrix, absolute) * column
+        return [sums[i, 0] for i in range(len(self._polynomials))]
+
+    def _coefficients(self, matrix: Any, absolute: bool) -> Any:
+        import flint
+
+        key = flint.ctx.prec, absolute
+        if key not in self._matrices:
+            entries = [[0] * len(self._steps) for _ in self._polynomials]
+            for row, f in zip(entries, self._polynomials, strict=True):
+                for exponents, c in f.terms.items():
+                    value = _number(c)
+                    row[self._places[exponents]] = abs(value) if absolute else value
+            self._matrices[key] = matrix(entries)
+        return self._matrices[key]
+
+
 def _number(c: Number) -> Any:
     from flint import arb, fmpq
 
@@ -33,11 +97,6 @@ def _number(c: Number) -> Any:
         return arb(fmpq(c.numerator, c.denominator))
     sign, mantissa, exponent, _ = to_mpf(c, DIGITS)._mpf_
     return arb(int(-mantissa if sign else mantissa)) * arb(2) ** int(exponent)
-
-
-def ball_values(polynomials: Sequence[Polynomial]) -> BallValues:
-    """The polynomials, ready to be evaluated in balls."""
-    return BallValues(tuple(polynomials), _number)
 
 
 def _middle(z: Any) -> Any:
@@ -51,7 +110,7 @@ def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     from flint import arb
 
     sizes = [max(abs(x).mid(), arb(1)) for x in z]
-    values = ball_values((f,))
+    values = BallValues((f,))
     bound = abs(values.sizes_at(sizes)[0]).mid()
     return abs(_middle(values.at(z)[0])).mid() / bound if bound else arb(0)
 
@@ -107,7 +166,7 @@ def zero_near(
     import flint
     from flint import acb, arb
 
-    evaluate = ball_values(square)
+    evaluate = BallValues(square)
     with flint.ctx.workdps(digits):
         point = [acb(complex(x)) for x in z]
         rows = [[acb(complex(c)) for c in row] for row in slices]

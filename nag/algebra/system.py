@@ -1,4 +1,4 @@
-"""Systems of polynomials with named variables."""
+"""Systems of polynomials with named variables, and what they show at the prompt."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ from functools import cached_property
 from typing import Any
 
 from nag.algebra.polynomial import Polynomial
+from nag.text.table import LINE, counted, html_table, printable, shortened
+
+# Of longer systems the first equations are shown.
+MOST_LINES, MOST_ROWS = 4, 40
 
 
 @dataclass(frozen=True)
@@ -72,11 +76,33 @@ class PolynomialSystem:
         return [f.text(self.variables) for f in self.polynomials]
 
     def __repr__(self) -> str:
-        from nag.algebra.shown import system_text
-
-        return system_text(self)
+        """Five lines: what it is, and its first equations."""
+        lines = [f"PolynomialSystem of {system_line(self)}"]
+        shown = len(self.polynomials) if len(self.polynomials) <= MOST_LINES else MOST_LINES - 1
+        lines += [f"  {f.text(self.variables)} = 0" for f in self.polynomials[:shown]]
+        if shown < len(self.polynomials):
+            lines.append(f"  and {counted(len(self.polynomials) - shown, 'more equation')}")
+        return "\n".join(shortened(printable(line)) for line in lines)
 
     def _repr_html_(self) -> str:
-        from nag.algebra.shown import system_html
+        """A table, one row an equation."""
+        rows = [["equation", "degree", "is zero"]]
+        for i, f in enumerate(self.polynomials[:MOST_ROWS]):
+            rows.append([str(i), str(f.degree), shortened(f.text(self.variables), 2 * LINE)])
+        hidden = len(self.polynomials) - MOST_ROWS
+        note = f"and {counted(hidden, 'more equation')}" if hidden > 0 else ""
+        return html_table(f"PolynomialSystem of {system_line(self)}", rows, note)
 
-        return system_html(self)
+
+def system_line(system: PolynomialSystem) -> str:
+    """Variables, equations and degrees in one line."""
+    degrees: dict[int, int] = {}
+    for degree in sorted(system.degrees):
+        degrees[degree] = degrees.get(degree, 0) + 1
+    listed = ", ".join(f"{n} of degree {d}" for d, n in degrees.items())
+    names = ", ".join(system.variables)
+    text = (
+        f"{counted(system.n, 'variable')}{f' ({names})' if 0 < len(names) <= 60 else ''}, "
+        f"{counted(len(system.polynomials), 'equation')}{f': {listed}' if listed else ''}"
+    )
+    return text if system.exact else f"{text}; not all coefficients are rational"

@@ -29,7 +29,7 @@ from nag.bench.work_precision import (
     own_curves,
     timed,
 )
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.numerics.certified_points import independent_equations
 from nag.solving.solve import solve
 from nag.tracking.evaluations import counted

@@ -14,8 +14,8 @@ from typing import Any
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.bench.peers import in_macaulay2, plain_texts
-from nag.decomposition import decompose
+from nag.bench.peers import in_macaulay2
+from nag.decomposition.components import decompose
 from nag.files.cases import Truth
 from nag.report.agreement import Verdict, compare
 
@@ -109,7 +109,6 @@ def macaulay2_installed() -> bool:
 
 def macaulay2(system: PolynomialSystem, truth: Sequence[Truth], limit: float) -> PeerDecomposed:
     """Decompose ``system`` with Macaulay2 on one thread, for at most ``limit`` seconds."""
-    names, equations = plain_texts(system)
     rest = (
         "t = cpuTime();\n"
         "S = numericalIrreducibleDecomposition ideal F;\n"
@@ -117,7 +116,7 @@ def macaulay2(system: PolynomialSystem, truth: Sequence[Truth], limit: float) ->
         'for d in keys S do for w in S#d do print("component " | toString d | " " '
         "| toString(degree w));\n"
     )
-    process, output = in_macaulay2(names, equations, rest, limit)
+    process, output = in_macaulay2(system, rest, limit)
     if output is None:
         return PeerDecomposed(None, process, None, f"no answer in {limit:.0f} s")
     result = re.search(r"result (\S+)", output)

@@ -9,18 +9,21 @@ from __future__ import annotations
 
 import importlib.util
 import re
-import sys
-import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.bench.peer_points import bertini_source, children_seconds, coordinates, pairs, said
-from nag.bench.peers import call, installed, plain_texts
+from nag.bench.peer_points import (
+    children_seconds,
+    pairs,
+    said,
+    solutions,
+    told_by_macaulay2,
+)
+from nag.bench.peers import in_bertini, in_phcpack, installed, plain_texts
 from nag.bench.reference import NEAR
 
 
@@ -59,10 +62,9 @@ def peer_components(
 ) -> PeerComponents:
     """Decompose ``system`` with a program, for at most ``limit`` seconds."""
     run = {"M2": _macaulay2, "phc": _phcpack, "bertini2": _bertini}[program]
-    with tempfile.TemporaryDirectory() as folder:
-        before = children_seconds()
-        output = run(system, Path(folder), limit, seed)
-        seconds = children_seconds() - before
+    before = children_seconds()
+    output = run(system, limit, seed)
+    seconds = children_seconds() - before
     if isinstance(output, str):
         return PeerComponents(seconds, None, output)
     told, found = output
@@ -78,31 +80,20 @@ def _excluded(system: PolynomialSystem, component: PeerComponent) -> bool:
     return bool((values < NEAR).all(axis=0).any())
 
 
-def _macaulay2(system: PolynomialSystem, folder: Path, limit: float, seed: int) -> Answer:
-    names, texts = plain_texts(system)
-    script = (
-        'needsPackage "NumericalAlgebraicGeometry";\n'
-        f"setRandomSeed {seed};\n"
-        f"R = CC_53[{', '.join(names)}];\n"
-        f"F = {{{', '.join(texts)}}};\n"
-        "t = cpuTime();\n"
-        "S = numericalIrreducibleDecomposition ideal F;\n"
-        'print("seconds " | toString(cpuTime() - t));\n'
-        "full = x -> toExternalString(1.0 * x);\n"
-        'tell = z -> print("value " | full realPart z | " " | full imaginaryPart z);\n'
+def _macaulay2(system: PolynomialSystem, limit: float, seed: int) -> Answer:
+    work = f"setRandomSeed {seed};\nS = numericalIrreducibleDecomposition ideal F;\n"
+    listed = (
         "for d in keys S do for w in S#d do (\n"
         '  print("component " | toString d);\n'
         "  for l in slice w do for m in prepend(1_R, gens R) do tell coefficient(m, l);\n"
         "  for p in points w do for z in coordinates p do tell z);\n"
-        "exit 0\n"
     )
-    (folder / "system.m2").write_text(script, "utf-8")
-    _, output = call(["M2", "--script", "system.m2"], str(folder), limit)
+    output = told_by_macaulay2(system, work, listed, limit)
     if output is None:
         return f"no answer in {limit:.0f} s"
     if said(output) is None:
         return "no answer"
-    head, *blocks = re.split(r"^component (\d+)$", re.sub("p53", "", output), flags=re.MULTILINE)
+    head, *blocks = re.split(r"^component (\d+)$", output, flags=re.MULTILINE)
     n = system.n
     found = []
     for dimension, block in zip(map(int, blocks[::2]), blocks[1::2], strict=True):
@@ -113,21 +104,16 @@ def _macaulay2(system: PolynomialSystem, folder: Path, limit: float, seed: int) 
     return said(head), found
 
 
-def _phcpack(system: PolynomialSystem, folder: Path, limit: float, seed: int) -> Answer:
-    names, texts = plain_texts(system)
-    head = f"{len(texts)} {system.n}\n"
-    (folder / "system").write_text(head + "".join(f"{t};\n" for t in texts), "utf-8")
+def _phcpack(system: PolynomialSystem, limit: float, seed: int) -> Answer:
     # It asks for the largest dimension, and may say that equations are left over.
     asked = f"{system.n - 1}\n" + "y\n" * 4
-    command = ["phc", "-B", f"-0{1 + seed}", "system", "answer"]
-    _, output = call(command, str(folder), limit, asked)
-    if output is None:
+    _, written = in_phcpack(system, ("-B", f"-0{1 + seed}"), limit, asked)
+    if written is None:
         return f"no answer in {limit:.0f} s"
-    answer = folder / "answer"
-    text = answer.read_text("utf-8", "replace") if answer.exists() else ""
+    text = written[1]
     if "degrees of factors" not in text:
         return "no answer"
-    return None, list(_factors(text, names))
+    return None, list(_factors(text, plain_texts(system)[0]))
 
 
 def _factors(text: str, names: Sequence[str]) -> Iterator[PeerComponent]:
@@ -135,12 +121,9 @@ def _factors(text: str, names: Sequence[str]) -> Iterator[PeerComponent]:
     parts = re.split(r"^Writing the factors of dimension (\d+)", text, flags=re.MULTILINE)
     for dimension, part in zip(map(int, parts[1::2]), parts[2::2], strict=True):
         for block in re.split(r"^FACTOR \d+ :", part, flags=re.MULTILINE)[1:]:
-            equations, _, solutions = block.partition("THE SOLUTIONS")
+            equations, _, listed = block.partition("THE SOLUTIONS")
             slices = equations.split(";")[:-1][-dimension:] if dimension else []
-            points = []
-            for one in re.split(r"^solution \d+ :", solutions, flags=re.MULTILINE)[1:]:
-                values = dict(coordinates(one.partition("== err")[0]))
-                points.append([values[name] for name in names])
+            points = [[values[name] for name in names] for values in solutions(listed)]
             rows = [_row(each, names) for each in slices]
             n = len(names)
             yield PeerComponent(
@@ -174,17 +157,14 @@ def _row(text: str, names: Sequence[str]) -> list[complex]:
     return row
 
 
-def _bertini(system: PolynomialSystem, folder: Path, limit: float, seed: int) -> Answer:
-    script = (
-        "import bertini\n"
-        f"system = bertini.parse.system({bertini_source(system)!r})\n"
+def _bertini(system: PolynomialSystem, limit: float, _seed: int) -> Answer:
+    work = (
         "try:\n"
         "    bertini.nag_algorithm.NIDCauchyAdaptivePrecision(system).solve()\n"
         "except RuntimeError as error:\n"
         "    print('refused', error)\n"
     )
-    (folder / "decompose.py").write_text(script, "utf-8")
-    _, output = call([sys.executable, "decompose.py"], str(folder), limit)
+    output = in_bertini(system, work, limit)
     if output is None:
         return f"no answer in {limit:.0f} s"
     refused = re.search(r"^refused (.+)$", output, re.MULTILINE)

@@ -5,15 +5,12 @@ from __future__ import annotations
 import importlib.util
 import re
 import resource
-import sys
-import tempfile
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.bench.peers import call, installed, plain_texts
+from nag.bench.peers import in_bertini, in_macaulay2, in_phcpack, installed, plain_texts
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,10 +58,9 @@ def peer_points(program: str, system: PolynomialSystem, limit: float) -> PeerPoi
     """Solve ``system`` with a program, for at most ``limit`` seconds."""
     runs = {"M2": _macaulay2, REFINED: _refined, "phc": _phcpack, "bertini2": _bertini}
     run = runs[program]
-    with tempfile.TemporaryDirectory() as folder:
-        before = children_seconds()
-        output = run(system, Path(folder), limit)
-        seconds = children_seconds() - before
+    before = children_seconds()
+    output = run(system, limit)
+    seconds = children_seconds() - before
     if output is None:
         return PeerPoints(program, seconds, None, f"no answer in {limit:.0f} s")
     said, numbers = output
@@ -93,67 +89,62 @@ def said(output: str) -> float | None:
     return float(found[1]) if found else None
 
 
-def _refined(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
-    return _macaulay2(system, folder, limit, "S = refine(F, S, ErrorTolerance => 1e-14);\n")
+def told_by_macaulay2(system: PolynomialSystem, work: str, listed: str, limit: float) -> str | None:
+    """What Macaulay2 prints of its work: ``seconds``, and what ``listed`` tells; None if too long.
 
-
-def _macaulay2(system: PolynomialSystem, folder: Path, limit: float, further: str = "") -> Answer:
-    names, texts = plain_texts(system)
-    script = (
-        'needsPackage "NumericalAlgebraicGeometry";\n'
-        f"R = CC_53[{', '.join(names)}];\n"
-        f"F = {{{', '.join(texts)}}};\n"
+    Args:
+        work: makes ``S`` of the equations ``F``.
+        listed: lists ``S``; its ``tell`` prints a number.
+    """
+    rest = (
         "t = cpuTime();\n"
-        f"S = solveSystem F;\n{further}"
+        f"{work}"
         'print("seconds " | toString(cpuTime() - t));\n'
         "full = x -> toExternalString(1.0 * x);\n"
-        'for s in S do for z in coordinates s do print("value " | full realPart z | " " '
-        "| full imaginaryPart z);\n"
-        "exit 0\n"
+        'tell = z -> print("value " | full realPart z | " " | full imaginaryPart z);\n'
+        f"{listed}"
     )
-    (folder / "system.m2").write_text(script, "utf-8")
-    _, output = call(["M2", "--script", "system.m2"], str(folder), limit)
-    if output is None:
-        return None
+    _, output = in_macaulay2(system, rest, limit)
     # Doubles are written with their precision in bits: .5p53e1.
-    return said(output), pairs(re.sub(r"p53", "", output))
+    return None if output is None else output.replace("p53", "")
 
 
-def _phcpack(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
-    names, texts = plain_texts(system)
-    count = len(texts)
-    head = f"{count}\n" if count == system.n else f"{count} {system.n}\n"
-    (folder / "system").write_text(head + "".join(f"{t};\n" for t in texts), "utf-8")
-    _, output = call(["phc", "-b", "-0", "system", "answer"], str(folder), limit)
-    if output is None:
+def _refined(system: PolynomialSystem, limit: float) -> Answer:
+    return _macaulay2(system, limit, "S = refine(F, S, ErrorTolerance => 1e-14);\n")
+
+
+def _macaulay2(system: PolynomialSystem, limit: float, further: str = "") -> Answer:
+    listed = "for s in S do for z in coordinates s do tell z;\n"
+    output = told_by_macaulay2(system, f"S = solveSystem F;\n{further}", listed, limit)
+    return None if output is None else (said(output), pairs(output))
+
+
+def _phcpack(system: PolynomialSystem, limit: float) -> Answer:
+    names, _ = plain_texts(system)
+    _, written = in_phcpack(system, ("-b", "-0"), limit)
+    if written is None:
         return None
-    text = (folder / "system").read_text("utf-8", "replace").partition("THE SOLUTIONS")[2]
     numbers = []
-    for block in re.split(r"^solution \d+ :", text, flags=re.MULTILINE)[1:]:
-        values = dict(coordinates(block))
+    for values in solutions(written[0].partition("THE SOLUTIONS")[2]):
         if all(name in values for name in names):
             numbers += [values[name] for name in names]
     return None, numbers
 
 
-def coordinates(block: str) -> list[tuple[str, complex]]:
+def solutions(text: str) -> list[dict[str, complex]]:
+    """Names and values of the unknowns, in each solution that ``phc`` writes."""
+    blocks = re.split(r"^solution \d+ :", text, flags=re.MULTILINE)[1:]
+    return [dict(_coordinates(block.partition("== err")[0])) for block in blocks]
+
+
+def _coordinates(block: str) -> list[tuple[str, complex]]:
     """Names and values of the unknowns, as ``phc`` writes a solution."""
     found = re.findall(r"^ (\w+) : +(\S+) +(\S+)$", block, re.MULTILINE)
     return [(name, complex(float(re), float(im))) for name, re, im in found]
 
 
-def bertini_source(system: PolynomialSystem) -> str:
-    """The system as Bertini reads it."""
-    names, texts = plain_texts(system)
-    functions = [f"f{i}" for i in range(len(texts))]
-    equations = " ".join(f"{f} = {t};" for f, t in zip(functions, texts, strict=True))
-    return f"variable_group {', '.join(names)}; function {', '.join(functions)}; {equations}"
-
-
-def _bertini(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
-    script = (
-        "import time, bertini\n"
-        f"system = bertini.parse.system({bertini_source(system)!r})\n"
+def _bertini(system: PolynomialSystem, limit: float) -> Answer:
+    work = (
         "begin = time.process_time()\n"
         "found = bertini.solve(system, show_progress=False, directory='records', seed=1)\n"
         "print('seconds', time.process_time() - begin)\n"
@@ -162,6 +153,5 @@ def _bertini(system: PolynomialSystem, folder: Path, limit: float) -> Answer:
         "        z = complex(z)\n"
         "        print('value', repr(z.real), repr(z.imag))\n"
     )
-    (folder / "solve.py").write_text(script, "utf-8")
-    _, output = call([sys.executable, "solve.py"], str(folder), limit)
+    output = in_bertini(system, work, limit)
     return None if output is None else (said(output), pairs(output))

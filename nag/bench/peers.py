@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 from collections.abc import Sequence
@@ -80,14 +81,13 @@ def call(
     return time.perf_counter() - begin, done.stdout
 
 
-def in_macaulay2(
-    names: Sequence[str], equations: Sequence[str], rest: str, limit: float
-) -> tuple[float, str | None]:
+def in_macaulay2(system: PolynomialSystem, rest: str, limit: float) -> tuple[float, str | None]:
     """Seconds of a Macaulay2 process, and what it printed; None if it took too long.
 
     Args:
         rest: what is done with the equations ``F`` over the ring ``R``.
     """
+    names, equations = plain_texts(system)
     script = (
         'needsPackage "NumericalAlgebraicGeometry";\n'
         f"R = CC_53[{', '.join(names)}];\n"
@@ -96,9 +96,39 @@ def in_macaulay2(
         "exit 0\n"
     )
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "system.m2"
-        file.write_text(script, "utf-8")
-        return call(["M2", "--script", str(file)], folder, limit)
+        (Path(folder) / "system.m2").write_text(script, "utf-8")
+        return call(["M2", "--script", "system.m2"], folder, limit)
+
+
+def in_phcpack(
+    system: PolynomialSystem, options: Sequence[str], limit: float, given: str | None = None
+) -> tuple[float, tuple[str, str] | None]:
+    """Seconds of a PHCpack process, and what it wrote: behind the system, and as its answer.
+
+    None if it took too long.
+    """
+    _, texts = plain_texts(system)
+    with tempfile.TemporaryDirectory() as folder:
+        files = [Path(folder) / name for name in ("system", "answer")]
+        equations = "".join(f"{t};\n" for t in texts)
+        files[0].write_text(f"{len(texts)} {system.n}\n{equations}", "utf-8")
+        process, output = call(["phc", *options, "system", "answer"], folder, limit, given)
+        if output is None:
+            return process, None
+        own, answer = (f.read_text("utf-8", "replace") if f.exists() else "" for f in files)
+        return process, (own, answer)
+
+
+def in_bertini(system: PolynomialSystem, work: str, limit: float) -> str | None:
+    """What Bertini 2, a package of Python, prints of its work with ``system``; None if too long."""
+    names, texts = plain_texts(system)
+    functions = [f"f{i}" for i in range(len(texts))]
+    equations = " ".join(f"{f} = {t};" for f, t in zip(functions, texts, strict=True))
+    source = f"variable_group {', '.join(names)}; function {', '.join(functions)}; {equations}"
+    script = f"import time, bertini\nsystem = bertini.parse.system({source!r})\n{work}"
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "work.py").write_text(script, "utf-8")
+        return call([sys.executable, "work.py"], folder, limit)[1]
 
 
 def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
@@ -106,7 +136,7 @@ def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
         "t = elapsedTiming (S = solveSystem F);\n"
         'print("result " | toString(t#0) | " " | toString(#S));\n'
     )
-    process, output = in_macaulay2(*plain_texts(system), rest, limit)
+    process, output = in_macaulay2(system, rest, limit)
     if output is None:
         return Peer("M2", None, process, None, f"no answer in {limit:.0f} s")
     found = re.search(r"result (\S+) (\d+)", output)
@@ -116,20 +146,9 @@ def _macaulay2(system: PolynomialSystem, limit: float) -> Peer:
 
 
 def _phcpack(system: PolynomialSystem, limit: float) -> Peer:
-    _, texts = plain_texts(system)
-    count = len(texts)
-    head = f"{count}\n" if count == system.n else f"{count} {system.n}\n"
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "system"
-        file.write_text(head + "".join(f"{t};\n" for t in texts), "utf-8")
-        command = ["phc", "-b", "-0", "system", "answer"]
-        process, output = call(command, folder, limit)
-        answer = Path(folder) / "answer"
-        if output is None:
-            return Peer("phc", None, process, None, f"no answer in {limit:.0f} s")
-        text = file.read_text("utf-8", "replace")
-        if answer.exists():
-            text += answer.read_text("utf-8", "replace")
-    found = re.findall(r"THE SOLUTIONS *:?\s*\n\s*(\d+) +\d+", text)
+    process, written = in_phcpack(system, ("-b", "-0"), limit)
+    if written is None:
+        return Peer("phc", None, process, None, f"no answer in {limit:.0f} s")
+    found = re.findall(r"THE SOLUTIONS *:?\s*\n\s*(\d+) +\d+", "".join(written))
     solutions = int(found[-1]) if found else None
     return Peer("phc", None, process, solutions, "" if found else "no answer")

@@ -85,7 +85,7 @@ def decomposition_table(rows: list[Decomposed], peers: dict[str, PeerDecomposed]
 
 def models_table(rows: list[Formulated]) -> list[str]:
     """Mechanisms in all formulations as aligned lines, times in seconds of the processor."""
-    from nag.report.formulations import large
+    from nag.report.model import large
 
     head = ["mechanism", "formulation", "variables", "equations", "Bezout", "at most", "paths"]
     lines = [[*head, "seconds", "dimension x degree: count", ""]]

@@ -11,7 +11,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.timed_runs import Run
 from nag.bench.zero_set import Components, ZeroSet
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.solving.solve import solve
 
 METHODS = ("solve", "decompose")

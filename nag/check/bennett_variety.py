@@ -14,7 +14,7 @@ from nag.check.loops import bennett_equations, bennett_mechanism
 from nag.check.rings import contains, smooth
 from nag.check.statement import Kind, Verdict, decided, fails, statement
 from nag.mechanism.axes import difference
-from nag.mechanism.mobility import gruebler_kutzbach
+from nag.mechanism.loops import gruebler_kutzbach
 from nag.symbolic import bennett, bennett_geometry
 
 SMALL = FunctionField("c2 c0 a2 a0", "degrevlex")

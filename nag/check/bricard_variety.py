@@ -14,7 +14,7 @@ from nag.check.loops import bricard_equations, bricard_mechanism, bricard_ring
 from nag.check.rings import contains, smooth
 from nag.check.statement import Kind, Verdict, decided, fails, statement
 from nag.mechanism.axes import difference, dot
-from nag.mechanism.mobility import gruebler_kutzbach
+from nag.mechanism.loops import gruebler_kutzbach
 from nag.mechanism.quaternion import rotate
 from nag.symbolic import bricard
 

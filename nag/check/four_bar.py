@@ -7,6 +7,7 @@ from typing import Any
 
 from nag.algebra.groebner import Ideal, ideal, intersection, quotient
 from nag.algebra.rational_function import FunctionField, RationalFunction
+from nag.check.known import circle
 from nag.check.matrices import minors
 from nag.check.rings import contains
 from nag.check.statement import Verdict, decided, fails, statement
@@ -93,10 +94,6 @@ def _reduced_graph(a: Any, b: Any) -> bool:
 
 def _graph(a: Any, b: Any, x: Any, z: Any, one: Any) -> tuple[list[Any], list[Any]]:
     """Bars 0 to 3 where bar 0 has the half-angle z and bar 1 the half-angle x against it."""
-
-    def circle(t: Any) -> tuple[Any, Any]:
-        return (1 - t**2) / (1 + t**2), 2 * t / (1 + t**2)
-
     base, first = circle(z), circle(x)
     third = circle(x * Fraction(a + b) / (b - a))
     second = [

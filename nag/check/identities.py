@@ -15,7 +15,6 @@ Residuals = Mapping[str, Any]
 Formula = Callable[..., Residuals]
 # A name for a square root, and what its square is in the parameters.
 Root = tuple[str, Callable[..., Any]]
-Point = Mapping[str, Fraction]
 
 
 def surviving(names: str, formula: Formula, roots: Sequence[Root] = ()) -> list[str]:

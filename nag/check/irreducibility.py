@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.absolute_factors import is_absolutely_irreducible
+from nag.algebra.factoring import is_absolutely_irreducible
 from nag.algebra.groebner import Ideal, ideal
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_function import FunctionField

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -13,6 +13,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.groebner import Ideal, cleared, ideal
+from nag.algebra.number import square_root
 from nag.algebra.rational_function import FunctionField
 from nag.algebra.system import PolynomialSystem
 from nag.check.bennett_special import ROOTS as SPECIAL_ROOTS
@@ -28,12 +29,14 @@ from nag.check.loops import (
 )
 from nag.check.rings import euler_ring
 from nag.check.statement import Kind, Statement, Verdict, decided
+from nag.mechanism.axes import difference, dot
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import Model, model
 from nag.symbolic import bennett, bennett_geometry, bennett_special, bricard
 from nag.witness.witness import Decomposition, Status
 
 Bodies = Sequence[Sequence[Any]]
+Parameters = tuple[Fraction, Fraction, Fraction]
 
 
 @dataclass(frozen=True)
@@ -248,3 +251,33 @@ def four_ways(known: KnownMechanism, decompose: Decompose) -> tuple[Statement, .
         Statement(known.name, text, lambda way=way: way(compared))
         for (text, _), way in zip(WAYS, ways, strict=True)
     )
+
+
+def bennett_parameters(mechanism: Mechanism) -> Iterator[Parameters]:
+    """Rational m_0, m_1, m_2 that a loop placed as in lemma 5.1 can only have, for r and for -r.
+
+    Whether it is the mechanism of these is left to be seen: not all it holds is looked at.
+    """
+    if len(mechanism.joints) != 4 or {joint.type for joint in mechanism.joints} != {"revolute"}:
+        return
+    first, second, third, fourth = (joint.point for joint in mechanism.joints)
+    axis = mechanism.joints[1].axis
+    if not _rational(*first, *second, *third, *fourth, *axis) or any(axis[:1]):
+        return
+    length = square_root(dot(axis, axis))
+    x, _, z = difference(third, second)
+    r = square_root(dot(difference(third, second), difference(third, second)))
+    if not _rational(length, r) or not (r and z and axis[1]):
+        return
+    # (m_0^2 - 1)/(m_0^2 + 1) and -2 m_0/(m_0^2 + 1) are the axis, and likewise for the others.
+    m0 = -axis[1] / (length - axis[2])
+    for radius in (r, -r):
+        if x == radius or radius + fourth[0] == 0:
+            continue
+        m1 = z * (m0**2 + 1) / (2 * m0 * (radius - x))
+        m2 = m1 * fourth[1] / (radius + fourth[0])
+        yield m0, m1, m2
+
+
+def _rational(*numbers: Any) -> bool:
+    return all(isinstance(x, Fraction) for x in numbers)

@@ -29,10 +29,9 @@ from nag.check import (
     slider_crank,
     triangle,
 )
-from nag.check.bennett_parameters import bennett_parameters
 from nag.check.four_way import Decompose, as_polynomial
 from nag.check.known import Known, parameter_text
-from nag.check.mechanisms import KnownMechanism
+from nag.check.mechanisms import KnownMechanism, bennett_parameters
 from nag.check.planar_mechanism import equal_sides
 from nag.check.statement import Statement
 from nag.mechanism.axes import cross, vanishes

@@ -1,4 +1,4 @@
-"""The command ``nag``: one file a command, read `command_line` first.
+"""The command ``nag``: one file a command, read `command_line`, `arguments` and `running` first.
 
 Each command has ``add_arguments(parser)`` and ``run(arguments)``, which returns the lines to print
 and whether the answer is complete. Nothing imports this package.

@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: if the export cannot be read, or the certificate cannot be written.
     """
-    from nag.algebra.shown import system_line
+    from nag.algebra.system import system_line
     from nag.files.certificate_export import write_certificate
     from nag.text.table import labelled, printable
 

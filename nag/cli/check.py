@@ -7,11 +7,10 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
-from nag.cli.running import run_row
+from nag.cli.running import Progress, as_chosen, compilation_notice, progress_line, run_row
 
 if TYPE_CHECKING:
     from nag.check.statement import Statement, Verdict
-    from nag.cli.progress import Progress
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,8 +29,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or a case that the papers say nothing of.
     """
-    from nag.cli.progress import compilation_notice, progress_line
-
     if options.all == (options.case is not None):
         raise UsageError("give either a case file or --all, and not both")
     if options.all and options.set:
@@ -55,12 +52,10 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
 def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:
     from nag.check.subjects import WITH_CASES, everything, recognised
-    from nag.decomposition import decompose
+    from nag.decomposition.components import decompose
 
     def decomposed(system: Any) -> Any:
-        return decompose(
-            system, seed=options.seed, threads=options.threads, settings=options.settings
-        )
+        return decompose(system, **as_chosen(options))
 
     if case is None:
         return everything(decomposed)

@@ -15,13 +15,12 @@ from nag.cli.arguments import (
     whole,
 )
 from nag.cli.certify import add_certify, certified
-from nag.cli.running import seconds
+from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds, writing_json
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
-    from nag.files.export import Origin
     from nag.mechanism.model import Model
     from nag.witness.fibres import Progress
     from nag.witness.witness import Decomposition
@@ -92,51 +91,35 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     case, model = read_problem(arguments)
     model = _in_coordinates(arguments, case, model)
 
-    from nag.cli.progress import compilation_notice, progress_line
-
     with (
         compilation_notice(sys.stderr, arguments.quiet),
         progress_line(sys.stderr, arguments.quiet) as progress,
     ):
         from nag.decomposition.through import accounted, through_points
-        from nag.files.problem import points_of
+        from nag.files.problem import origin, points_of
         from nag.witness.expansion import expanded
 
         if arguments.modes == "all":
-            from nag.cli.all_modes import run_all_modes
-
-            return run_all_modes(arguments, case, progress)
+            return _all_modes(arguments, case, progress)
         case, model, decomposition = _decomposed(arguments, case, model, progress)
         if arguments.expand:
             decomposition = expanded(decomposition)
         points = through_points(decomposition, points_of(case, model), arguments.threads)
 
-    from nag.files.problem import origin
     from nag.report.answer import answer_lines
     from nag.text.table import labelled
 
     decomposition = accounted(decomposition, points)
-    failure = _unwritten(decomposition, arguments.json, origin(case, model))
     lines = answer_lines(decomposition, case, model, points, seconds(arguments))
-    if failure is not None:
-        raise UsageError(failure, lines)
+    if arguments.json is not None:
+        from nag.files.export import write_decomposition
+
+        with writing_json(lines):
+            write_decomposition(decomposition, arguments.json, origin(case, model))
     if not (arguments.certify or arguments.certify_paths):
         return lines, decomposition.complete
     proved = certified(decomposition, arguments.certify_paths)
     return [*lines, "", *labelled(proved.rows)], decomposition.complete and proved.all_proved
-
-
-def _unwritten(decomposition: Decomposition, json: str | None, origin: Origin) -> str | None:
-    """Write the export, if there is to be one; what went wrong, if something did."""
-    from nag.files.export import write_decomposition
-    from nag.files.written_file import TargetError
-
-    if json is not None:
-        try:
-            write_decomposition(decomposition, json, origin)
-        except TargetError as error:
-            return f"--json: {error}"
-    return None
 
 
 def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:
@@ -177,14 +160,9 @@ def _decomposed(
     """The components, and the case or the model in whose coordinates they are."""
     from nag.files.problem import decomposed, symmetries_of, system_of
 
-    options = {
-        "seed": arguments.seed,
-        "threads": arguments.threads,
-        "settings": arguments.settings,
-        "progress": progress,
-    }
+    options = {**as_chosen(arguments), "progress": progress}
     if arguments.method == "sampling":
-        from nag.decomposition import by_sampling
+        from nag.decomposition.discovery import by_sampling
 
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
         starts["symmetries"] = symmetries_of(case, model)
@@ -202,3 +180,29 @@ def _decomposed(
     from nag.mechanism.coordinates import euler_decomposition
 
     return case, *euler_decomposition(model, decomposition, threads=arguments.threads)
+
+
+def _all_modes(
+    arguments: argparse.Namespace, case: Case, progress: Progress
+) -> tuple[list[str], bool]:
+    """Decompose one combination of modes of each class, as `run` does the one of the reference."""
+    from nag.files.modes_export import write_modes
+    from nag.mechanism.mode_decomposition import decompose_modes
+    from nag.mechanism.model import ModelError
+    from nag.report.modes import modes_lines
+
+    try:
+        answer = decompose_modes(
+            case.mechanism,
+            arguments.formulation or "auto",
+            arguments.coordinates or ("joint" if arguments.formulation == "H" else "euler"),
+            **as_chosen(arguments),
+            progress=progress,
+        )
+    except ModelError as error:
+        raise UsageError(f"{arguments.case}: {error}") from None
+    lines = modes_lines(answer, case.title, seconds(arguments))
+    if arguments.json is not None:
+        with writing_json(lines):
+            write_modes(answer, arguments.json, case)
+    return lines, answer.complete

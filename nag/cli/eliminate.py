@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running, read_problem, whole
-from nag.cli.running import seconds
+from nag.cli.running import compilation_notice, progress_line, seconds
 from nag.cli.witness_input import (
     add_input,
     component_number,
@@ -73,8 +73,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    from nag.cli.progress import compilation_notice, progress_line
-
     if options.at is not None and options.component is not None:
         raise UsageError("--at: --component names a component already; give one of the two")
     with compilation_notice(sys.stderr, options.quiet):
@@ -103,7 +101,7 @@ def _lines(
     options: argparse.Namespace,
 ) -> list[str]:
     from nag.report.elimination import elimination_lines, essential_text, image_text
-    from nag.text.table import labelled, printable
+    from nag.text.table import sheet
 
     head = [*top, ("onto", _onto_text(found))]
     head += [("image", image_text(found)), ("essential", essential_text(found))]
@@ -124,9 +122,7 @@ def _lines(
             + f"{seconds(options):.1f} s",
         ),
     ]
-    width = max(len(label) for label, _ in head + tail)
-    lines = [printable(title), "", *labelled(head, width), "", *elimination_lines(found), ""]
-    return [*lines, *labelled(tail, width)]
+    return sheet(title, head, elimination_lines(found), tail)
 
 
 def _onto_text(found: ImageIdeal) -> str:
@@ -161,7 +157,7 @@ def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled
 
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import source_of_component
-    from nag.report.variables import body_rows
+    from nag.report.model import body_rows
     from nag.witness.fibres import Tracker
 
     rng = np.random.default_rng([options.seed, 4])

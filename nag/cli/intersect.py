@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import run_row
+from nag.cli.running import as_chosen, compilation_notice, progress_line, run_row
 from nag.cli.witness_input import (
     add_input,
     component_number,
@@ -45,8 +45,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    from nag.cli.progress import compilation_notice, progress_line
-
     with compilation_notice(sys.stderr, options.quiet):
         from nag.decomposition.intersection import IntersectionError, intersect_components
 
@@ -57,9 +55,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
                 result = intersect_components(
                     found.decomposition.system,
                     *pair,
-                    seed=options.seed,
-                    threads=options.threads,
-                    settings=options.settings,
+                    **as_chosen(options),
                     progress=progress,
                 )
         except IntersectionError as error:
@@ -68,8 +64,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if options.json is not None:
         document = head(found, FORMAT, options) | _document(options, pair, result, complete)
         write_document(document, options.json)
+    from nag.text.table import sheet
+    from nag.witness.shown import component_table
+
     top, tail = _rows(options, pair, result, complete)
-    return _lines(found.title, top, result, tail), complete
+    return sheet(found.title, top, component_table(result), tail), complete
 
 
 def _document(
@@ -105,7 +104,7 @@ def _rows(
     complete: bool,
 ) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     """What is written above the table, and below it."""
-    from nag.witness.shown import paths_line, remarks, title_line
+    from nag.witness.shown import paths_text, remarks, title_line
 
     top = []
     for number, component in zip(options.components, pair, strict=True):
@@ -118,22 +117,7 @@ def _rows(
     tail = [("open", line) for line in remarks(result)]
     tail += [("open", f"component {number} is undecided") for number in undecided]
     tail += [
-        ("paths", paths_line(result)),
+        ("paths", paths_text(result.paths)),
         run_row(options),
     ]
     return top, tail
-
-
-def _lines(
-    title: str,
-    top: list[tuple[str, str]],
-    result: Decomposition,
-    tail: list[tuple[str, str]],
-) -> list[str]:
-    from nag.text.table import labelled, printable
-    from nag.witness.shown import component_table
-
-    width = max(len(label) for label, _ in top + tail)
-    table = component_table(result)
-    lines = [printable(title), "", *labelled(top, width), ""]
-    return [*lines, *([*table, ""] if table else []), *labelled(tail, width)]

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_case, add_running, read_problem
-from nag.cli.running import seconds
+from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds
 from nag.cli.witness_input import Points, add_point, named_point, point_at, write_document
 
 if TYPE_CHECKING:
@@ -132,7 +132,6 @@ def _through(
     options: argparse.Namespace,
 ) -> dict[str, Any]:
     """For each point what the components through it say, beside a local dimension."""
-    from nag.cli.progress import compilation_notice, progress_line
 
     with compilation_notice(sys.stderr, options.quiet):
         from nag.decomposition.components import decompose
@@ -143,9 +142,7 @@ def _through(
         with progress_line(sys.stderr, options.quiet) as progress:
             decomposition = decompose(
                 system,
-                seed=options.seed,
-                threads=options.threads,
-                settings=options.settings,
+                **as_chosen(options),
                 progress=progress,
                 symmetries=symmetries_of(case, model),
             )
@@ -180,7 +177,7 @@ def _document(
     from pathlib import Path
 
     from nag.algebra.number import number_text
-    from nag.files.local_document import local_document
+    from nag.files.answers_at_points import local_document
 
     return {
         "format": FORMAT,

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import run_row
+from nag.cli.running import as_chosen, compilation_notice, run_row
 from nag.cli.witness_input import (
     Given,
     Points,
@@ -48,7 +48,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 
     from nag.algebra.evaluation import Evaluator
     from nag.algebra.number import is_zero, number_text
-    from nag.cli.progress import compilation_notice
 
     if (options.point is None) == (options.at is None):
         raise UsageError("give either the name of a point of the case or --at, and not both")
@@ -68,9 +67,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
                 found.decomposition,
                 at,
                 accuracy=1e-15 if exact else max(1e-12, 10 * residual),
-                seed=options.seed,
-                threads=options.threads,
-                settings=options.settings,
+                **as_chosen(options),
             )
     open_ = sum(answer is Membership.UNDECIDED for answer in answers)
     lost = exact and not open_ and Membership.MEMBER not in answers
@@ -110,7 +107,7 @@ def _lines(
     residual: float,
     answers: tuple[Any, ...],
 ) -> list[str]:
-    from nag.text.table import align, labelled, magnitude, printable
+    from nag.text.table import align, magnitude, printable, sheet
     from nag.witness.membership import Membership
 
     components = found.decomposition.components
@@ -147,12 +144,4 @@ def _lines(
         tail.append(("open", f"membership could not be decided for component {numbers}"))
     tail.append(run_row(options))
     top = [("point", printable(point)), ("equations", equations), ("answer", text)]
-    width = max(len(label) for label, _ in top + tail)
-    return [
-        printable(found.title),
-        "",
-        *labelled(top, width),
-        "",
-        *([*align(rows, [4]), ""] if components else []),
-        *labelled(tail, width),
-    ]
+    return sheet(found.title, top, align(rows, [4]) if components else [], tail)

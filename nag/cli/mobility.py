@@ -16,7 +16,7 @@ from nag.cli.arguments import (
     read_case_file,
     read_problem,
 )
-from nag.cli.running import run_row
+from nag.cli.running import as_chosen, compilation_notice, run_row
 from nag.cli.witness_input import point_at, write_document
 
 if TYPE_CHECKING:
@@ -73,7 +73,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             "reference configuration, for tables in half-angles, linkages and frameworks; one in "
             "space needs a second triangle of bars, and no --at"
         )
-    from nag.cli.progress import compilation_notice
     from nag.mechanism.mobility_report import MobilityStatus
     from nag.text.table import labelled, printable
 
@@ -175,9 +174,7 @@ def _report(
             at,
             formulation=formulation,
             detail="curves" if options.curves else "local" if options.local else "components",
-            seed=options.seed,
-            threads=options.threads,
-            settings=options.settings,
+            **as_chosen(options),
         )
     except NoAssembly as reason:
         raise UsageError(f"{options.case}: {reason}") from None
@@ -259,7 +256,7 @@ def _document(
     from pathlib import Path
 
     from nag.algebra.number import number_text
-    from nag.files.mobility_document import mobility_document
+    from nag.files.answers_at_points import mobility_document
 
     return {
         "format": FORMAT,

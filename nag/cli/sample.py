@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import add_running, whole
-from nag.cli.running import run_row
+from nag.cli.running import as_chosen, compilation_notice, run_row
 from nag.cli.witness_input import (
     Given,
     add_input,
@@ -56,8 +56,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: for bad input, or an export that cannot be written.
     """
-    from nag.cli.progress import compilation_notice
-
     with compilation_notice(sys.stderr, options.quiet):
         from nag.witness.sampling import SamplingError, sample
 
@@ -65,14 +63,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         component = component_of(found, options.component, "--component")
         system = found.decomposition.system
         try:
-            samples = sample(
-                system,
-                component,
-                options.count,
-                seed=options.seed,
-                threads=options.threads,
-                settings=options.settings,
-            )
+            samples = sample(system, component, options.count, **as_chosen(options))
             doubt = ""
         except SamplingError as error:
             samples, doubt = error.found, str(error)
@@ -100,7 +91,7 @@ def _lines(
     samples: Samples,
     doubt: str,
 ) -> list[str]:
-    from nag.text.table import align, labelled, magnitude, printable
+    from nag.text.table import align, magnitude, sheet
 
     variables = found.decomposition.system.variables
     dots = ["..."] if len(variables) > MOST_COLUMNS else []
@@ -118,6 +109,4 @@ def _lines(
     ]
     if len(samples.points) > MOST_ROWS:
         tail.insert(0, ("points", f"{len(samples.points)}, the first {MOST_ROWS} are shown"))
-    width = max(len(label) for label, _ in top + tail)
-    lines = [printable(found.title), "", *labelled(top, width), "", *align(rows), ""]
-    return [*lines, *labelled(tail, width)]
+    return sheet(found.title, top, align(rows), tail)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nag.cli import free_parameters
-from nag.cli.arguments import add_running
-from nag.cli.running import run_row
+from nag.cli.arguments import UsageError, add_running
+from nag.cli.running import as_chosen, compilation_notice, run_row
 from nag.cli.witness_input import (
     Given,
     add_input,
@@ -17,6 +17,7 @@ from nag.cli.witness_input import (
     doubts,
     given,
     head,
+    is_export,
     like,
     write_document,
 )
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from nag.decomposition.singular_locus import SingularLocus
 
 FORMAT = "nag-singular"
+PARAMETERS_FORMAT = "nag-singular-parameters"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -52,9 +54,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         UsageError: for bad input, or an export that cannot be written.
     """
     if options.free is not None:
-        return free_parameters.run(options)
-    from nag.cli.progress import compilation_notice
-
+        return _for_parameters(options)
     with compilation_notice(sys.stderr, options.quiet):
         from nag.decomposition.singular_locus import singular_locus
 
@@ -64,9 +64,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         locus = singular_locus(
             found.decomposition,
             only=None if options.component is None else [options.component - 1],
-            seed=options.seed,
-            threads=options.threads,
-            settings=options.settings,
+            **as_chosen(options),
         )
     complete = locus.complete and found.decomposition.complete
     if options.json is not None:
@@ -77,7 +75,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 def _document(
     found: Given, locus: SingularLocus, options: argparse.Namespace, complete: bool
 ) -> dict[str, Any]:
-    from nag.files.singular_document import singular_document
+    from nag.files.answers_at_points import singular_document
 
     components = found.decomposition.components
     return head(found, FORMAT, options) | {
@@ -105,3 +103,54 @@ def _lines(found: Given, locus: SingularLocus, options: argparse.Namespace) -> l
         rows = set_lines(one, decomposition.system.variables)
         lines += [*labelled([(a, printable(b)) for a, b in rows], width), ""]
     return [*lines, *labelled([(a, printable(b)) for a, b in tail], width)]
+
+
+def _for_parameters(options: argparse.Namespace) -> tuple[list[str], bool]:
+    """For which parameters there are singular points: they are solved for as well; as `run`."""
+    from nag.files.case_table import CaseError
+    from nag.files.cases import read_case
+    from nag.files.freed_parameters import freed_system
+    from nag.text.table import labelled, printable
+    from nag.witness.shown import paths_text
+
+    if is_export(options.case) or options.component is not None:
+        raise UsageError("--free: needs a case file, and no --component")
+    names = [name.strip() for name in options.free.split(",")]
+    if len(set(names)) < len(names) or not all(names):
+        raise UsageError("--free: write names of parameters, each once: 'L1, L2'")
+    for name, _ in options.set:
+        if name in names:
+            raise UsageError(f"--set {name}: is an unknown by --free; give it no value")
+    try:
+        system = freed_system(options.case, names, dict(options.set))
+    except CaseError as error:
+        raise UsageError(str(error)) from None
+    except OSError as error:
+        raise UsageError(f"{options.case}: {error.strerror or error}") from None
+    with compilation_notice(sys.stderr, options.quiet):
+        from nag.decomposition.singular_parameters import singular_parameters
+
+        try:
+            found = singular_parameters(system, len(names), **as_chosen(options))
+        except ValueError as reason:
+            raise UsageError(f"{options.case}: --free: {reason}") from None
+    title = read_case(options.case).title
+    if options.json is not None:
+        document = {
+            "format": PARAMETERS_FORMAT,
+            "version": 1,
+            "case": {"title": title, "file": Path(options.case).name},
+            "seed": options.seed,
+            "settings": options.settings,
+            "complete": found.complete,
+            "notes": list(found.notes),
+            "parameters": names,
+            "conditions": [[f.text(names) for f in each] for each in found.conditions],
+        }
+        write_document(document, options.json)
+    rows = [("singular", text) for text in found.texts()] or [("singular", "for no parameters")]
+    rows += [("open", note) for note in found.notes]
+    rows.append(("paths", paths_text(found.paths)))
+    rows.append(run_row(options))
+    body = labelled([(label, printable(text)) for label, text in rows])
+    return [printable(title), "", *body], found.complete

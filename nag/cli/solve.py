@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from nag.cli.arguments import UsageError, add_case, add_running, read_problem
 from nag.cli.certify import add_certify, certified
-from nag.cli.running import seconds, writing_json
+from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds, writing_json
 
 if TYPE_CHECKING:
     from nag.algebra.system import PolynomialSystem
@@ -40,7 +40,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: if the system cannot be solved, or the export cannot be written.
     """
-    from nag.cli.progress import compilation_notice, progress_line
     from nag.files.problem import system_of
     from nag.report.solutions import solution_lines
     from nag.solving.start.target import StartError
@@ -57,9 +56,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
                 case,
                 system,
                 options.start,
-                seed=options.seed,
-                threads=options.threads,
-                settings=options.settings,
+                **as_chosen(options),
                 progress=progress,
             )
     except StartError as error:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from nag.cli.arguments import UsageError, read_problem
-from nag.cli.running import seconds
+from nag.cli.running import as_chosen, compilation_notice, seconds
 
 MOST_VALUES = 1000
 _NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
@@ -76,8 +76,6 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         # One formulation for all values, so that their systems are one family.
         arguments.formulation = model.formulation
 
-    from nag.cli.progress import compilation_notice
-
     with compilation_notice(sys.stderr, arguments.quiet):
         from nag.decomposition.sweep import sweep
         from nag.files.problem import system_of
@@ -86,9 +84,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         swept = sweep(
             lambda value: system_of(*problem_at(value)),
             asked.values,
-            seed=arguments.seed,
-            threads=arguments.threads,
-            settings=arguments.settings,
+            **as_chosen(arguments),
         )
     complete = all(each.decomposition.complete for each in swept)
     return sweep_lines(case.title, asked.name, swept, seconds(arguments)), complete

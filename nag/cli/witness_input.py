@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_formulation, add_parameters, read_problem
-from nag.cli.running import writing_json
+from nag.cli.running import as_chosen, progress_line, writing_json
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -87,7 +87,6 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
         file = origin.file if origin else Path(options.case).name
         return Given(expanded(export.decomposition), title, file, {})
 
-    from nag.cli.progress import progress_line
     from nag.files.problem import decomposed, points_of, system_of
 
     case, model = read_problem(options)
@@ -97,14 +96,7 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
     if check is not None:
         check(system_of(case, model).variables, points)
     with progress_line(sys.stderr, options.quiet) as progress:
-        decomposition = decomposed(
-            case,
-            model,
-            seed=options.seed,
-            threads=options.threads,
-            settings=options.settings,
-            progress=progress,
-        )
+        decomposition = decomposed(case, model, **as_chosen(options), progress=progress)
     return Given(expanded(decomposition), case.title, Path(case.path).name, points)
 
 

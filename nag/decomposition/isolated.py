@@ -14,8 +14,8 @@ from math import prod
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.generic_rank import is_dependent
 from nag.algebra.high_precision import vanish
+from nag.algebra.linear_algebra import is_dependent
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -115,10 +115,7 @@ def solved_at_once(
         return None
     if found.positive_dimensional and not (outside and _all_excluded(system, found.on_components)):
         return None
-    evaluator = Evaluator.of(system.polynomials, system.n)
-    components = [_component(s, evaluator, system) for s in found.solutions]
-    if symmetries:
-        components = in_orbits(system, components, symmetries)
+    components = _components(found, system, symmetries)
     return Decomposition(
         system=system,
         components=tuple(components),
@@ -148,10 +145,7 @@ def with_points(
     found = _solved(system, rng, tracker, False)
     if found is None or not found.complete:
         return None
-    evaluator = Evaluator.of(system.polynomials, system.n)
-    points = [_component(s, evaluator, system) for s in found.solutions]
-    if symmetries:
-        points = in_orbits(system, points, symmetries)
+    points = _components(found, system, symmetries)
     tracked = answer.paths.tracked + found.paths.tracked
     whole = replace(
         answer,
@@ -192,6 +186,14 @@ def counted(answer: Decomposition, scheme: bool) -> Decomposition:
         return replace(answer, complete=True, notes=()) if decided else answer
     note = f"{zeros} zeros were found, and there are {count.bound}"
     return replace(answer, complete=False, notes=(*answer.notes, note))
+
+
+def _components(
+    found: SolveResult, system: PolynomialSystem, symmetries: Sequence[SignedPermutation]
+) -> list[WitnessSet]:
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    points = [_component(s, evaluator, system) for s in found.solutions]
+    return in_orbits(system, points, symmetries) if symmetries else points
 
 
 def _component(solution: Solution, evaluator: Evaluator, system: PolynomialSystem) -> WitnessSet:

@@ -2,7 +2,7 @@
 
 Where exact elimination leaves one equation, irreducible over the rationals, its zero set on a
 generic line is the zeros of a polynomial in one variable, isolated in balls. Irreducibility over
-the complex numbers is Gao's rank (`nag.algebra.absolute_factors`). If there are several factors
+the complex numbers is Gao's rank (`nag.algebra.factoring`). If there are several factors
 they are conjugate, of equal degree; then roots belong together whose sum moves linearly with the
 line, so that the sum of their second derivatives is zero, which balls of many digits show
 (Sommese, Verschelde & Wampler 2002).
@@ -19,10 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.absolute_factors import most_absolute_factors
-from nag.algebra.factoring import factored
+from nag.algebra.factoring import factored, most_absolute_factors
+from nag.algebra.linear_algebra import rational_matrix
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.rational_matrix import rational_matrix
 from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction

@@ -212,9 +212,9 @@ def _left_null_space(own: PolynomialSystem, r: int, rng: np.random.Generator) ->
     jacobian = _jacobian(own, total)
     if m > r:
         columns = list(zip(*jacobian, strict=True))
-        jacobian = [[_combined(column, row) for column in columns] for row in _random(rng, r, m)]
+        jacobian = [[product(column, row) for column in columns] for row in _random(rng, r, m)]
     ones = [Polynomial.constant(total, 1), *Polynomial.variables(total)[n:]]
-    w = [_combined(ones, row) for row in _random(rng, r, r)]
+    w = [product(ones, row) for row in _random(rng, r, r)]
     return _conditions(own, [product(w, column) for column in zip(*jacobian, strict=True)])
 
 
@@ -230,7 +230,7 @@ def _right_null_space(own: PolynomialSystem, r: int, rng: np.random.Generator) -
     conditions = []
     for j in range(wide):
         column = [Polynomial.constant(total, int(i == j)) for i in range(wide)]
-        column = [_combined([*column, *free[j::wide]], row) for row in turn]
+        column = [product([*column, *free[j::wide]], row) for row in turn]
         conditions += [product(row, column) for row in jacobian]
     return _conditions(own, conditions)
 
@@ -250,14 +250,7 @@ def _random(rng: np.random.Generator, rows: int, columns: int) -> list[list[Frac
     return [[Fraction(round(float(c) * 2**BITS), 2**BITS) for c in row] for row in matrix]
 
 
-def _combined(parts: Sequence[Polynomial], weights: Sequence[Fraction]) -> Polynomial:
-    total = Polynomial(parts[0].n, {})
-    for f, weight in zip(parts, weights, strict=True):
-        total = total + f * weight
-    return total
-
-
-def product(w: Sequence[Polynomial], column: Sequence[Polynomial]) -> Polynomial:
+def product(w: Sequence[Polynomial], column: Sequence[Polynomial | Fraction]) -> Polynomial:
     """The inner product."""
     total = Polynomial(w[0].n, {})
     for a, b in zip(w, column, strict=True):

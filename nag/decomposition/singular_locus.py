@@ -28,7 +28,7 @@ from nag.numerics.tangent_cone import TangentCone, tangent_cone
 from nag.witness.expansion import expanded
 from nag.witness.fibres import Tracker
 from nag.witness.membership import component_fibres, component_system
-from nag.witness.point_multiplicity import multiplicity_at
+from nag.witness.multiplicity import multiplicity_at
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.

@@ -3,5 +3,6 @@
 Read in this order: `cases` on `case_table` (TOML in), with a file for each kind (`mechanism_case`,
 `framework_case`, `dh_case`, `linkage_case`) and `case_family`; `problem` (what a case asks);
 `export` and `solutions_export` on `json_text` and `json_values`, with their `schemas` in
-``schema/``; `written_file` (checked first, replaced in one step).
+``schema/``; `answers_at_points` (parts of exports); `written_file` (checked first, replaced in one
+step).
 """

@@ -13,7 +13,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from nag.algebra.expression import Budget, parse_number, parse_polynomial
+from nag.algebra.bounded import Budget
+from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.family import Family
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial

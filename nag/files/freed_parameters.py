@@ -6,7 +6,8 @@ import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from nag.algebra.expression import Budget, parse_polynomial
+from nag.algebra.bounded import Budget
+from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import names_in, nearest, quote
 from nag.files.case_table import CaseError, Table, read_toml

@@ -1,19 +1,21 @@
-"""Mechanisms in case files: bodies, and joints in the assembled reference configuration."""
+"""Mechanisms in case files: bodies, and joints in the assembled reference configuration.
+
+An axis is given by a point and a direction, by two points, or by Pluecker coordinates: a direction
+and the moment, point x direction, of any point of the line; the two are orthogonal.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-from nag.algebra.number import Number
-from nag.files.axis_forms import KEYS as LINE_KEYS
-from nag.files.axis_forms import SECOND_KEYS, read_line, read_second_line
-from nag.files.case_table import Table
+from nag.algebra.number import Number, is_zero, number_text
+from nag.files.case_table import ReadNumber, Table
+from nag.mechanism.axes import Vector, cross, difference, dot, nearest, vanishes
 from nag.mechanism.graph import ORIGIN, Body, Joint, Mechanism, MechanismError
 from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS
 
-ReadNumber = Callable[[Any], Number]
-
+LINE_KEYS = ("through", "line")
+SECOND_KEYS = ("second_through", "second_line")
+# A point and a direction.
+Line = tuple[Vector, Vector]
 VECTORS = ("point", "axis", "second_axis")
 
 
@@ -47,7 +49,7 @@ def _read_joint(name: str, table: Table, number: ReadNumber) -> Joint:
     known = JOINT_TYPES.get(SYNONYMS.get(kind, kind))
     # What the type needs is asked for here; what does not belong to it, the joint itself refuses.
     needed = () if known is None else known.fields
-    line = read_line(table, number)
+    line = _read_line(table, number)
     vectors = dict(zip(("point", "axis"), line, strict=True)) if line else {}
     as_line = any(key in table.values for key in second_keys)
     for key in VECTORS:
@@ -55,7 +57,7 @@ def _read_joint(name: str, table: Table, number: ReadNumber) -> Joint:
         if key not in vectors and wanted:
             vectors[key] = table.vector(key, 3, number)
     second = (
-        read_second_line(table, number, (vectors["point"], vectors["axis"])) if as_line else None
+        _read_second_line(table, number, (vectors["point"], vectors["axis"])) if as_line else None
     )
     if second is not None:
         vectors["point"], vectors["second_axis"] = second
@@ -75,3 +77,78 @@ def _read_body(name: str, table: Table, number: ReadNumber) -> Body:
     if "orientation" in table.values:
         orientation = table.vector("orientation", 4, number)
     return Body(name=name, orientation=orientation)
+
+
+def _read_line(table: Table, number: ReadNumber) -> Line | None:
+    """A point and the direction of the axis, where it is given by two points or by ``line``."""
+    return _line_by(table, number, LINE_KEYS, ("point", "axis"))
+
+
+def _read_second_line(table: Table, number: ReadNumber, first: Line) -> Line | None:
+    """Where a universal joint's axis in its second body, given as a line, meets the first axis.
+
+    The point that both have in common, and the direction of the second one; None if it is not
+    given as a line. Parallel axes are left to the joint.
+    """
+    line = _line_by(table, number, SECOND_KEYS, ("second_axis",))
+    if line is None:
+        return None
+    (p, u), (q, v) = first, line
+    normal, apart = cross(u, v), difference(q, p)
+    if vanishes(normal):
+        return p, v
+    squared, gap = dot(normal, normal), dot(apart, normal)
+    if not is_zero(gap):
+        key = next(key for key in SECOND_KEYS if key in table.values)
+        distance = abs(float(gap)) / float(squared) ** 0.5
+        table.fail(
+            key,
+            f"passes the first axis at a distance of {distance:.6g}; the axes of a universal joint "
+            "meet",
+        )
+    return nearest(first, line), v
+
+
+def _line_by(
+    table: Table, number: ReadNumber, keys: tuple[str, str], others: tuple[str, ...]
+) -> Line | None:
+    given = [key for key in keys if key in table.values]
+    if not given:
+        return None
+    beside = [key for key in (*keys, *others) if key in table.values and key != given[0]]
+    if beside:
+        table.fail(beside[0], f"{given[0]!r} gives the axis already; leave one of them out")
+    return (_through if given[0] == keys[0] else _line)(table, number, given[0])
+
+
+def _through(table: Table, number: ReadNumber, key: str) -> Line:
+    places = table.items(key, "points [x, y, z] of the axis", 2)
+    inner = Table(table.file, f"{table.place}: {key}", dict(zip("12", places, strict=True)))
+    first, second = (inner.vector(place, 3, number) for place in "12")
+    axis = difference(second, first)
+    if vanishes(axis):
+        table.fail(key, "both points are the same; an axis needs two different ones")
+    return first, axis
+
+
+def _line(table: Table, number: ReadNumber, key: str) -> Line:
+    wanted = "{ direction = [x, y, z], moment = [x, y, z] }"
+    inner = Table(table.file, f"{table.place}: {key}", table.get(key, dict, wanted))
+    inner.allow(("direction", "moment"))
+    axis, moment = (inner.vector(key, 3, number) for key in ("direction", "moment"))
+    if vanishes(axis):
+        inner.fail("direction", "has length zero; a line needs a direction")
+    product = dot(axis, moment)
+    if not is_zero(product):
+        inner.fail(
+            "moment",
+            f"its product with the direction is {_short(product)}, it must be 0: the moment is "
+            "point x direction",
+        )
+    squared = dot(axis, axis)
+    return tuple(x / squared for x in cross(axis, moment)), axis
+
+
+def _short(value: Number) -> str:
+    text = number_text(value)
+    return text if len(text) <= 40 else f"{float(value):.6g}"

@@ -9,7 +9,8 @@ from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
 
-from nag.algebra.expression import Budget, parse_number
+from nag.algebra.bounded import Budget
+from nag.algebra.expression import parse_number
 from nag.algebra.number import Number
 from nag.algebra.tokens import is_name, names_in, nearest, quote
 from nag.files.case_table import Table, kind_of, shown

@@ -30,7 +30,7 @@ def decomposed(case: Case, model: Model | None, **options: Any) -> Decomposition
         from nag.mechanism.parts_decomposition import decompose_parts
 
         return decompose_parts(case.assembly, **options)
-    from nag.decomposition import decompose
+    from nag.decomposition.components import decompose
 
     return decompose(system_of(case, model), **options)
 

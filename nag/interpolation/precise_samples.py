@@ -14,8 +14,8 @@ import flint
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.number import Number
-from nag.algebra.rational_matrix import jacobian_rank
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.digits import number
 from nag.numerics.small_values import ON

@@ -10,10 +10,10 @@ import flint
 
 from nag.algebra.division import Divisor, divisor, remainder
 from nag.algebra.groebner import Ideal, UnfinishedBasis, cleared, ideal_of
+from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.multipliers import multipliers
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_function import FunctionField, RationalFunction
-from nag.algebra.rational_matrix import jacobian_rank
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.point_cloud import Cloud
 from nag.numerics.digits import number

@@ -9,6 +9,9 @@ from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 
+# Imaginary parts of real assemblies, relative to the size of the point.
+REAL = 1e-8
+
 
 class AssemblyModel(Protocol):
     """A system whose solutions are all assemblies of given parts, real and complex."""
@@ -31,3 +34,12 @@ class AssemblyModel(Protocol):
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real assembly, to within rounding."""
+
+
+class RealCoordinates:
+    """Models in coordinates that are real exactly where an assembly is."""
+
+    def is_real(self, point: Sequence[complex]) -> bool:
+        """Whether a solution is a real assembly, to within rounding."""
+        bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
+        return all(abs(complex(x).imag) <= bound for x in point)

@@ -14,11 +14,14 @@ from fractions import Fraction
 from math import acos, degrees, sqrt
 from typing import Any
 
+from nag.algebra.linear_algebra import independent_polynomials, left_inverse, null_space
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.mechanism.assembly import RealCoordinates
 from nag.mechanism.axes import zero_length
 from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.loop_product import closing_equations, split_product
 from nag.mechanism.quaternion import (
     DualQuaternion,
     dual_conjugate,
@@ -27,7 +30,6 @@ from nag.mechanism.quaternion import (
     rotate,
     translation,
 )
-from nag.mechanism.row_reduction import independent_polynomials, left_inverse, null_space
 
 HalfAngle = tuple[Number, Number]
 
@@ -45,8 +47,6 @@ _CHARTS = tuple(
         (-9, 19), (6, 23), (-11, 29), (13, 31), (-12, 37),
     )
 )  # fmt: skip
-# Imaginary parts of real closings.
-REAL = 1e-8
 
 
 class DHError(ValueError):
@@ -117,7 +117,7 @@ class DHLoop:
 
 
 @dataclass(frozen=True)
-class DHModel:
+class DHModel(RealCoordinates):
     """All ways to close a table with open angles.
 
     Attributes:
@@ -168,11 +168,6 @@ class DHModel:
             if is_zero(first.a) and any(map(is_zero, first.alpha))
         )
 
-    def is_real(self, point: Sequence[complex]) -> bool:
-        """Whether a solution is a real closing, to within rounding."""
-        bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
-        return all(abs(complex(x).imag) <= bound for x in point)
-
     def half_angles(self, point: Sequence[complex]) -> dict[str, tuple[complex, complex]]:
         """(c, s) of every open joint, up to scale each, at a solution of `system`."""
         return self.turns([complex(x) for x in point], lambda c: complex(float(c)))
@@ -189,16 +184,11 @@ class DHModel:
         for (c, s), after in zip(kept, self.product, strict=True):
             factors += [_turn(c, s), tuple(tuple(map(convert, part)) for part in after)]
         flat = _flat(dual_conjugate(_product(factors)))
-        w00, w10, w01, w11 = (
+        w = [
             sum((convert(y) * x for y, x in zip(row, flat, strict=True)), 0 * one)
             for row in self.coordinates
-        )
-        matrix = ((w00, w01), (w10, w11))
-        row, column = max(
-            ((i, j) for i in (0, 1) for j in (0, 1)),
-            key=lambda ij: abs(complex(matrix[ij[0]][ij[1]])),
-        )
-        ends = ((matrix[0][column], matrix[1][column]), matrix[row])
+        ]
+        ends = split_product(w, lambda x: abs(complex(x)))
         numbers = (*self.kept, *self.eliminated)
         return {self.loop.rows[i].name: x for i, x in zip(numbers, (*kept, *ends), strict=True)}
 
@@ -223,11 +213,8 @@ def dh_model(loop: DHLoop) -> DHModel:
     for k, x, after in zip(charts, variables, links, strict=False):
         factors += [_turn(1 - k * x, k + x), after]
     flat = _flat(dual_conjugate(_product(factors)))
-    equations = [_combine(row, flat) for row in null_space(basis, 8)]
     coordinates = tuple(left_inverse(basis))
-    if not regular:
-        w00, w10, w01, w11 = (_combine(row, flat) for row in coordinates)
-        equations.append(w00 * w11 - w10 * w01)
+    equations = closing_equations(flat, null_space(basis, 8), () if regular else coordinates)
     names = tuple(f"x_{loop.rows[i].name}" for i in numbers[:-2])
     system = PolynomialSystem(
         names,
@@ -343,7 +330,3 @@ def _product(factors: Sequence[DualQuaternion]) -> DualQuaternion:
 
 def _flat(x: DualQuaternion) -> list[Any]:
     return [entry for part in x for entry in part]
-
-
-def _combine(row: Sequence[Number], flat: Sequence[Polynomial]) -> Polynomial:
-    return sum((f * c for c, f in zip(row, flat, strict=True)), Polynomial(flat[0].n, {}))

@@ -17,13 +17,15 @@ from string import ascii_lowercase
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.linear_algebra import independent_polynomials
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.given_points import best_lifted
+from nag.mechanism.assembly import RealCoordinates
 from nag.mechanism.configuration import arithmetic_of, as_entries
 from nag.mechanism.coordinates import carried_over
-from nag.mechanism.dh import REAL, DHError, DHLoop, DHModel, dh_model, opened
+from nag.mechanism.dh import DHError, DHLoop, DHModel, dh_model, opened
 from nag.mechanism.formulations import Alternative
 from nag.mechanism.quaternion import (
     DualQuaternion,
@@ -35,7 +37,6 @@ from nag.mechanism.quaternion import (
     scale,
     translation,
 )
-from nag.mechanism.row_reduction import independent_polynomials
 from nag.witness.witness import Decomposition
 
 ZERO, ONE = Fraction(0), Fraction(1)
@@ -43,7 +44,7 @@ _IDENTITY: Quaternion = (ONE, ZERO, ZERO, ZERO)
 
 
 @dataclass(frozen=True)
-class DHEulerModel:
+class DHEulerModel(RealCoordinates):
     """All ways to close a table, by the Euler parameters of the bodies between its open joints.
 
     Attributes:
@@ -74,11 +75,6 @@ class DHEulerModel:
             f"Hartenberg's numbers; Euler parameters of {moving} bodies, each in the frame of the "
             f"joint before it, {2 ** len(self.symmetries)} sign changes of them keep the equations"
         )
-
-    def is_real(self, point: Sequence[complex]) -> bool:
-        """Whether a solution is a real closing, to within rounding."""
-        bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
-        return all(abs(complex(x).imag) <= bound for x in point)
 
     def of_half_angles(self, source: DHModel, point: Sequence[Any]) -> tuple[Any, ...]:
         """The point of `system`, one of an orbit, that a closing in half-angles is.

@@ -16,6 +16,7 @@ from string import ascii_lowercase
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
+from nag.algebra.linear_algebra import independent_polynomials, row_echelon
 from nag.algebra.number import Number, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -31,7 +32,6 @@ from nag.mechanism.configuration import (
 from nag.mechanism.graph import Joint
 from nag.mechanism.loops import Loop, LoopStructure
 from nag.mechanism.quaternion import Quaternion, conjugate, multiply, norm_squared, rotate
-from nag.mechanism.row_reduction import independent_polynomials, row_echelon
 
 Parameters = Mapping[str, Quaternion]
 Slides = Mapping[str, Sequence[Any]]

@@ -18,6 +18,7 @@ from nag.mechanism.loops import LoopStructure
 from nag.mechanism.path_estimates import PathNumbers
 from nag.mechanism.planar import PlanarModel, planar_model
 from nag.mechanism.rods import RodModel, rod_model
+from nag.text.table import counted
 
 Form = EulerModel | HalfAngleModel | PlanarModel | RodModel
 
@@ -133,8 +134,3 @@ def joints_text(joints: Sequence[Joint]) -> str:
     kinds = Counter(j.type for j in joints)
     parts = [counted(number, f"{kind} joint") for kind, number in kinds.items()]
     return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
-
-
-def counted(number: int, noun: str) -> str:
-    """A number and a noun."""
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

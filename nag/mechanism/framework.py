@@ -128,14 +128,11 @@ class Framework:
         """Velocities of the placement that keep all lengths, modulo motions; None without one."""
         if self.placement is None:
             return None
-        if not all(isinstance(x, Fraction) for place in self.placement for x in place):
-            from nag.mechanism.row_reduction import row_echelon
+        from nag.algebra.linear_algebra import rational_rank, row_echelon
 
-            rank = len(row_echelon(self._rigidity_matrix(self.placement))[0])
-        else:
-            from nag.algebra.rational_matrix import rank as rational_rank
-
-            rank = rational_rank(self._rigidity_matrix(self.placement))
+        rows = self._rigidity_matrix(self.placement)
+        exact = all(isinstance(x, Fraction) for place in self.placement for x in place)
+        rank = rational_rank(rows) if exact else len(row_echelon(rows)[0])
         return self.dimension * len(self.points) - self.motions - rank
 
     def generic_motions(self) -> int:

@@ -21,13 +21,11 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.mechanism.assembly import REAL
 from nag.mechanism.axes import cross, difference, dot
 from nag.mechanism.framework import Framework, FrameworkError, Place
 from nag.mechanism.isotropic import conjugates, isotropic_system
 from nag.mechanism.path_estimates import fewest_estimated_paths
-
-# Imaginary parts of real realisations, relative to the size of the point.
-REAL = 1e-8
 
 
 @dataclass(frozen=True)

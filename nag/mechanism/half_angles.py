@@ -17,7 +17,6 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import difference
-from nag.mechanism.charts import Charts
 from nag.mechanism.configuration import (
     Arithmetic,
     Configuration,
@@ -26,7 +25,7 @@ from nag.mechanism.configuration import (
     configuration,
 )
 from nag.mechanism.euler import slide_directions
-from nag.mechanism.joint_factors import Factor
+from nag.mechanism.joint_factors import Charts, Factor
 from nag.mechanism.loop_product import (
     Closure,
     Element,
@@ -142,7 +141,7 @@ def half_angle_model(structure: LoopStructure, modes: Modes = REFERENCE) -> Half
     lost = {f for c in chosen for f in c.lost}
     kept = [f for f in _in_order(chosen) if f not in lost]
     if not kept:
-        raise ValueError(_too_short(structure))
+        raise ValueError(_too_short(len(structure.joints)))
     charts = Charts.of(kept)
     equations = [f for c in chosen for f in c.polynomials(charts.values.__getitem__)]
     return HalfAngleModel(
@@ -163,7 +162,7 @@ def _choose_closures(
     problem = ""
     for loops in loop_bases(structure):
         elements: dict[str, tuple[Element, ...]] = {}
-        products = [_loop_elements(structure, loop, modes, elements) for loop in loops]
+        products = [_loop_elements(loop, modes, elements) for loop in loops]
         users: dict[Factor, int] = {}
         for product in products:
             for element in product:
@@ -194,7 +193,7 @@ def _choose_closures(
 def _nothing_to_eliminate(loop: Loop, loops: int) -> str:
     joints = ", ".join(j.name for j in loop.joints)
     if loops == 1 and len(loop.joints) < 3:
-        return f"half-angles need a loop of at least 3 joints; this one has {len(loop.joints)}"
+        return _too_short(len(loop.joints))
     if loops == 1:
         return "all axes of the loop coincide, or all its joints slide: nothing can be eliminated"
     return (
@@ -203,8 +202,7 @@ def _nothing_to_eliminate(loop: Loop, loops: int) -> str:
     )
 
 
-def _too_short(structure: LoopStructure) -> str:
-    count = len(structure.joints)
+def _too_short(count: int) -> str:
     return f"half-angles need a loop of at least 3 joints; this one has {count}"
 
 
@@ -218,7 +216,6 @@ def _cost(closure: Closure) -> tuple[int, int]:
 
 
 def _loop_elements(
-    structure: LoopStructure,
     loop: Loop,
     modes: dict[str, int],
     known: dict[str, tuple[Element, ...]],

@@ -18,11 +18,9 @@ from typing import Any
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.mechanism.assembly import RealCoordinates
 
 Place = tuple[Number, Number]
-
-# Imaginary parts of real assemblies.
-REAL = 1e-8
 
 
 class LinkageError(ValueError):
@@ -110,7 +108,7 @@ class Linkage:
 
 
 @dataclass(frozen=True)
-class LinkageModel:
+class LinkageModel(RealCoordinates):
     """All assemblies of a linkage as a system.
 
     Attributes:
@@ -141,11 +139,6 @@ class LinkageModel:
         if self.free:
             text += f"; cut off, turning freely: links {', '.join(self.free)}"
         return text
-
-    def is_real(self, point: Sequence[complex]) -> bool:
-        """Whether a solution is a real assembly, to within rounding."""
-        bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
-        return all(abs(complex(x).imag) <= bound for x in point)
 
 
 def linkage_model(linkage: Linkage) -> LinkageModel:

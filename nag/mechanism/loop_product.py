@@ -21,6 +21,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from nag.algebra.linear_algebra import left_inverse, null_space, row_echelon
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.mechanism.axes import dot
@@ -38,7 +39,6 @@ from nag.mechanism.quaternion import (
     dual_multiply,
     translation,
 )
-from nag.mechanism.row_reduction import left_inverse, null_space, row_echelon
 
 
 @dataclass(frozen=True)
@@ -93,11 +93,7 @@ class Closure:
     def polynomials(self, coordinates: Callable[[Factor], Sequence[Any]]) -> list[Polynomial]:
         """The loop's equations; ``coordinates`` gives a factor's homogeneous coordinates."""
         flat = conjugate_product(self.kept, coordinates)
-        equations = [_combine(row, flat) for row in self.annihilator]
-        if self.quadric:
-            w00, w10, w01, w11 = (_combine(row, flat) for row in self.coordinates)
-            equations.append(w00 * w11 - w10 * w01)
-        return equations
+        return closing_equations(flat, self.annihilator, self.coordinates if self.quadric else ())
 
     def recovered(
         self, coordinates: Callable[[Factor], Sequence[Any]], convert: Callable[[Number], Any]
@@ -111,13 +107,36 @@ class Closure:
         ]
         if len(self.lost) == 1:
             return {self.lost[0]: tuple(w)}
-        # The matrix has rank one; its largest entry is never zero, w00 is at half a turn.
-        matrix = ((w[0], w[2]), (w[1], w[3]))
-        row, column = max(
-            ((i, j) for i in (0, 1) for j in (0, 1)), key=lambda ij: abs(matrix[ij[0]][ij[1]])
-        )
-        first, second = self.lost
-        return {first: (matrix[0][column], matrix[1][column]), second: matrix[row]}
+        return dict(zip(self.lost, split_product(w), strict=True))
+
+
+def closing_equations(
+    flat: Sequence[Polynomial],
+    annihilator: Sequence[Sequence[Number]],
+    coordinates: Sequence[Sequence[Number]] = (),
+) -> list[Polynomial]:
+    """What vanishes when a loop closes.
+
+    Args:
+        flat: the entries of conj(A).
+        annihilator: rows whose products with these vanish.
+        coordinates: rows that give them in the basis of W, where w00 w11 = w10 w01 is needed.
+    """
+    equations = [_combine(row, flat) for row in annihilator]
+    if coordinates:
+        w00, w10, w01, w11 = (_combine(row, flat) for row in coordinates)
+        equations.append(w00 * w11 - w10 * w01)
+    return equations
+
+
+def split_product(w: Sequence[Any], size: Callable[[Any], float] = abs) -> tuple[Any, Any]:
+    """Homogeneous coordinates of two factors from w00, w10, w01 and w11, those of their product."""
+    matrix = ((w[0], w[2]), (w[1], w[3]))
+    # The matrix has rank one; its largest entry is never zero, w00 is at half a turn.
+    row, column = max(
+        ((i, j) for i in (0, 1) for j in (0, 1)), key=lambda ij: size(matrix[ij[0]][ij[1]])
+    )
+    return (matrix[0][column], matrix[1][column]), matrix[row]
 
 
 def conjugate_product(
@@ -199,7 +218,7 @@ def _closure(kept: Sequence[Element], piece: Sequence[Element]) -> Closure | Non
     )
 
 
-def dot4(p: Sequence[Number], q: Sequence[Number]) -> Number:
+def dot4(p: Sequence[Any], q: Sequence[Any]) -> Any:
     """The scalar product of two quaternions."""
     return p[0] * q[0] + dot(p[1:], q[1:])
 
@@ -222,6 +241,11 @@ def _joint_elements(joint: Joint, mode: int, forward: bool) -> Iterator[Element]
         yield Element(factor, generators if forward else reversed_generators(generators))
     if mode:
         yield Element(None, (mode_constant(joint, mode),))
+
+
+def factors_in(elements: Sequence[Element]) -> list[Factor]:
+    """The factors of a product, each once."""
+    return list(dict.fromkeys(e.factor for e in elements if e.factor is not None))
 
 
 def opposite(elements: Sequence[Element]) -> list[Element]:

@@ -1,18 +1,87 @@
-"""The part of a mechanism that has loops, and a basis of its loops."""
+"""What of a mechanism can move: bodies that are tied rigidly are one, and the rest has loops.
+
+Gruebler and Kutzbach count freedoms without looking at the geometry.
+
+Triangles of bodies and the like are left as they are: each of their assemblies belongs to other
+components. In half-angles a planar triangle's equation factors, so that exact algebra takes it out.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.joint_types import JOINT_FREEDOMS
-from nag.mechanism.rigid_groups import RigidGroups, rigid_groups
+from nag.mechanism.axes import space_of
+from nag.mechanism.graph import Body, Joint, Mechanism
+from nag.mechanism.joint_types import JOINT_FREEDOMS, freedoms_in
 
 if TYPE_CHECKING:
     import networkx
+
+
+@dataclass(frozen=True)
+class RigidGroups:
+    """A mechanism whose rigidly tied bodies are one.
+
+    Attributes:
+        original: the mechanism as it was given.
+        merged: the same without rigid joints; each group goes by the name of its first body. A
+            mechanism of rigid joints only stays as it is.
+        leader: that name, for every body of the original.
+        idle: joints between two bodies of one group; they cannot move.
+    """
+
+    original: Mechanism
+    merged: Mechanism
+    leader: Mapping[str, str]
+    idle: tuple[Joint, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "leader", MappingProxyType(dict(self.leader)))
+
+    @property
+    def is_one_body(self) -> bool:
+        """Whether nothing is left that moves."""
+        return len(set(self.leader.values())) == 1
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return RigidGroups, (self.original, self.merged, dict(self.leader), self.idle)
+
+
+def rigid_groups(mechanism: Mechanism, held: Collection[str] = ()) -> RigidGroups:
+    """Tie the bodies of rigid joints together, and of those that are held.
+
+    Joints are in global coordinates of the reference configuration, so that they stay as they are;
+    only the names of their bodies change.
+
+    Args:
+        held: names of joints.
+    """
+    ties = {j.name for j in mechanism.joints if j.type == "rigid" or j.name in held}
+    leader = {b: b for b in mechanism.body_names}
+    order = {b: i for i, b in enumerate(mechanism.body_names)}
+    for joint in mechanism.joints:
+        if joint.name in ties:
+            first, second = sorted((leader[b] for b in joint.bodies), key=order.__getitem__)
+            leader = {b: first if name == second else name for b, name in leader.items()}
+    kept, idle = [], []
+    for joint in mechanism.joints:
+        bodies = tuple(leader[b] for b in joint.bodies)
+        if joint.name in ties:
+            continue
+        if bodies[0] == bodies[1]:
+            idle.append(joint)
+        else:
+            kept.append(replace(joint, bodies=bodies))
+    if len(kept) == len(mechanism.joints) or not kept:
+        return RigidGroups(mechanism, mechanism, leader, tuple(idle))
+    used = {b for j in kept for b in j.bodies}
+    frames = tuple(Body(b, mechanism.orientation(b)) for b in mechanism.body_names if b in used)
+    merged = Mechanism(leader[mechanism.ground], tuple(kept), frames)
+    return RigidGroups(mechanism, merged, leader, tuple(idle))
 
 
 @dataclass(frozen=True)
@@ -212,3 +281,20 @@ def _ordered(joints: list[Joint]) -> Loop:
         chain.append(joint)
         bodies.append(joint.other(bodies[-1]))
     return Loop(tuple(bodies[:-1]), tuple(chain))
+
+
+def gruebler_kutzbach(mechanism: Mechanism) -> int:
+    """Freedoms of all moving bodies minus the conditions of all joints.
+
+    A body has 6 freedoms in space and 3 in planar and spherical mechanisms. The count is wrong
+    for overconstrained mechanisms: it knows nothing of the geometry (T25, section 7).
+
+    >>> import nag
+    >>> nag.gruebler_kutzbach(nag.read_case("cases/bennett.toml").mechanism)  # and yet it moves
+    -2
+    """
+    space = space_of(mechanism.joints)
+    freedoms = 6 if space == "spatial" else 3
+    moving = len(mechanism.body_names) - 1
+    lost = sum(freedoms - freedoms_in(j.type, space) for j in mechanism.joints)
+    return freedoms * moving - lost

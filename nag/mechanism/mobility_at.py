@@ -22,8 +22,7 @@ from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.joint_types import freedoms_in
 from nag.mechanism.linkage import LinkageModel
-from nag.mechanism.loops import loop_structure
-from nag.mechanism.mobility import gruebler_kutzbach
+from nag.mechanism.loops import gruebler_kutzbach, loop_structure
 from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model, model
 from nag.mechanism.parts_decomposition import decompose_parts

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from nag.decomposition import decompose, intersect_components
+from nag.algebra.linear_algebra import row_echelon
+from nag.decomposition.components import decompose
+from nag.decomposition.intersection import intersect_components
 from nag.mechanism.coordinates import euler_decomposition
 from nag.mechanism.euler import mode_conditions
 from nag.mechanism.graph import Mechanism
@@ -13,7 +15,6 @@ from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.mode_classes import ModeClass, mode_classes
 from nag.mechanism.model import Model, ModelError, model, with_loops
-from nag.mechanism.row_reduction import row_echelon
 from nag.witness.expansion import expanded
 from nag.witness.witness import Decomposition
 

@@ -21,20 +21,19 @@ from nag.mechanism.formulations import (
     ModelError,
     alternative,
     alternatives,
-    counted,
     description,
     joints_text,
     smallest,
 )
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.half_angles import HalfAngleModel
-from nag.mechanism.loops import LoopStructure, loop_structure
-from nag.mechanism.mobility import gruebler_kutzbach
+from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
 from nag.mechanism.path_estimates import path_bound
 from nag.mechanism.planar import PlanarModel
 from nag.mechanism.projection import projected
 from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
+from nag.text.table import counted
 
 __all__ = ["Model", "ModelError", "formulations", "model"]
 

@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from nag.algebra.elimination import Elimination
+from nag.algebra.linear_algebra import independent_polynomials
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -37,7 +38,6 @@ from nag.mechanism.euler import slide_carrier, slide_names, without_slides
 from nag.mechanism.graph import Joint
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import Quaternion, multiply
-from nag.mechanism.row_reduction import independent_polynomials
 
 Turn = tuple[Any, Any]
 

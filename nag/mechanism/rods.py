@@ -18,7 +18,6 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import across, cross, difference, dot
-from nag.mechanism.charts import Charts, factors_in
 from nag.mechanism.configuration import (
     Arithmetic,
     Configuration,
@@ -28,10 +27,12 @@ from nag.mechanism.configuration import (
 )
 from nag.mechanism.euler import slide_directions
 from nag.mechanism.graph import Joint
-from nag.mechanism.joint_factors import free_factor
+from nag.mechanism.joint_factors import Charts, free_factor
 from nag.mechanism.loop_product import (
     Element,
     displacement,
+    dot4,
+    factors_in,
     joint_elements,
     moved,
     opposite,
@@ -225,11 +226,6 @@ def _distance(motion: DualQuaternion, a: Sequence[Number], b: Sequence[Number]) 
     gap = tuple(x + 2 * y for x, y in zip(gap, dual, strict=True))
     link = difference(b, a)
     return norm_squared(gap) - norm_squared(real) * dot(link, link)
-
-
-def dot4(p: Sequence[Any], q: Sequence[Any]) -> Any:
-    """The scalar product of two quaternions."""
-    return p[0] * q[0] + dot(p[1:], q[1:])
 
 
 def _motion(elements: Sequence[Element], values: Any, convert: Any) -> DualQuaternion:

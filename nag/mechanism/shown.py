@@ -6,7 +6,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING
 
 from nag.algebra.number import Number, number_text
-from nag.algebra.shown import system_line
+from nag.algebra.system import system_line
 from nag.mechanism.graph import Joint
 from nag.text.table import align, counted, html_table, lines_of, printable, shortened
 

@@ -18,17 +18,16 @@ import numpy as np
 from scipy.linalg import qr
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.rational_matrix import jacobian_rank
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import fine_box, overlaps
 from nag.numerics.close_zeros import close_zeros, matched
 from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
-from nag.numerics.digits import middle, number
+from nag.numerics.digits import middle, number, rational_point
 from nag.numerics.discs import UP
 from nag.numerics.krawczyk import BITS, Boxes, FineBox, box_about, boxes_of, enter_box
-from nag.numerics.rational_point import rational_point
 from nag.numerics.singular_point import Place, analyse
 
 # Zeros further from a point than its accuracy, times this, or this much, are not meant by it.

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from nag.numerics.monomial_products import MonomialProducts
+from nag.numerics.point_values import MonomialProducts
 from nag.numerics.power_series import Series, SeriesRing, Terms, product_of
 
 

@@ -19,12 +19,11 @@ from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.prime_field import PrimeField
 from nag.numerics.algebraic_point import prime_images
-from nag.numerics.curve_search import CurveSearch
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, Deflated
 from nag.numerics.descent import Round, work
 from nag.numerics.digits import doubles, log_norm, middle, number, working
-from nag.numerics.dual_space import DualSpace, dual_space
+from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import LocalDimension

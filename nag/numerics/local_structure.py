@@ -13,17 +13,15 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.prime_field import PrimeField
 from nag.numerics.clusters import close_zeros
-from nag.numerics.curve_search import CurveSearch
 from nag.numerics.curves import curve_through, is_exact_zero
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
 from nag.numerics.descent import work
-from nag.numerics.digits import LOG10_2, doubles, log_norm, middle, point, working
-from nag.numerics.dual_space import DualSpace, dual_space
+from nag.numerics.digits import LOG10_2, doubles, log_norm, middle, point, rational_point, working
+from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.null_space import Digits, Field, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing
-from nag.numerics.rational_point import rational_point
 from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 from nag.numerics.singular_point import Place, SingularEnd
 

@@ -16,10 +16,9 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.curves import is_exact_zero
 from nag.numerics.deflation import Deflated, NotDeflated, SeriesTooLong, deflate, regular_block
 from nag.numerics.descent import Round
-from nag.numerics.digits import doubles, middle, number
+from nag.numerics.digits import doubles, middle, number, rational_point
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.local_structure import FURTHEST, REACHES
-from nag.numerics.rational_point import rational_point
 from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO
 from nag.numerics.sharpening import ROUNDING as STALLED

@@ -22,12 +22,11 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.digits import log_size, working
+from nag.numerics.digits import log_size, rational, working
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.located_zero import exact_zero
 from nag.numerics.power_series import Series, SeriesRing
-from nag.numerics.rational_point import rational
 from nag.numerics.sharpening import DIGITS
 
 # Orders beyond this are not looked at.

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nag.algebra.high_precision import ball_values, vanish_at
+from nag.algebra.high_precision import BallValues, vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.small_values import SLACK
@@ -67,7 +67,7 @@ def vanishes_at(zero: SingularEnd, f: Polynomial) -> bool:
                 flint.acb(flint.arb(re, r), flint.arb(im, r))
                 for (re, im), r in zip(zero.digits, zero.radii.tolist(), strict=True)
             ]
-            if not bool(ball_values((f,)).at(ball[: f.n])[0].contains(0)):
+            if not bool(BallValues((f,)).at(ball[: f.n])[0].contains(0)):
                 return False
     return vanish_at([f], zero.digits)
 
@@ -95,7 +95,7 @@ def surely_differs(f: Polynomial, x: np.ndarray, radii: np.ndarray) -> bool:
             flint.acb(flint.arb(z.real, r), flint.arb(z.imag, r))
             for z, r in zip(x.tolist(), wide.tolist(), strict=True)
         ]
-        return not bool(ball_values((f,)).at(ball)[0].contains(0))
+        return not bool(BallValues((f,)).at(ball)[0].contains(0))
 
 
 def multiplicity_of_all(zeros: Sequence[SingularEnd]) -> int | None:

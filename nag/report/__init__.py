@@ -1,5 +1,6 @@
 """Results as text: pure functions from results to lines.
 
 Read `answer` and `solutions` first, each one command's text, on `nag.witness.shown` (the table of
-components); `agreement` compares an answer with what a case says is known.
+components) and `model` (of a mechanism); `agreement` compares an answer with what a case says is
+known.
 """

@@ -6,20 +6,26 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
-from nag.algebra.shown import system_line
-from nag.algebra.system import PolynomialSystem
+from nag.algebra.system import PolynomialSystem, system_line
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
 from nag.files.dh_case import is_table
 from nag.files.problem import points_of, system_of
-from nag.report.agreement import agreement_text, compare, in_words, kinds
-from nag.report.assemblies import assembly_rows, parts_rows, rank_rows
-from nag.report.formulations import alternative_lines, joint_lines, parts_lines, table_lines
-from nag.report.variables import body_rows, eliminated_lines
-from nag.text.table import labelled, printable
+from nag.report.agreement import agreement_text, compare
+from nag.report.assemblies import assembly_rows, parts_rows
+from nag.report.model import (
+    alternative_lines,
+    body_rows,
+    eliminated_lines,
+    joint_lines,
+    parts_lines,
+    rank_rows,
+    table_lines,
+)
+from nag.text.table import labelled, printable, sheet
 from nag.witness.expansion import expanded
-from nag.witness.shown import component_table, paths_line, remarks, title_line
+from nag.witness.shown import component_table, in_words, kinds, paths_text, remarks, title_line
 from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
@@ -105,22 +111,13 @@ def answer_lines(
         tail += assembly_rows(case.kind, case.assembly, decomposition)
     tail += [("open", line) for line in remarks(decomposition)]
     tail += [
-        ("paths", paths_line(decomposition)),
+        ("paths", paths_text(decomposition.paths)),
         ("run", f"seed {decomposition.seed}, settings {decomposition.settings}, {seconds:.1f} s"),
     ]
     agreement = compare(decomposition, case.truth, model.formulation if model else None)
     if agreement is not None:
         tail.append(("known", printable(agreement_text(agreement))))
-    width = max(len(label) for label, _ in head + tail)
-    table = component_table(decomposition)
-    return [
-        printable(case.title),
-        "",
-        *labelled(head, width),
-        "",
-        *([*table, ""] if table else []),
-        *labelled(tail, width),
-    ]
+    return sheet(case.title, head, component_table(decomposition), tail)
 
 
 def model_lines(case: Case, model: Model | None) -> list[str]:

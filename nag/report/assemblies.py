@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from nag.report.model import Rows, rank_rows
 from nag.witness.witness import Decomposition, WitnessSet
 
 if TYPE_CHECKING:
     from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.framework import Framework
-
-Rows = list[tuple[str, str]]
 
 _WHAT = {"dh": "closing", "framework": "realisation", "linkage": "assembly"}
 
@@ -31,28 +30,6 @@ def parts_rows(assembly: AssemblyModel) -> Rows:
     if isinstance(assembly, LinkageModel):
         rows.append(("counting", f"Gruebler-Kutzbach counts {assembly.linkage.gruebler_kutzbach}"))
     return rows
-
-
-def rank_rows(rank: tuple[int, int], variables: int, assembled: bool) -> Rows:
-    """What the rank of closure equations says, if some of them depend on the others.
-
-    Args:
-        rank: number of closure equations, and how many of them are independent.
-        assembled: whether there is a configuration.
-    """
-    equations, independent = rank
-    if independent == equations:
-        return []
-    text = f"the {equations} closure equations have rank {independent}"
-    free = variables - independent
-    if free <= 0:
-        return [("rank", f"{text}, by exact linear algebra")]
-    unknowns = f"{variables} unknown" + ("s" if variables > 1 else "")
-    text = (
-        f"{text} in {unknowns}, by exact linear algebra: every component has dimension {free} or "
-        f"more{', so it moves' if assembled else ''}"
-    )
-    return [("rank", text)]
 
 
 def _framework_rows(framework: Framework) -> Rows:

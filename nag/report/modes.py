@@ -6,9 +6,8 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from nag.mechanism.joint_types import JOINT_TYPES
-from nag.report.agreement import in_words, kinds
-from nag.text.table import align, labelled, printable
-from nag.witness.shown import remarks
+from nag.text.table import align, printable, sheet
+from nag.witness.shown import in_words, kinds, paths_text, remarks
 from nag.witness.witness import PathCounts
 
 if TYPE_CHECKING:
@@ -41,22 +40,10 @@ def modes_lines(answer: ModesAnswer, title: str, seconds: float) -> list[str]:
     for k, each in enumerate(answer.classes, 1):
         tail += [("open", f"class {k}: {line}") for line in remarks(each.decomposition)]
     tail += [
-        (
-            "paths",
-            f"{paths.tracked} tracked, {paths.at_infinity} to infinity, {paths.failed} failed",
-        ),
+        ("paths", paths_text(paths)),
         ("run", f"seed {seed}, settings {settings}, {seconds:.1f} s"),
     ]
-    width = max(len(label) for label, _ in head + tail)
-    return [
-        printable(title),
-        "",
-        *labelled(head, width),
-        "",
-        *align(rows, (2, 3)),
-        "",
-        *labelled(tail, width),
-    ]
+    return sheet(title, head, align(rows, (2, 3)), tail)
 
 
 def _modes_text(answer: ModesAnswer, members: int) -> str:

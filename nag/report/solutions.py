@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from nag.algebra.shown import system_line
+from nag.algebra.system import system_line
 from nag.report.assemblies import real_row
 from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
-from nag.text.table import align, labelled, printable
+from nag.text.table import align, printable, sheet
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -42,16 +42,7 @@ def solution_lines(
     known = agreement_text(result, case, model)
     if known:
         tail.append(("known", printable(known)))
-    width = max(len(label) for label, _ in head + tail)
-    table = solution_table(result)
-    return [
-        printable(case.title),
-        "",
-        *labelled(head, width),
-        "",
-        *([*table, ""] if table else []),
-        *labelled(tail, width),
-    ]
+    return sheet(case.title, head, solution_table(result), tail)
 
 
 def solution_table(result: SolveResult) -> list[str]:

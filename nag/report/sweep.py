@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
-from nag.report.agreement import in_words, kinds
 from nag.text.table import align, labelled, printable
+from nag.witness.shown import in_words, kinds
 
 if TYPE_CHECKING:
     from nag.decomposition.sweep import Swept

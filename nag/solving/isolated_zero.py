@@ -1,4 +1,4 @@
-"""An isolated zero, in doubles and in as many digits as were worked out."""
+"""An isolated zero, in doubles and in as many digits as were worked out, and whether it is real."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from nag.numerics.coincidence import SAFETY
 from nag.numerics.singular_point import SingularEnd
 from nag.solving.start.target import Start
 from nag.tracking.ends.terms import number
@@ -19,6 +20,8 @@ DIGITS = 110
 ROUNDING = 2.0**-50
 # Least distance, beside their size or one, of zeros that are two.
 TWO = 1e-80
+# Imaginary parts of real points, relative to their size, where errors are underestimated.
+REAL = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,3 +108,31 @@ class IsolatedZero(NamedTuple):
         error = max(TWO, self.fine.error + other.fine.error)
         pairs = zip(self.fine.coordinates, other.fine.coordinates, strict=True)
         return any(float(abs(a - b).mid()) > error * (1 + float(abs(a).mid())) for a, b in pairs)
+
+
+def which_are_real(zeros: Sequence[IsolatedZero]) -> np.ndarray:
+    """Which zeros are real, shape ``(k,)``.
+
+    Imaginary parts beyond the errors, in the digits that a zero is known to, say that it is not.
+    Of a zero in doubles a little beyond its estimated error, another zero that is its conjugate
+    says so.
+    """
+    if not zeros:
+        return np.zeros(0, dtype=bool)
+    points = np.array([zero.point for zero in zeros])
+    sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
+    imaginary = np.abs(points.imag).max(axis=1, initial=0.0)
+    errors = SAFETY * sizes * np.array([zero.accuracy for zero in zeros])
+    in_doubles = np.array([zero.fine is None for zero in zeros], dtype=bool)
+    for i in np.flatnonzero(~in_doubles).tolist():
+        fine = zeros[i].fine
+        parts = (float(abs(z.imag).mid()) for z in fine.coordinates)
+        imaginary[i] = max(parts, default=0.0)
+        errors[i] = SAFETY * max(TWO, fine.error) * sizes[i]
+    real = imaginary <= errors
+    for i in np.flatnonzero(in_doubles & ~real & (imaginary <= REAL * sizes)).tolist():
+        conjugate = zeros[i].point.conj()
+        others = (zero.point for j, zero in enumerate(zeros) if j != i)
+        least = min((float(np.abs(x - conjugate).max()) for x in others), default=np.inf)
+        real[i] = least > errors[i]
+    return real

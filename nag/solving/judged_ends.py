@@ -14,8 +14,7 @@ from nag.algebra.zero_count import ZeroCount
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.small_values import ON
-from nag.solving.isolated_zero import FinePoint, IsolatedZero
-from nag.solving.reality import which_are_real
+from nag.solving.isolated_zero import FinePoint, IsolatedZero, which_are_real
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start

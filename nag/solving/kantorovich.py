@@ -54,6 +54,17 @@ class Confirmed:
     condition: np.ndarray
     precision: np.ndarray
 
+    def only(self, places: np.ndarray) -> Confirmed:
+        """Some of the points."""
+        return Confirmed(*(getattr(self, name)[places] for name in self.__dataclass_fields__))
+
+    def replaced(self, places: np.ndarray, others: Confirmed) -> Confirmed:
+        """The points with others at some places."""
+        fields = {name: getattr(self, name).copy() for name in self.__dataclass_fields__}
+        for name, values in fields.items():
+            values[places] = getattr(others, name)
+        return Confirmed(**fields)
+
     @property
     def radii(self) -> np.ndarray:
         """Bounds of the zeros' distances in each coordinate, shape ``(P, n)``."""
@@ -137,7 +148,7 @@ class Confirmation:
                 largest = np.abs(points[left]).max(axis=1, keepdims=True)
                 sizes = np.repeat(np.where(largest > 0, largest, 1.0), points.shape[1], axis=1)
                 again = self._judged(points[left], values, finite[left], sizes, None)
-                _replace(judged, left[again.regular], again, again.regular)
+                judged = judged.replaced(left[again.regular], again.only(again.regular))
             return judged, finite & ~judged.regular & (length < PROMISING)
 
     def _judged(
@@ -203,11 +214,6 @@ class Confirmation:
                 for f in self.family.polynomials
             ]
             return np.array([[complex(v) for v in result]])
-
-
-def _replace(old: Confirmed, places: np.ndarray, new: Confirmed, kept: np.ndarray) -> None:
-    for name in Confirmed.__dataclass_fields__:
-        getattr(old, name)[places] = getattr(new, name)[kept]
 
 
 def _sizes(points: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from nag.algebra.shown import system_line
+from nag.algebra.system import system_line
 from nag.text.table import counted, html_table, lines_of, magnitude
 
 if TYPE_CHECKING:

@@ -60,7 +60,7 @@ def _means(images: np.ndarray) -> np.ndarray:
 
 
 @dataclass
-class Fibre:
+class SolutionClasses:
     """Solutions for given parameters, one of each class.
 
     Attributes:
@@ -78,12 +78,12 @@ class Fibre:
     @classmethod
     def of(
         cls, values: np.ndarray, symmetric: SymmetricFamily, points: np.ndarray, errors: np.ndarray
-    ) -> Fibre:
-        """The fibre with these solutions."""
+    ) -> SolutionClasses:
+        """The classes of these solutions."""
         nothing = invariants(symmetric, points[:0], values, radii_of_ends(points[:0], errors[:0]))
-        fibre = cls(values, symmetric, points[:0], nothing)
-        fibre.add(points, errors)
-        return fibre
+        classes = cls(values, symmetric, points[:0], nothing)
+        classes.add(points, errors)
+        return classes
 
     def _usable(
         self, points: np.ndarray, errors: np.ndarray

@@ -154,16 +154,12 @@ def _joined(
     free = free[np.argsort(found.at_infinity[free] + found.singular[free], kind="stable")]
     new = new[: len(free)]
     places = free[: len(new)]
-    ends = _replaced(found.ends, _chosen(other.ends, new), places)
+    ends = found.ends.replaced(places, other.ends.only(new))
     flags = [f.copy() for f in (found.arrived, found.at_infinity, found.singular)]
     for flag, value in zip(flags, (True, False, False), strict=True):
         flag[places] = value
     tracked, steps = found.tracked + other.tracked, found.steps + other.steps
     return ClassEnds(ends, *flags, tracked, steps)
-
-
-def _chosen(ends: Confirmed, indices: np.ndarray) -> Confirmed:
-    return Confirmed(*(getattr(ends, name)[indices] for name in Confirmed.__dataclass_fields__))
 
 
 def line_of_classes(
@@ -216,7 +212,7 @@ def track_classes(
         starts = line.starts(member[left])
         paths = track(line.homotopy, starts, chosen, threads, endgame=False, distinct=False)
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
-        ends = _replaced(ends, confirm(line.affine(paths.points) * x, goal, threads), left)
+        ends = ends.replaced(left, confirm(line.affine(paths.points) * x, goal, threads))
         arrived = ends.regular & ~_repeated(symmetric, ends, x, near)
     left = np.flatnonzero(~arrived)
     infinite, singular = np.zeros_like(arrived), np.zeros_like(arrived)
@@ -225,19 +221,11 @@ def track_classes(
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
         points = line.affine(paths.points)
         points[paths.status == PathStatus.AT_INFINITY] = np.nan
-        ends = _replaced(ends, confirm(points * x, goal, threads), left)
+        ends = ends.replaced(left, confirm(points * x, goal, threads))
         arrived = ends.regular & ~_repeated(symmetric, ends, x, near)
         infinite[left] = (paths.status == PathStatus.AT_INFINITY) & ~arrived[left]
         singular[left] = (paths.status == PathStatus.SINGULAR) & ~arrived[left]
     return ClassEnds(ends, arrived, infinite, singular, tracked, steps)
-
-
-def _replaced(old: Confirmed, new: Confirmed, places: np.ndarray) -> Confirmed:
-    fields = {}
-    for name in Confirmed.__dataclass_fields__:
-        fields[name] = getattr(old, name).copy()
-        fields[name][places] = getattr(new, name)
-    return Confirmed(**fields)
 
 
 def _repeated(

@@ -58,6 +58,21 @@ def labelled(rows: Sequence[tuple[str, str]], width: int = 0) -> list[str]:
     return lines
 
 
+def sheet(
+    title: str,
+    head: Sequence[tuple[str, str]],
+    table: Sequence[str],
+    tail: Sequence[tuple[str, str]],
+) -> list[str]:
+    """What a command prints: a title, labelled lines above a table and below it, if there is one.
+
+    All texts stand in one column.
+    """
+    width = max(len(label) for label, _ in (*head, *tail))
+    middle = [*table, ""] if table else []
+    return [printable(title), "", *labelled(head, width), "", *middle, *labelled(tail, width)]
+
+
 def lines_of(title: str, rows: Sequence[tuple[str, str]]) -> str:
     """What an object shows at the prompt: a title, and one line for each of ``rows``."""
     width = max(len(label) for label, _ in rows)

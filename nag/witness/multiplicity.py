@@ -1,4 +1,12 @@
-"""Multiplicity of an isolated zero on a slice: the dimension of its local ring there."""
+"""The multiplicity of a component, by the local ring on a slice, and of a variety at a point.
+
+The latter is 1 exactly where the variety is smooth: on a generic slice through the point, of
+complementary dimension, so many of the points of a neighbouring slice have come together there.
+
+References:
+    Mumford, Algebraic Geometry I: Complex Projective Varieties, 1976, chapter 5;
+    Nagata: a variety is smooth at a point exactly if its multiplicity there is 1.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +15,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.coincidence import compared
 from nag.numerics.zero_values import multiplicity_of_all, possible_zeros
-from nag.witness.slices import padded
+from nag.witness.comparable import coordinate_sizes, move_together
+from nag.witness.fibres import Fibre, Tracker
+from nag.witness.slices import padded, rows_through
 
 # How well points are known that were sharpened in doubles, by a deflation that may be badly
 # conditioned.
 ACCURACY = 1e-11
+# Relative error of ends at a point of multiplicity m, about the m-th root of rounding.
+MULTIPLE = 1e-7
 
 
 def multiplicity(
@@ -25,3 +38,49 @@ def multiplicity(
     """
     zeros = possible_zeros(polynomials, x, ACCURACY, rng, padded(rows, 1 + len(x)))
     return multiplicity_of_all(zeros) or 0
+
+
+def multiplicity_at(
+    point: np.ndarray,
+    accuracy: float,
+    fibres: Sequence[Fibre],
+    rows: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> int | None:
+    """The multiplicity of the set that ``fibres`` stand for at a point; 0 if it is not on it.
+
+    Args:
+        point: complex, affine, shape ``(n,)``.
+        accuracy: relative error of the point.
+        fibres: the set's points on the slice ``rows``.
+
+    Returns:
+        None if it could not be decided.
+    """
+    fibres = [fibre for fibre in fibres if len(fibre)]
+    dimension = len(rows)
+    if dimension == 0:
+        ends = [(fibre.x, np.ones(len(fibre), dtype=bool)) for fibre in fibres]
+        return _come_together(point, accuracy, ends)
+    target = rows_through(rng, dimension, point, coordinate_sizes(fibres[0]))
+    ends = []
+    for fibre, moved in move_together(fibres, rows, target, rng, tracker):
+        if moved.failed.any():
+            return None
+        ends.append((moved.points[moved.finite, : fibre.cut.n], moved.regular[moved.finite]))
+    return _come_together(point, accuracy, ends)
+
+
+def _come_together(
+    point: np.ndarray, accuracy: float, ends: Sequence[tuple[np.ndarray, np.ndarray]]
+) -> int | None:
+    """How many ends are the point; of each it is said whether it is regular. None if unclear."""
+    count, scale = 0, 1 + float(np.linalg.norm(point))
+    for x, regular in ends:
+        distance = np.linalg.norm(x - point, axis=1) / scale
+        here, doubtful = compared(distance, np.where(regular, accuracy, MULTIPLE))
+        if doubtful.any():
+            return None
+        count += int(here.sum())
+    return count

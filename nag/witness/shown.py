@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.algebra.shown import system_line
+from nag.algebra.system import system_line
 from nag.text.table import align, counted, html_table, lines_of, magnitude, printable
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
@@ -146,10 +146,6 @@ def remarks(decomposition: Decomposition) -> list[str]:
     return [printable(line) for line in dict.fromkeys([*lines, *decomposition.notes])]
 
 
-def paths_line(decomposition: Decomposition) -> str:
-    return paths_text(decomposition.paths)
-
-
 def paths_text(paths: PathCounts) -> str:
     """What became of paths."""
     return f"{paths.tracked} tracked, {paths.at_infinity} to infinity, {paths.failed} failed"
@@ -178,7 +174,7 @@ def decomposition_text(decomposition: Decomposition) -> str:
             ("answer", title_line(decomposition)),
             ("status", status),
             ("rests on", _rests_on(decomposition.components)),
-            ("run", f"{run}; paths: {paths_line(decomposition)}"),
+            ("run", f"{run}; paths: {paths_text(decomposition.paths)}"),
         ],
     )
 

@@ -22,7 +22,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.family import Family
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.solving.parameter_line import parameter_line
-from nag.solving.solution_classes import Fibre
+from nag.solving.solution_classes import SolutionClasses
 from nag.solving.start.scalings import random_scaling, scaling_weights
 from nag.solving.start.target import StartError, unit
 from nag.solving.start.total_degree import MOST_PATHS
@@ -116,8 +116,8 @@ def family_monodromy(
     """
     family = symmetric.family
     values, point = first_solution(family, rng)
-    here = Fibre.of(values, symmetric, point[None], np.zeros(1))
-    there = Fibre.of(random_values(family, rng), symmetric, point[None][:0], np.zeros(0))
+    here = SolutionClasses.of(values, symmetric, point[None], np.zeros(1))
+    there = SolutionClasses.of(random_values(family, rng), symmetric, point[None][:0], np.zeros(0))
     weights = scaling_weights(family)
     tally = _Tally()
     idle = 0
@@ -149,8 +149,8 @@ Way = Callable[[np.ndarray, Move], Ends]
 
 def _ways(
     family: Family,
-    here: Fibre,
-    there: Fibre,
+    here: SolutionClasses,
+    there: SolutionClasses,
     weights: np.ndarray,
     further: bool,
     rng: np.random.Generator,

@@ -69,7 +69,7 @@ def seeded(supports: Sequence[np.ndarray], rng: np.random.Generator) -> GenericS
     return GenericSystem(tuple(supports), tuple(coefficients), point, np.zeros(1))
 
 
-class Fibre:
+class DistinctPoints:
     """Distinct projective points of unit norm, and their relative errors."""
 
     def __init__(self, points: np.ndarray, errors: np.ndarray, most: int) -> None:
@@ -88,7 +88,7 @@ class Fibre:
         return len(new)
 
     def missing_from(self, points: np.ndarray, errors: np.ndarray) -> np.ndarray:
-        """Those of the fibre that are not among ``points``."""
+        """Those that are not among ``points``."""
         both = np.concatenate([points, self.points]), np.append(errors, self.errors)
         repeated = equal_pairs(*both)[:, 1] - len(points)
         return self.points[np.setdiff1d(np.arange(len(self.points)), repeated)]
@@ -121,7 +121,7 @@ def by_monodromy(
     groups = (tuple(range(n)),)
     degrees = group_degrees(system.rows, groups)
     first = homogenized(system.rows, n, groups, degrees)
-    here = Fibre(system.points, system.errors, most)
+    here = DistinctPoints(system.points, system.errors, most)
     spent, idle = 0, 0
     for _ in range(MOST_LOOPS):
         if len(here.points) >= most or idle >= MOST_IDLE:
@@ -130,7 +130,7 @@ def by_monodromy(
             # On the line through two systems few loops may be of use, be there ever so many.
             other = replace(system, coefficients=tuple(unit(rng, len(s)) for s in system.supports))
             second = homogenized(other.rows, n, groups, degrees)
-            there = Fibre(system.points[:0], system.errors[:0], most)
+            there = DistinctPoints(system.points[:0], system.errors[:0], most)
         known = max(len(here.points), len(there.points))
         gamma = complex(unit(rng, 1)[0])
         forward = straight_line(first, second, gamma)

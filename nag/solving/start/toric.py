@@ -14,7 +14,7 @@ from itertools import count
 
 import numpy as np
 
-from nag.solving.start.fibre_monodromy import Fibre, GenericSystem
+from nag.solving.start.fibre_monodromy import DistinctPoints, GenericSystem
 from nag.solving.start.mixed_cells import MixedCells
 from nag.solving.start.target import StartError, group_degrees, homogenized
 from nag.tracking.compiled import CompiledRows
@@ -141,7 +141,7 @@ def by_degeneration(
     degrees = group_degrees(system.rows, groups)
     homotopy = Homotopy(_single_terms(homogenized(system.rows, n, groups, degrees)))
     found = track_regular(homotopy, starts, named("fast"), threads, LENGTH * weights)
-    distinct = Fibre(found.points, found.errors, len(starts))
+    distinct = DistinctPoints(found.points, found.errors, len(starts))
     return system.holding(distinct.points, distinct.errors), len(starts)
 
 

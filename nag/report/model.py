@@ -1,4 +1,4 @@
-"""The formulations and joints of a mechanism as text."""
+"""A model of a mechanism as text: its variables, joints and formulations, what its ranks say."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from nag.mechanism.formulations import Alternative
     from nag.mechanism.model import Model
     from nag.mechanism.parts_coordinates import PartsCoordinates
+
+Rows = list[tuple[str, str]]
 
 
 def joint_lines(model: Model) -> list[str]:
@@ -109,3 +111,70 @@ def unreduced_row(model: Model) -> list[str]:
 def large(number: int) -> str:
     """A whole number, in powers of ten where it is long."""
     return str(number) if number < 10**7 else f"{float(number):.1e}"
+
+
+def body_rows(model: Model) -> Rows:
+    """Which variables belong to which body and joint, eliminated ones included.
+
+    Nothing for models in half-angles and others.
+    """
+    from nag.mechanism.euler import EulerModel, slide_directions
+    from nag.mechanism.planar import PlanarModel
+
+    if not isinstance(model.form, EulerModel | PlanarModel):
+        return []
+    names, bodies = model.form.elimination.original_variables, model.structure.moving
+    each, kind = (
+        (2, "cosine and sine") if isinstance(model.form, PlanarModel) else (4, "Euler parameters")
+    )
+    parts = []
+    for i, body in enumerate(bodies):
+        own = names[each * i : each * i + each]
+        parts.append(f"{', '.join(own) if each == 2 else f'{own[0]} to {own[-1]}'} of {body}")
+    rows = [("bodies", f"{kind} {', '.join(parts)}")]
+    slides = iter(names[each * len(bodies) :])
+    along = [(next(slides), j.name) for j in model.structure.joints for _ in slide_directions(j)]
+    if along:
+        rows.append(("", "distances " + ", ".join(f"{x} of {joint}" for x, joint in along)))
+    return rows
+
+
+def eliminated_lines(model: Model) -> list[str]:
+    """The variables that are polynomials in those of the system."""
+    from nag.mechanism.euler import EulerModel
+    from nag.mechanism.planar import PlanarModel
+
+    if not isinstance(model.form, EulerModel | PlanarModel):
+        return []
+    elimination = model.form.elimination
+    variables = elimination.system.variables
+    texts = [
+        f"{name} = {image.text(variables)}"
+        for i, (name, image) in enumerate(
+            zip(elimination.original_variables, elimination.images, strict=True)
+        )
+        if i not in elimination.kept
+    ]
+    return ["eliminated", "  " + ", ".join(texts)] if texts else []
+
+
+def rank_rows(rank: tuple[int, int], variables: int, assembled: bool) -> Rows:
+    """What the rank of closure equations says, if some of them depend on the others.
+
+    Args:
+        rank: number of closure equations, and how many of them are independent.
+        assembled: whether there is a configuration.
+    """
+    equations, independent = rank
+    if independent == equations:
+        return []
+    text = f"the {equations} closure equations have rank {independent}"
+    free = variables - independent
+    if free <= 0:
+        return [("rank", f"{text}, by exact linear algebra")]
+    unknowns = f"{variables} unknown" + ("s" if variables > 1 else "")
+    text = (
+        f"{text} in {unknowns}, by exact linear algebra: every component has dimension {free} or "
+        f"more{', so it moves' if assembled else ''}"
+    )
+    return [("rank", text)]
