@@ -52,7 +52,7 @@ def middle(z: flint.acb) -> flint.acb:
 
 def _log2(a: flint.arb) -> float:
     mantissa, exponent = a.mid().man_exp()
-    return float(int(mantissa).bit_length() + int(exponent)) if mantissa else -np.inf
+    return float(mantissa.bit_length() + int(exponent)) if mantissa else -np.inf
 
 
 def log_size(z: flint.acb | int) -> float:
