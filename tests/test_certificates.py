@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from solved import components_of
 from systems import system
 
 from nag.algebra.polynomial import Polynomial
@@ -285,7 +286,7 @@ def test_zeros_that_were_left_out_count_for_completeness(tmp_path: Path) -> None
 
 
 def test_points_of_a_double_curve_bound_no_degree() -> None:
-    certificate = certify_decomposition(decompose(read_case(CASES / "gonzalez.toml").system))
+    certificate = certify_decomposition(components_of(read_case(CASES / "gonzalez.toml").system))
     proofs = [p for c in certificate.components for p in c.points.proofs]
     assert proofs.count(Proof.SIMPLE) == 8
     assert proofs.count(Proof.DEFLATED) == 4
