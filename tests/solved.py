@@ -1,4 +1,4 @@
-"""Shipped cases that several tests decompose: each is read and decomposed once."""
+"""Cases and systems that several tests decompose: each is read and decomposed once."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ from functools import cache
 
 from linkages import CASES
 
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition import decompose
 from nag.files.cases import Case, read_case
-from nag.files.problem import decomposed
+from nag.files.problem import decomposed, symmetries_of, system_of
 from nag.mechanism.model import Model, model
 from nag.witness.witness import Decomposition
 
@@ -25,5 +28,15 @@ def modelled(name: str, formulation: str = "auto") -> Model | None:
 
 
 @cache
+def components_of(
+    system: PolynomialSystem, symmetries: tuple[SignedPermutation, ...] = (), seed: int = 0
+) -> Decomposition:
+    return decompose(system, symmetries=symmetries, seed=seed)
+
+
+@cache
 def answer(name: str, formulation: str = "auto") -> Decomposition:
-    return decomposed(shipped(name), modelled(name, formulation))
+    case, made = shipped(name), modelled(name, formulation)
+    if case.assembly is not None:
+        return decomposed(case, made)
+    return components_of(system_of(case, made), tuple(symmetries_of(case, made)))

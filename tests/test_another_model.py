@@ -9,10 +9,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from linkages import CASES
+from solved import components_of
 
 import nag
 from nag.cli import main
-from nag.decomposition import decompose
 from nag.mechanism.another_model import another_model
 from nag.mechanism.framework import placed_framework
 from nag.mechanism.framework_model import framework_model
@@ -88,7 +88,7 @@ def test_pins_and_turns_have_components_of_the_same_degrees(name: str) -> None:
     other = another_model(parts)
     assert other is not None and other.alike == "degrees"
     kinds = [
-        Counter((c.dimension, c.degree) for c in decompose(p.system).components)
+        Counter((c.dimension, c.degree) for c in components_of(p.system).components)
         for p in (parts, other.parts)
     ]
     assert kinds[0] == kinds[1]

@@ -7,8 +7,8 @@ from itertools import combinations, product
 import numpy as np
 import pytest
 from linkages import case, closed_chain, general_loop, loops_of_all_joints, residual
+from solved import components_of
 
-from nag.decomposition import decompose
 from nag.files.modes_export import document
 from nag.mechanism.assembly_modes import all_modes
 from nag.mechanism.axes import cross, difference, dot
@@ -138,7 +138,7 @@ def test_bricards_cube_decomposes_in_all_64_modes(bricard_in_all_modes):
 def test_half_angles_have_one_component_for_each_orbit_of_signs(bricard_in_all_modes):
     for each in bricard_in_all_modes.classes:
         m = model(BRICARD, "H", each.modes.representative)
-        answer = decompose(m.system)
+        answer = components_of(m.system)
         assert answer.complete
         dimensions = sorted(c.dimension for c in answer.components)
         assert dimensions == sorted(c.dimension for c in each.decomposition.components)
@@ -159,7 +159,7 @@ def test_every_mode_of_a_class_has_the_same_components_in_half_angles():
     structure = loop_structure(case("bennett"))
     for each in mode_classes(structure):
         counts = [
-            degree_counts(decompose(model(case("bennett"), "H", modes).system).components)
+            degree_counts(components_of(model(case("bennett"), "H", modes).system).components)
             for modes in each.members
         ]
         assert all(c == counts[0] for c in counts)
@@ -192,7 +192,7 @@ def test_joint_coordinates_and_euler_parameters_agree_in_every_mode_of_every_joi
                 continue
             half = model(mechanism, "H", modes, "spatial")
             euler = model(mechanism, "E", modes, "spatial")
-            answer = decompose(half.system)
+            answer = components_of(half.system)
             assert answer.complete and answer.components
             for component in answer.components:
                 lifted = half.lift(component.points[0])

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from solved import components_of
 from systems import system
 
 from nag.algebra.polynomial import Polynomial
@@ -285,7 +286,7 @@ def test_zeros_that_were_left_out_count_for_completeness(tmp_path: Path) -> None
 
 
 def test_points_of_a_double_curve_bound_no_degree() -> None:
-    certificate = certify_decomposition(decompose(read_case(CASES / "gonzalez.toml").system))
+    certificate = certify_decomposition(components_of(read_case(CASES / "gonzalez.toml").system))
     proofs = [p for c in certificate.components for p in c.points.proofs]
     assert proofs.count(Proof.SIMPLE) == 8
     assert proofs.count(Proof.DEFLATED) == 4
@@ -479,3 +480,13 @@ def test_nothing_is_called_proved_that_rests_on_evidence(tmp_path: Path, capsys)
     # Simple and not real, as it is: evidence refutes nothing.
     true = certify_solutions(changed(result, 0, multiplicity=1, real=False))
     assert not true.contradicted
+
+
+def test_middles_at_points_are_those_of_discs_of_no_size() -> None:
+    made = system("x y z", "x^2*y - 3*x*z^3 + 1/3", "y*z - 2", "5")
+    polynomials = DiscPolynomials.of(made.polynomials, np.array([[1, 2, 0, 1j]]))
+    x = np.random.default_rng(0).standard_normal((5, 3)) + 1j
+    values, slopes = polynomials.middles(x)
+    exact = Discs(x, np.zeros(x.shape))
+    assert np.array_equal(values, polynomials(exact).mid)
+    assert np.array_equal(slopes, polynomials.jacobian(exact).mid)

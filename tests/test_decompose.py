@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from solved import components_of
 from systems import kinds, system
 
 import nag
@@ -42,7 +43,7 @@ def assert_sound(answer: Decomposition) -> None:
 def test_case_agrees_with_what_is_known(path: Path, seed: int) -> None:
     case = read_case(path)
     chosen = None if case.mechanism is None else model(case.mechanism)
-    answer = decompose(case.system if chosen is None else chosen.system, seed=seed)
+    answer = components_of(case.system if chosen is None else chosen.system, seed=seed)
     assert_sound(answer)
     agreement = compare(answer, case.truth, None if chosen is None else chosen.formulation)
     assert agreement is not None

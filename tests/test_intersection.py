@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from solved import components_of
 from systems import system
 
 from nag.decomposition import (
@@ -88,7 +89,7 @@ def test_double_components_meet_where_simple_ones_would(equations, expected, see
 
 def test_the_curves_of_two_rhombi_with_common_bars_meet_in_twelve_poses() -> None:
     case = read_case(CASES / "gonzalez.toml")
-    curves = decompose(case.system)
+    curves = components_of(case.system)
     assert sorted(c.multiplicity for c in curves.components) == [1, 1, 1, 1, 2, 2]
     for i in range(6):
         assert kinds(intersect_pair(curves, i, i)) == {(1, 2): 1}
@@ -99,7 +100,7 @@ def test_the_curves_of_two_rhombi_with_common_bars_meet_in_twelve_poses() -> Non
 @pytest.mark.slow
 def test_a_set_that_deflation_does_not_reach_leaves_the_answer_open() -> None:
     case = read_case(CASES / "literature" / "adjacent-minors-3x4.toml")
-    minors = decompose(case.system)
+    minors = components_of(case.system)
     found = intersect_pair(minors, 1, 5)
     assert not found.complete
     assert any("could not be made regular" in note for note in found.notes)

@@ -4,6 +4,7 @@ from fractions import Fraction
 
 import pytest
 from linkages import closed_chain, exact, loops_of_all_joints, residual
+from solved import components_of
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -94,7 +95,7 @@ def test_loops_of_all_joints_have_their_mobility_and_lift_to_all_constraints(nam
     assert set(m.system(m.reference)) <= {0}
     assert set(m.unreduced(m.unreduced_point(m.lift(m.reference)))) == {0}
     signs = m.symmetries
-    answer = decompose(m.system, symmetries=signs)
+    answer = components_of(m.system, tuple(signs))
     assert answer.complete
     assert {c.dimension for c in answer.components} == {dimension}
     for component in answer.components:

@@ -30,9 +30,17 @@ ORDER = (
 )
 
 
+@cache
+def statements(file: Path) -> tuple[ast.AST, ...]:
+    """The imports and the functions of a file, anywhere in it."""
+    wanted = ast.Import | ast.ImportFrom | ast.FunctionDef | ast.AsyncFunctionDef
+    nodes = ast.walk(ast.parse(file.read_text("utf-8")))
+    return tuple(node for node in nodes if isinstance(node, wanted))
+
+
 def imported(file: Path) -> Iterator[str]:
     """Modules of ours that a file imports, anywhere in it."""
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+    for node in statements(file):
         if isinstance(node, ast.ImportFrom) and node.module:
             yield node.module
         elif isinstance(node, ast.Import):
@@ -60,14 +68,13 @@ def test_packages_import_only_what_is_before_them(package: str) -> None:
 MOST_LINES, MOST_FUNCTION_LINES, MOST_ARGUMENTS = 400, 60, 7
 
 
-@cache
 def sizes() -> list[tuple[str, int, int]]:
     """Each file and function: what is measured, its size, the most it may be."""
     found = []
     for file in sorted(NAG.rglob("*.py")):
         where, text = file.relative_to(NAG).as_posix(), file.read_text("utf-8")
         found.append((f"{where}: lines", len(text.splitlines()), MOST_LINES))
-        for node in ast.walk(ast.parse(text)):
+        for node in statements(file):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 lines = node.end_lineno - node.lineno + 1
                 given = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from linkages import case, general_loop, loops_of_all_joints
+from solved import components_of
 
 from nag.decomposition import decompose
 from nag.mechanism.coordinates import euler_decomposition
@@ -36,7 +37,7 @@ def components(mechanism: Mechanism, formulation: str = "auto") -> Counter:
     """Dimension with all freedoms, degree and multiplicity of the components."""
     m = model(mechanism, formulation)
     signs = m.symmetries
-    answer = decompose(m.system, symmetries=signs)
+    answer = components_of(m.system, tuple(signs))
     assert answer.complete
     free = sum(count for count, _ in m.freedoms_left_out)
     counts: Counter = Counter()

@@ -8,8 +8,8 @@ from itertools import product
 
 import numpy as np
 import pytest
+from solved import components_of
 
-from nag.decomposition import decompose
 from nag.mechanism.model import Model, model
 from nag.symbolic import bennett, bricard
 from nag.witness.membership import components_through
@@ -22,7 +22,7 @@ M = (Fraction(7, 4), Fraction(5, 6), Fraction(1, 3))
 @cache
 def decomposed(name: str, formulation: str) -> tuple[Model, Decomposition]:
     chosen = model(case(name), formulation)
-    return chosen, decompose(chosen.system, seed=0)
+    return chosen, components_of(chosen.system)
 
 
 def moving_bodies(chosen: Model, point: np.ndarray) -> list[np.ndarray]:

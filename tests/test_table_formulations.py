@@ -6,10 +6,10 @@ from fractions import Fraction
 
 import pytest
 from linkages import CASES, kinds
+from solved import components_of
 
 from nag.algebra.number import is_zero
 from nag.cli import main
-from nag.decomposition import decompose
 from nag.files.cases import read_case
 from nag.files.dh_case import in_formulation
 from nag.mechanism.dh import DHModel
@@ -39,8 +39,8 @@ def table(name: str) -> DHModel:
 @pytest.mark.parametrize("name", TABLES)
 def test_both_formulations_have_the_same_components_in_euler_parameters(name: str) -> None:
     made = table(name)
-    target, carried = euler_closings(made, decompose(made.system))
-    direct = decompose(target.system, symmetries=target.symmetries)
+    target, carried = euler_closings(made, components_of(made.system))
+    direct = components_of(target.system, tuple(target.symmetries))
     assert kinds(carried) == kinds(direct)
 
 
@@ -48,7 +48,7 @@ def test_both_formulations_have_the_same_components_in_euler_parameters(name: st
 def test_closings_in_half_angles_satisfy_the_equations_in_euler_parameters(name: str) -> None:
     made = table(name)
     target = dh_euler_model(made.loop)
-    for component in decompose(made.system).components:
+    for component in components_of(made.system).components:
         for x in component.points[:4]:
             point = target.of_half_angles(made, x)
             values = [f(point) for f in target.system.polynomials]

@@ -37,7 +37,8 @@ def row_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], list[int]]
         for i, row in enumerate(matrix):
             if i != done and not is_zero(row[column]):
                 factor = row[column]
-                matrix[i] = [x - factor * y for x, y in zip(row, matrix[done], strict=True)]
+                own = zip(row, matrix[done], strict=True)
+                matrix[i] = [x - factor * y if y else x for x, y in own]
         pivots.append(column)
         done += 1
         if done == len(matrix):

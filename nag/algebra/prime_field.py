@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import flint
@@ -40,8 +39,13 @@ class PrimeField:
         """Rows of integers, of which there are some."""
         import flint
 
-        entries: list[Any] = list(chain.from_iterable(rows))
-        return flint.nmod_mat(len(rows), len(rows[0]), entries, self.modulus)
+        found = flint.nmod_mat(len(rows), len(rows[0]), self.modulus)
+        # Most entries are zero, as a rule, and each that is entered is taken modulo the prime.
+        for i, row in enumerate(rows):
+            for j, c in enumerate(row):
+                if c:
+                    found[i, j] = c
+        return found
 
     def rank(self, rows: Rows) -> int:
         """At most that of the same rows over the rationals."""

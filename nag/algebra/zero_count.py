@@ -189,8 +189,12 @@ class _Quotient:
         import flint
 
         columns = len(self.standard)
-        entries = rows[:, ::-1].astype(np.int64).ravel().tolist()
-        echelon, rank = flint.nmod_mat(len(rows), columns, entries, self.prime).rref()
+        matrix = flint.nmod_mat(len(rows), columns, self.prime)
+        # Most entries are zero.
+        places = np.nonzero(rows)
+        for i, j, c in zip(*(part.tolist() for part in (*places, rows[places])), strict=True):
+            matrix[i, columns - 1 - j] = int(c)
+        echelon, rank = matrix.rref()
         reduced = np.array(list(map(int, echelon.entries()[: rank * columns])), dtype=np.int64)
         reduced = reduced.reshape(rank, columns)
         pivots = (reduced != 0).argmax(axis=1)

@@ -17,7 +17,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.digits import number
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.small_values import ON
 from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre, Tracker
@@ -114,11 +114,13 @@ class Sample:
 
     Attributes:
         z: affine, with the unknowns that deflation added.
+        functions: the equations in balls; samples of one source share them.
     """
 
     cut: Cut
     rows: np.ndarray
     z: np.ndarray
+    functions: BallPolynomials
 
     @property
     def x(self) -> np.ndarray:
@@ -139,32 +141,25 @@ class Sample:
             raise SourceError("a sampled point is singular to rounding") from None
         with flint.ctx.workdps(digits + SPARE):
             point = [flint.acb(complex(x)) for x in self.z]
-            slices = [[flint.acb(complex(c)) for c in row] for row in rows]
+            slices = flint.acb_mat([[flint.acb(complex(c)) for c in row] for row in rows])
             small = flint.arb(10) ** (-digits - SPARE // 2)
             for _ in range(4 + digits // GAIN):
-                values = [
-                    f(point, number) / s for f, s in zip(self.cut.polynomials, scales, strict=True)
-                ]
-                for row in slices:
-                    values.append(sum((c * x for c, x in zip(row[1:], point, strict=True)), row[0]))
-                values = [_middle(v) for v in values]
+                values = self.functions(point).entries()
+                values = [v / s for v, s in zip(values, scales, strict=True)]
+                values += (slices * flint.acb_mat([[1], *([x] for x in point)])).entries()
+                values = [v.mid() for v in values]
                 size = max((abs(v).mid() for v in values), default=flint.arb(0))
                 if size < small:
                     break
                 step = inverse @ np.array([complex(v / size) for v in values])
                 point = [
-                    _middle(x - size * flint.acb(complex(d)))
+                    (x - size * flint.acb(complex(d))).mid()
                     for x, d in zip(point, step, strict=True)
                 ]
             else:
                 raise SourceError("Newton's method does not converge at a sampled point")
             radius = flint.arb(10) ** -digits
             return [_widened(x, radius * (1 + abs(x).mid())) for x in point[: self.cut.n]]
-
-
-def _middle(z: flint.acb) -> flint.acb:
-    z = flint.acb(z)
-    return flint.acb(z.real.mid(), z.imag.mid())
 
 
 def _widened(z: flint.acb, radius: flint.arb) -> flint.acb:
@@ -181,6 +176,7 @@ def samples(source: Source, count: int, rng: np.random.Generator, tracker: Track
     n = source.system.n
     evaluator = Evaluator.of(source.system.polynomials, n)
     found: list[Sample] = []
+    in_balls: dict[Cut, BallPolynomials] = {}
     while len(found) < count:
         target, there = at_random(source.fibres, source.rows, rng, tracker)
         if not (len(there.x) and np.isfinite(there.accuracy)):
@@ -191,5 +187,9 @@ def samples(source: Source, count: int, rng: np.random.Generator, tracker: Track
                 "some equations hold at the point alone and not on what moves through it: it is "
                 "singular; name a component"
             )
-        found.append(Sample(fibre.cut, target, fibre.points[0]))
+        cut = fibre.cut
+        if cut not in in_balls:
+            total = cut.n + cut.aux
+            in_balls[cut] = BallPolynomials.of(cut.polynomials, np.zeros((0, 1 + total)))
+        found.append(Sample(cut, target, fibre.points[0], in_balls[cut]))
     return found

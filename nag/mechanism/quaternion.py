@@ -8,6 +8,8 @@ matrices are those of Tuomela 2025 (T25), section 2.1.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
+from math import lcm
 from typing import Any
 
 from nag.mechanism.axes import Vector, cross
@@ -19,6 +21,21 @@ Matrix = tuple[tuple[Any, ...], ...]
 
 def multiply(a: Sequence[Any], b: Sequence[Any]) -> Quaternion:
     """The product ab, so that R(ab) = R(a) R(b)."""
+    if all(type(x) is Fraction for x in (*a, *b)):
+        # Products of whole numbers need no common divisors until they are added up.
+        (whole, below), (others, factor) = _whole(a), _whole(b)
+        below *= factor
+        return tuple(Fraction(c, below) for c in _product(whole, others))
+    return _product(a, b)
+
+
+def _whole(a: Sequence[Fraction]) -> tuple[list[int], int]:
+    """Whole numbers and what they are to be divided by."""
+    below = lcm(*(x.denominator for x in a))
+    return [x.numerator * (below // x.denominator) for x in a], below
+
+
+def _product(a: Sequence[Any], b: Sequence[Any]) -> Quaternion:
     return (
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],

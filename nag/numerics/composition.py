@@ -76,18 +76,34 @@ class Composition:
 
     def _product(self, a: Sequence[Series], b: Sequence[Series], degree: int) -> Series:
         """The terms of one degree; of a square, those of two different degrees count twice."""
-        square, result = a is b, {}
+        if self.ring.m == 1:
+            return self._product_in_one(a, b, degree)
+        square, result, modulus = a is b, {}, self.ring.modulus
         for k in range(degree // 2 + 1 if square else degree + 1):
+            first, second = a[k], b[degree - k]
+            if not first or not second:
+                continue
             twice = square and 2 * k < degree
-            second = list(b[degree - k].items())
-            for i, x in a[k].items():
+            for i, x in first.items():
                 if twice:
                     x = x + x
-                for j, y in second:
+                for j, y in second.items():
                     key = i + j
                     if key in result:
                         result[key] += x * y
                     else:
                         result[key] = x * y
-        modulus = self.ring.modulus
         return {k: c % modulus for k, c in result.items()} if modulus else result
+
+    def _product_in_one(self, a: Sequence[Series], b: Sequence[Series], degree: int) -> Series:
+        """The same in one variable, where each degree has one term."""
+        total: Any = None
+        for k in range(degree + 1):
+            first, second = a[k], b[degree - k]
+            if first and second:
+                (x,), (y,) = first.values(), second.values()
+                total = x * y if total is None else total + x * y
+        if total is None:
+            return {}
+        modulus = self.ring.modulus
+        return {degree * self.ring.unit(0): total % modulus if modulus else total}

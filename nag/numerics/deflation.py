@@ -106,10 +106,12 @@ def lowest_order(
             degree = ring.degree(key)
             norms[degree] = max(norms[degree], log_size(c))
     for j in range(first, ring.order):
+        if norms[j] <= _noise(j, inverse):
+            continue
         shadow = max(
             norms[e] + log10(comb(e, j)) + (e - j) * reach for e in range(j + 1, len(norms))
         )
-        if norms[j] > max(_noise(j, inverse), shadow + 0.5):
+        if norms[j] > shadow + 0.5:
             return j
     return None
 

@@ -50,11 +50,6 @@ def middle(z: flint.acb) -> flint.acb:
     return z.mid()
 
 
-def _log2(a: flint.arb) -> float:
-    mantissa, exponent = a.mid().man_exp()
-    return float(int(mantissa).bit_length() + int(exponent)) if mantissa else -np.inf
-
-
 def log_size(z: flint.acb | int) -> float:
     """The decimal logarithm of ``|z|`` to within a factor of three; also beyond doubles' range.
 
@@ -70,7 +65,8 @@ def log_size(z: flint.acb | int) -> float:
         return -np.inf
     if not z.is_finite():
         return np.inf
-    return LOG10_2 * max(_log2(z.real), _log2(z.imag))
+    mantissa, exponent = z.mid().abs_upper().man_exp()
+    return LOG10_2 * (mantissa.bit_length() + int(exponent)) if mantissa else -np.inf
 
 
 def log_norm(values: Iterable[flint.acb]) -> float:

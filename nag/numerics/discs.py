@@ -15,10 +15,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, vstack
 
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
@@ -174,6 +175,27 @@ class DiscPolynomials:
         found = self.slopes @ self._monomials(x)
         shape = (len(x.mid), self.rows, self.n)
         return Discs(found.mid.T.reshape(shape), found.rad.T.reshape(shape))
+
+    def middles(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Values and Jacobian matrices at points, to rounding, without bounds.
+
+        Shapes ``(P, rows)`` and ``(P, rows, n)``.
+        """
+        table = [np.ones_like(x.T), x.T]
+        while len(table) <= self.top:
+            table.append(table[-1] * table[1])
+        powers = np.concatenate(table[: self.top + 1])
+        first, *others = self.powers
+        monomials = powers[first]
+        for places in others:
+            several = np.flatnonzero(places)
+            monomials[several] *= powers[places[several]]
+        found = (self._both @ monomials).T
+        return found[:, : self.rows], found[:, self.rows :].reshape(len(x), self.rows, self.n)
+
+    @cached_property
+    def _both(self) -> Any:
+        return vstack([self.values.matrix, self.slopes.matrix], format="csr")
 
     def _monomials(self, x: Discs) -> Discs:
         """All monomials, shape ``(M, P)``."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import inf
+from operator import itemgetter
 
 import flint
 
@@ -48,19 +49,19 @@ def _largest(
     matrices: Sequence[Matrix], left: list[int], right: list[int], floor: float
 ) -> tuple[int, int] | None:
     first, *others = matrices
-    best, place = floor, None
+    largest: list[tuple[float, int, int]] = []
     for i in left:
-        sizes = [log_size(first[i][j]) for j in right]
-        if not any(best < size < inf for size in sizes):
-            continue
-        noise = max(
-            (log_size(other[i][j] - first[i][j]) for other in others for j in right),
-            default=-inf,
-        )
-        for j, size in zip(right, sizes, strict=True):
-            if best < size < inf and size > noise + CLEAR:
-                best, place = size, (i, j)
-    return place
+        sizes = [(log_size(first[i][j]), j) for j in right]
+        known = [entry for entry in sizes if floor < entry[0] < inf]
+        if known:
+            size, j = max(known, key=itemgetter(0))
+            largest.append((size, i, j))
+    # Noise is that of a row: where its largest entry is no clearer, no other is.
+    for size, i, j in sorted(largest, key=itemgetter(0), reverse=True):
+        changes = (other[i][k] - first[i][k] for other in others for k in right)
+        if all(log_size(change) + CLEAR < size for change in changes):
+            return i, j
+    return None
 
 
 def _eliminate(matrix: Matrix, i: int, j: int, left: list[int], right: list[int]) -> None:

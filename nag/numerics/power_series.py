@@ -140,13 +140,18 @@ def shifted(rows: Sequence[Terms], centre: Sequence[Any], ring: SeriesRing) -> l
                 continue
             moved: dict[tuple[int, ...], Any] = {}
             powers: list[Any] = [1]
+            binomials: dict[int, list[Any]] = {}
             for e, c in terms.items():
-                while len(powers) <= e[i]:
-                    powers.append(powers[-1] * x % ring.modulus if ring.modulus else powers[-1] * x)
-                for k in range(e[i] + 1):
-                    to = (*e[:i], k, *e[i + 1 :])
-                    part = c * (comb(e[i], k) * powers[e[i] - k])
-                    moved[to] = moved[to] + part if to in moved else part
+                top = e[i]
+                if top not in binomials:
+                    while len(powers) <= top:
+                        more = powers[-1] * x
+                        powers.append(more % ring.modulus if ring.modulus else more)
+                    binomials[top] = [comb(top, k) * powers[top - k] for k in range(top + 1)]
+                before, after = e[:i], e[i + 1 :]
+                for k, factor in enumerate(binomials[top]):
+                    to = (*before, k, *after)
+                    moved[to] = moved[to] + c * factor if to in moved else c * factor
             terms = {e: c % ring.modulus for e, c in moved.items()} if ring.modulus else moved
         kept = {ring.key(e): c for e, c in terms.items() if sum(e) <= ring.order}
         result.append(kept if ring.modulus else {k: flint.acb(c).mid() for k, c in kept.items()})

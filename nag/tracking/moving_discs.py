@@ -162,10 +162,9 @@ class MovingSystem:
         Args:
             x: points, shape ``(P, n)``; t: shape ``(P,)``.
         """
-        exact = Discs(x, np.zeros(x.shape))
         values, slopes, rates = 0.0, 0.0, 0.0
         for part in self.parts:
-            f, j = part.rows(exact).mid, part.rows.jacobian(exact).mid
+            f, j = part.rows.middles(x)
             factor = (part.a + part.b * t)[:, None]
             values = values + factor * f
             slopes = slopes + factor[..., None] * j

@@ -1,0 +1,69 @@
+"""Values and slopes in balls hold the exact ones, to nearly all the bits that are asked for."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import flint
+import numpy as np
+import pytest
+
+from nag.algebra.expression import parse_polynomial
+from nag.numerics.ball_polynomials import BallPolynomials
+
+NAMES = ("x", "y", "z")
+TEXTS = ("x^3*y*z^2 - 2/7*z + 5", "y^2*z^2 - x + x^4", "3", "0", "x*y*z - 1/3*x*y + 11*z^4", "y")
+SLICES = np.array([[1.5, 0, -2.25j, 3], [0, 1j, 0, 0]])
+POLYNOMIALS = [parse_polynomial(text, NAMES) for text in TEXTS]
+
+
+def to_many_digits(c: Fraction) -> flint.arb:
+    with flint.ctx.workprec(4096):
+        return flint.arb(flint.fmpq(c.numerator, c.denominator))
+
+
+@pytest.mark.parametrize("bits", [64, 128, 512])
+def test_values_and_slopes_hold_the_exact_ones(bits: int) -> None:
+    system, rng = BallPolynomials.of(POLYNOMIALS, SLICES), np.random.default_rng(0)
+    with flint.ctx.workprec(bits):
+        for _ in range(3):
+            point = [Fraction(int(k), 13) for k in rng.integers(-99, 99, 3)]
+            at = [flint.acb(flint.arb(x.numerator) / x.denominator) for x in point]
+            values, slopes = system(at).entries(), system.jacobian(at).tolist()
+            for f, value, row in zip(POLYNOMIALS, values, slopes, strict=False):
+                assert value.real.contains(to_many_digits(f(point)))
+                for i, slope in enumerate(row):
+                    assert slope.imag.contains(0)
+                    assert slope.real.contains(to_many_digits(f.derivative(i)(point)))
+                    assert slope.real.rad() < flint.arb(2) ** (40 - bits)
+            for line, value, row in zip(SLICES, values[6:], slopes[6:], strict=True):
+                there = [complex(c) for c in line]
+                parts = [flint.acb(c) * z for c, z in zip(there[1:], at, strict=True)]
+                assert value.overlaps(sum(parts, flint.acb(there[0])))
+                assert row == [flint.acb(c) for c in there[1:]]
+
+
+def test_the_same_polynomials_are_evaluated_to_the_bits_of_each_time() -> None:
+    system, x = BallPolynomials.of(POLYNOMIALS[:1], SLICES[:0]), [flint.acb(3)] * 3
+    for bits in (64, 512, 64):
+        with flint.ctx.workprec(bits):
+            for ball in (system(x)[0, 0], system.jacobian(x)[0, 2]):
+                assert 2.0 ** -(bits + 4) < float(ball.real.rad()) < 2.0 ** (16 - bits)
+
+
+def test_terms_that_cancel_leave_what_is_beside_them_however_small() -> None:
+    tiny = parse_polynomial("x^2 - y^2 + 1/2^900", NAMES)
+    with flint.ctx.workprec(128):
+        value = BallPolynomials.of([tiny], SLICES[:0])([flint.acb(3)] * 3)[0, 0]
+        assert value == flint.acb(2) ** -900
+
+
+def test_slopes_on_a_box_hold_those_at_its_points() -> None:
+    system, rng = BallPolynomials.of(POLYNOMIALS, SLICES), np.random.default_rng(1)
+    centre, radius = rng.standard_normal(3) + 1j * rng.standard_normal(3), 2.0**-4
+    disc = flint.acb(flint.arb(0, radius), flint.arb(0, radius))
+    on_box = system.jacobian([flint.acb(complex(z)) + disc for z in centre]).entries()
+    for _ in range(20):
+        off = rng.uniform(-radius, radius, 3) + 1j * rng.uniform(-radius, radius, 3)
+        at = system.jacobian([flint.acb(complex(z)) for z in centre + off]).entries()
+        assert all(box.contains(slope) for box, slope in zip(on_box, at, strict=True))
