@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
@@ -42,6 +44,16 @@ def test_a_single_term_has_a_small_residual_near_its_zero() -> None:
     evaluator = Evaluator.of([x**2], 1)
     assert evaluator.residuals(np.array([[1e-9]]))[0, 0] < 1e-17
     assert evaluator.residuals(np.array([[1e3]]))[0, 0] > 0.5
+
+
+def test_what_leaves_the_range_of_doubles_is_not_finite_and_nobody_is_warned() -> None:
+    x, y = Polynomial.variables(2)
+    evaluator = Evaluator.of([x**3 * y - 1], 2)
+    far = np.array([[1e200 + 1e200j, 1.0]])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert not np.isfinite(evaluator.values(far)).any()
+        assert not np.isfinite(evaluator.jacobian(far[0])).all()
 
 
 def test_no_points_have_no_values() -> None:

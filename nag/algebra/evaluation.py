@@ -20,6 +20,8 @@ MOST_ENTRIES = 20_000
 class Evaluator:
     """Polynomials in ``n`` variables as flat arrays, scaled to largest coefficient one.
 
+    What leaves the range of doubles is not finite, without a warning.
+
     Attributes:
         exponents: int, shape ``(M, n)``: the distinct monomials of all rows.
         coefficients: float, shape ``(rows, M)``.
@@ -46,10 +48,12 @@ class Evaluator:
     def _monomials(self) -> _Monomials:
         return _Monomials.of(self.exponents)
 
+    @np.errstate(over="ignore", invalid="ignore")
     def values(self, points: np.ndarray) -> np.ndarray:
         """Values, shape ``(P, rows)``, at ``points`` of shape ``(P, n)``."""
         return self._monomials(np.asarray(points, dtype=complex)) @ self.coefficients.T
 
+    @np.errstate(over="ignore", invalid="ignore")
     def sizes(self, points: np.ndarray) -> np.ndarray:
         """Sums of the absolute values of the terms, coordinates below one counted as one.
 
@@ -59,6 +63,7 @@ class Evaluator:
         sizes = self._monomials(floored) @ np.abs(self.coefficients).T
         return np.where(sizes == 0, 1.0, sizes)
 
+    @np.errstate(over="ignore", invalid="ignore")
     def absolute(self, points: np.ndarray) -> np.ndarray:
         """Sums of the absolute values of the terms, shape ``(P, rows)``."""
         return self._monomials(np.abs(points)) @ np.abs(self.coefficients).T
@@ -126,6 +131,7 @@ class Evaluator:
         matrix[monomials, places] = factors
         return matrix
 
+    @np.errstate(over="ignore", invalid="ignore")
     def jacobian(self, point: np.ndarray) -> np.ndarray:
         """Jacobian matrix, shape ``(rows, n)``, at one point."""
         powers, places, monomials, factors = self._derivatives

@@ -132,6 +132,7 @@ class Sharpened:
     converged: bool
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
     """Gauss-Newton for ``evaluator`` and the slice ``rows`` from the affine point ``z``.
 
