@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from systems import system
 
+import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
@@ -279,3 +280,17 @@ def test_a_root_of_high_multiplicity_is_one_solution() -> None:
         (1, 1.0),
         (12, 0.0),
     ]
+
+
+def test_imaginary_parts_count_beside_the_error_of_their_own_coordinate() -> None:
+    # Of two conjugate zeros x is 8e14, but for rounding real, and z is 7e-14 times i.
+    found = nag.solve(
+        [
+            "100000*x^2*y*z^2 - 3/4*y^3 + 9/100",
+            "15000*x*y^2 - 7/90*y^2*z - 90000",
+            "1/125*x*y + 17/25000*y - 50000",
+        ]
+    )
+    assert found.complete
+    assert len(found.solutions) == 8
+    assert sum(s.real for s in found.solutions) == 2

@@ -126,9 +126,10 @@ def which_are_real(zeros: Sequence[IsolatedZero]) -> np.ndarray:
     in_doubles = np.array([zero.fine is None for zero in zeros], dtype=bool)
     for i in np.flatnonzero(~in_doubles).tolist():
         fine = zeros[i].fine
-        parts = (float(abs(z.imag).mid()) for z in fine.coordinates)
-        imaginary[i] = max(parts, default=0.0)
-        errors[i] = SAFETY * max(TWO, fine.error) * sizes[i]
+        parts = np.array([float(abs(z.imag).mid()) for z in fine.coordinates])
+        # A small coordinate may be known far better than others.
+        over = parts / np.maximum(fine.radii, TWO * (1 + np.abs(points[i])))
+        imaginary[i], errors[i] = over.max(initial=0.0), SAFETY
     real = imaginary <= errors
     for i in np.flatnonzero(in_doubles & ~real & (imaginary <= REAL * sizes)).tolist():
         conjugate = zeros[i].point.conj()
