@@ -6,6 +6,7 @@ The truth is that of `exact_counts`.
 from __future__ import annotations
 
 import pytest
+from random_small import small_system
 from systems import kinds, system
 
 from nag.decomposition import decompose
@@ -165,6 +166,12 @@ def test_an_end_beside_one_that_is_proved_lies_on_the_curve_there() -> None:
     assert [s.multiplicity for s in result.solutions] == [1] * 14
     assert result.complete
     assert result.positive_dimensional
+
+
+def test_a_zero_of_size_1e40_beside_lines_is_not_taken_for_an_infinite_one() -> None:
+    answer = decompose(small_system(20262, 5622).system)
+    assert kinds(answer) == {SIMPLE: 15, (1, 1, 1): 2}
+    assert answer.complete
 
 
 def test_paths_that_end_at_too_few_zeros_are_followed_further_and_no_others() -> None:
