@@ -334,7 +334,8 @@ solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_cl
 solving.start.centring: FAR, CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy:
 SHARP; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.target:
 HALF_UNIT; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt:
-EXACT, INEXACT; witness.close_to_sets: ROUNDED; witness.cutting: FLAT, ROUNDED, ROUNDING;
+EXACT, INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED;
+witness.cutting: FLAT, ROUNDED, ROUNDING;
 witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT;
 witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE;
 witness.real_points: SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR,

@@ -234,3 +234,24 @@ def test_a_zero_is_at_infinity_only_if_the_exact_equations_put_it_there(digits: 
     centre = np.zeros((3, 2, 2))
     centre[1:, 0, 0] = 1.0
     assert at_infinity(Terms(homotopy), centre, [0]) == (digits is None)
+
+
+def test_solutions_of_size_1e80_are_found() -> None:
+    found = nag.solve(
+        [
+            "10^-80*u^2 + u*v + 2*x - 1",
+            "3*10^-80*v^2 + v*x - u + 2",
+            "10^-80*x^2 - x*u + 5*v + 2",
+        ]
+    )
+    assert len(found.solutions) == 8
+    assert found.complete
+    assert np.abs(found.points).max() > 1e79
+
+
+def test_a_box_smaller_than_doubles_can_be_proves_nothing() -> None:
+    (x,) = Polynomial.variables(1)
+    homotopy, _ = homotopy_of([x**2 - 2 * x])
+    centre = np.zeros((2, 2, 2))
+    centre[0, 0, 0], centre[1, 0, 0] = 1.0, 1e-305
+    assert proved(Terms(homotopy), centre, np.zeros(2)) is None

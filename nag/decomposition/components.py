@@ -18,6 +18,7 @@ from nag.witness.fibres import Progress, Tracker
 from nag.witness.witness import Decomposition
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def decompose(
     system: PolynomialSystem,
     *,

@@ -72,6 +72,7 @@ def number_text(z: complex, solution: Solution) -> str:
     return f"{real}{_digits_text(float(z.imag), error, '+')}i"
 
 
+@np.errstate(over="ignore")
 def _digits_text(value: float, error: float, sign: str = "") -> str:
     """A number that may be off by ``error``, to at most six digits."""
     if abs(value) <= error < np.inf:

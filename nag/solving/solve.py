@@ -34,6 +34,7 @@ SEPARATING = 60
 INFINITE, ROUGHLY_INFINITE = 2e-12, 1e-7
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def solve(
     system: PolynomialSystem,
     *,

@@ -30,6 +30,9 @@ STEPS, BASIN = 14, 0.1
 # Digits behind the point to which Newton's constant is probed: beyond all distances of points that
 # can be tracked, before what is left of their digits.
 OFF = 32
+# Newton's constant where no more is known than that the next point is near; more asks for no more
+# digits.
+STEEPEST = 1e100
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,11 +127,11 @@ def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> F
                 try:
                     step = exact.jacobian(x).mid().solve(exact(x).mid())
                 except ZeroDivisionError:
-                    return Fine(point.words, np.inf)
+                    return Fine(point.words, STEEPEST)
                 x = [_middle(z - step[i, 0]) for i, z in enumerate(x)]
                 lengths.append(float(max(abs(step[i, 0]) for i in range(len(x))).mid()) / size)
             most = max(most, lengths[1] / lengths[0] ** 2)
-    return Fine(point.words, most)
+    return Fine(point.words, min(most, STEEPEST))
 
 
 def with_roots(point: Fine, f: Polynomial) -> list[Fine]:

@@ -102,6 +102,7 @@ def exact_points(fibre: Fibre, rows: np.ndarray, digits: int) -> ExactPoints:
     return ExactPoints(values, bits, radii, balls)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def _twice(fibre: Fibre, rows: np.ndarray, bits: int) -> tuple[np.ndarray, np.ndarray]:
     """By one step more than the points in doubles show."""
     n = fibre.cut.n

@@ -54,6 +54,9 @@ def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) ->
     sizes = np.where(sizes > 0, sizes, sizes.max(initial=0.0))
     floor = sizes * 2.0 ** -(BITS[centre.shape[-1]] // 2 + 40)
     radii = (WIDER * errors + floor).tolist()
+    if not all(radii):
+        # Boxes as small leave the range of doubles.
+        return None
     patches = patches_through(flint, terms, x)
     values, jacobian = system_at(flint, terms, patches, x)
     try:
