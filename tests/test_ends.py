@@ -20,7 +20,7 @@ from nag.tracking.ends.initial_forms import FINE, InitialForms
 from nag.tracking.ends.limits import Limits
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy, straight_line
-from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.paths import NEVER, Paths, PathStatus
 from nag.tracking.settings import Settings
 
 GAMMA = complex(np.exp(2j))
@@ -190,6 +190,14 @@ def test_forms_that_are_small_but_have_no_zero_do_not_vanish(k: int) -> None:
         forms = InitialForms(Terms(homotopy), FINE)
         assert forms.residual((1, 0, 0), 1, point) < 10.0 ** (1 - k)
         assert forms.vanish((1, 0, 0), 1, point, 1e-20) is infinite
+
+
+def test_where_coordinates_vanish_in_all_terms_nothing_is_left_to_vanish() -> None:
+    x, y = Polynomial.variables(2)
+    homotopy = Homotopy(compile_rows([x * y - x, x**2 + x * y]), np.zeros((0, 3)))
+    forms = InitialForms(Terms(homotopy), FINE)
+    point = [flint.acb(1), flint.acb(0), flint.acb(2)]
+    assert forms.vanish((0, NEVER, 0), 1, point, 1e-20)
 
 
 def test_a_multiple_zero_of_forms_is_told_from_a_constant() -> None:

@@ -95,6 +95,9 @@ class InitialForms:
                 [(tuple((there.index(j), k) for j, k in factors), c) for factors, c in form]
                 for form in self._of(orders, winding)
             ]
+            if not forms:
+                # Coordinates that vanish make all equations vanish.
+                return True
             first = [
                 next(i for i, j in enumerate(there) if j in group)
                 for group in self.terms.homotopy.groups
