@@ -59,6 +59,19 @@ def test_regular_ends_are_balls_that_hold_the_zeros() -> None:
         assert abs(cube[1]) < Fraction(1, 10**28)
 
 
+def test_an_end_far_out_gets_the_digits_that_it_needs_after_division() -> None:
+    x, y = Polynomial.variables(2)
+    paths = followed([x - y - 1 - y * Fraction(1, 10**24), x - 4 * x + y * 3 - 7])
+    assert (paths.status == PathStatus.REGULAR).all()
+    ball = paths.balls[0]
+    (a, b), (c, d) = ball.fractions()[:2]
+    exact = Fraction(-10 * 10**24 - 7, 3)
+    affine = complex(c, d) / complex(a, b)
+    assert abs(affine / float(exact) - 1) < 1e-13
+    assert float(ball.radii[0] / abs(complex(a, b))) < 1e-15
+    assert paths.accuracy[0] < 1e-14
+
+
 @pytest.mark.parametrize(("a", "b"), [(2, 1), (3, 2), (4, 1), (5, 3)])
 def test_orders_of_branches_to_infinity_are_rational(a: int, b: int) -> None:
     # x^a y^b = 1 and x = 1: all paths but b go to infinity.

@@ -10,12 +10,15 @@ import pytest
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import decompose
+from nag.decomposition import decompose, superset
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
+from nag.witness.close_to_sets import Meant
 from nag.witness.confirm import vanishing
-from nag.witness.cutting import Cut
+from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Tracker
+from nag.witness.membership import Membership
 from nag.witness.slices import random_rows
+from nag.witness.witness import PathCounts
 
 
 def polynomials(names: str, *texts: str) -> tuple[Polynomial, ...]:
@@ -121,3 +124,18 @@ def test_points_closer_to_a_conic_than_doubles_tell_are_isolated() -> None:
     assert answer.complete
     found = Counter((c.dimension, c.degree, c.multiplicity) for c in answer.components)
     assert found == {(1, 2, 1): 1, (0, 1, 1): 26, (0, 1, 2): 2}
+
+
+@pytest.mark.parametrize("located", [True, False])
+def test_an_end_that_is_no_known_zero_is_not_taken_for_a_point_of_a_set(
+    located: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where its zero is known, and multiple, it is what the paths of the set lead to."""
+    monkeypatch.setattr(superset, "meant", lambda *_: Meant((), False, located))
+    monkeypatch.setattr(superset, "admit", lambda *_, **__: False)
+    member = (Membership.MEMBER, PathCounts())
+    monkeypatch.setattr(superset._Stage, "larger", lambda *_: member)
+    none = superset.Superset({}, np.eye(3, 4), PathCounts(), ())
+    stage = superset._Stage((), (), none, (), np.random.default_rng(0), Tracker())
+    doubts, _ = stage.add([(np.zeros(3), 1e-15)], {0: []}, Equations((), 3), np.eye(3, 4), 0, True)
+    assert bool(doubts) is not located
