@@ -7,19 +7,19 @@ how far what they judge lies from those with a star, ``--decompose`` for decompo
 ==========================================  ======  ================================================
 name                                        value   what it decides, and why there
 ==========================================  ======  ================================================
-numerics.small_values.ON *                  1e-9    Values in doubles, beside their terms, at
+numerics.zero_values.ON *                  1e-9    Values in doubles, beside their terms, at
                                                     sharpened points that may be zero: zeros lie
                                                     below 2.5e-13, others above 2e-6 in all systems
                                                     measured. What depends on it is confirmed in
                                                     more digits.
-numerics.small_values.NONZERO               1e-6    The same at other points that are certainly not
+numerics.zero_values.NONZERO               1e-6    The same at other points that are certainly not
                                                     zero; smaller ones are computed to 100 digits,
                                                     or leave the answer to another way.
-numerics.small_values.SINGULAR              1e-9    Singular values of a balanced Jacobian at a
+numerics.zero_values.SINGULAR              1e-9    Singular values of a balanced Jacobian at a
                                                     point of a component below which the gap is
                                                     looked for where a rank is read
                                                     (witness.cutting.GAP).
-numerics.small_values.SLACK                 1e3     Errors of a point that its estimate may be too
+numerics.zero_values.SLACK                 1e3     Errors of a point that its estimate may be too
                                                     small by: a bound for exact tests, no decision.
 numerics.coincidence.SAFETY                 100     Estimated errors that two points may be apart
                                                     and be one: what the balls are wider by.
@@ -134,18 +134,18 @@ tracking.ends.initial_forms.AWAY            1e4     How far away that is, in err
 tracking.ends.initial_forms.CLOSE           1e-10   The least that this is.
 tracking.ends.initial_forms.RANK            1e-6    Singular values of their Jacobian that are none,
                                                     beside the largest.
-tracking.ends.evidence.LEAST_EVIDENCE *     14      Digits to which the exact equations' terms of
+tracking.ends.limits.LEAST_EVIDENCE *     14      Digits to which the exact equations' terms of
                                                     least order must cancel at a limit, so that
                                                     coefficients that doubles rounded would show. No
                                                     gap: a limit that does not pass is looked for
                                                     further in.
-tracking.ends.evidence.ROUND_NUMBERS        6       Digits of coefficients that ask for no more;
+tracking.ends.limits.ROUND_NUMBERS        6       Digits of coefficients that ask for no more;
                                                     each further asks for one more.
 tracking.ends.follow.GAINED                 0.1     Residual of a limit over that of the last one,
                                                     further out: more is rounding, if it is below
                                                     NEARLY, and asks for more digits.
 tracking.ends.follow.NEARLY                 1e-6    See there.
-tracking.ends.evidence.MOST_EVIDENCE        58      More cannot be asked of 64 digits, and 120 are
+tracking.ends.limits.MOST_EVIDENCE        58      More cannot be asked of 64 digits, and 120 are
                                                     for paths that these lose.
 tracking.ends.limits.BEYOND                 30      Error of a limit in last terms of its series.
 tracking.ends.runs.TAIL                     1e-11   Last terms of a path's power series that is
@@ -317,7 +317,7 @@ LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_functio
 numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
 REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
 numerics.rounds_in_doubles: APART; numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
-numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP; numerics.small_values: LEAST;
+numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP; numerics.zero_values: LEAST;
 tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
 ENDGAME; tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE;
 tracking.ends.branch: LONGEST; tracking.ends.corrector:
@@ -332,11 +332,11 @@ tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_p
 solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING;
 solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP;
 solving.start.centring: FAR, CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy:
-SHARP; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH; solving.start.target:
-HALF_UNIT; solving.start.toric: LENGTH; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt:
-EXACT, INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED;
+SHARP; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
+solving.start.target: HALF_UNIT; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT,
+INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED;
 witness.cutting: FLAT, ROUNDED, ROUNDING;
-witness.error_radii: ENOUGH, ESTIMATE, CORRECTION; witness.exact_points: STEP, BITS_PER_DIGIT;
+witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP, BITS_PER_DIGIT;
 witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE;
 witness.real_points: SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR,
 OUTSIDE, SHRINK; decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;

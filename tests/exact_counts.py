@@ -17,7 +17,7 @@ import flint
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench.zero_set import Components, ZeroSet
+from nag.bench.verdicts import Components, ZeroSet
 
 PRIME = 1902797279921331653
 ORDER = flint.Ordering.degrevlex

@@ -25,8 +25,7 @@ from exact_counts import zero_set
 from nag.bench.atlas import curves, points
 from nag.bench.atlas.points import Problem
 from nag.bench.timed_runs import Run, timed_runs
-from nag.bench.verdicts import METHODS, Answer, answered, described, summary, verdict
-from nag.bench.zero_set import ZeroSet
+from nag.bench.verdicts import METHODS, Answer, ZeroSet, answered, described, summary, verdict
 
 FAMILIES = points.FAMILIES | curves.FAMILIES
 

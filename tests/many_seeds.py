@@ -5,7 +5,7 @@
         [--changed]
 
 Prints one line a case and the totals. With `--changed`, every seed decomposes the case in other
-coordinates, with other equations (see `nag.bench.atlas.sparse_changes`); multidegrees are those of
+coordinates, with other equations (see `nag.bench.atlas.changes`); multidegrees are those of
 the old ones.
 With a journal, a run that was cut off goes on where it stopped. Exit status 1 if any answer
 differs from what the case file knows, or is incomplete.
@@ -25,7 +25,7 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.sparse_changes import changed
+from nag.bench.atlas.changes import changed
 from nag.decomposition import decompose
 from nag.files.cases import Truth, read_case
 from nag.files.problem import symmetries_of

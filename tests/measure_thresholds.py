@@ -27,12 +27,12 @@ from nag.decomposition import components, discovery, intersection, splitting  # 
 from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.files.problem import system_of
-from nag.numerics import coincidence, small_values
+from nag.numerics import coincidence, zero_values
 from nag.solving import isolated_zero, judged_ends
 from nag.solving import solve as solving
 from nag.tracking import jumps, projective
 from nag.tracking import track as tracking
-from nag.tracking.ends import evidence, follow, limits
+from nag.tracking.ends import follow, limits
 from nag.tracking.homotopy import norms
 from nag.tracking.paths import PathStatus
 from nag.witness import confirm, cutting
@@ -130,7 +130,7 @@ def watched(measured: Measured) -> ExitStack:
 
     def initial_forms(limit: Any, *_: Any) -> None:
         if limit is not None:
-            need = 10.0**-evidence.LEAST_EVIDENCE
+            need = 10.0**-limits.LEAST_EVIDENCE
             measured.add("LEAST_EVIDENCE (residuals)", need, limit.residual)
 
     def denominator(found: int, slopes: np.ndarray, least: int) -> None:
@@ -139,7 +139,7 @@ def watched(measured: Measured) -> ExitStack:
         measured.add("WHOLE", limits.WHOLE, off[: found - least + 1] if found else off)
 
     def values(found: np.ndarray, *_: Any) -> None:
-        measured.add("ON", small_values.ON, found)
+        measured.add("ON", zero_values.ON, found)
 
     def met(_: Any, groups: Any, points: np.ndarray, errors: np.ndarray) -> None:
         if len(points) < MOST_PAIRED:
@@ -204,7 +204,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
 
     def vanishing(_: Any, cut: Any, f: Any, __: Any, points: np.ndarray, *___: Any) -> None:
         evaluator, x = Evaluator.of([f], cut.n), points[:, : cut.n]
-        measured.add("ON", small_values.ON, evaluator.residuals(x))
+        measured.add("ON", zero_values.ON, evaluator.residuals(x))
         terms = np.maximum(evaluator.absolute(x), NONE)
         measured.add("CERTAIN", confirm.CERTAIN, np.abs(evaluator.values(x)) / terms)
 

@@ -12,7 +12,7 @@ from numpy.random import Generator
 
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.general_position import NAMES
+from nag.bench.atlas.changes import NAMES
 
 Equations = Sequence[Polynomial]
 

@@ -26,8 +26,16 @@ from exact_counts import zero_set
 from random_small import small_system
 
 from nag.bench.timed_runs import Run, timed_runs
-from nag.bench.verdicts import METHODS, Answer, answered, described, known, summary, verdict
-from nag.bench.zero_set import ZeroSet
+from nag.bench.verdicts import (
+    METHODS,
+    Answer,
+    ZeroSet,
+    answered,
+    described,
+    known,
+    summary,
+    verdict,
+)
 
 BAD = ("wrong", "error", "differ")
 # Systems between two notices of how far a run is.

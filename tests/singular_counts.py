@@ -23,7 +23,7 @@ import flint
 from exact_counts import modular
 
 from nag.algebra.polynomial import Polynomial
-from nag.bench.zero_set import ZeroSet
+from nag.bench.verdicts import ZeroSet
 
 # Singular factors modulo primes below 2^29. Next to powers of two and ten a prime divides too many
 # discriminants: 2^29 - 3 makes a double root of 64 x^4 - x^3 + 72.

@@ -17,12 +17,12 @@ import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.family import Family as PolynomialFamily
 from nag.bench.atlas.asked import SINGULAR, asked
+from nag.bench.atlas.changes import KINDS, sparsely_changed
 from nag.bench.atlas.curves import tangent_slice
 from nag.bench.atlas.families import FAMILIES, Family
 from nag.bench.atlas.linkages import bennett_violated, bricard_violated, slider_crank
 from nag.bench.atlas.moved import GROUPS
 from nag.bench.atlas.nine_points import NinePoints
-from nag.bench.atlas.sparse_changes import KINDS, sparsely_changed
 from nag.bench.atlas.stability import (
     Atlas,
     Cell,

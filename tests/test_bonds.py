@@ -11,7 +11,7 @@ from solved import answer, modelled, shipped
 
 import nag
 from nag.cli import main
-from nag.files.schemas import schema
+from nag.files.json_values import schema
 from nag.mechanism.bonds import Bonds, bonds
 
 

@@ -16,7 +16,7 @@ import pytest
 import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.general_position import NAMES, Coordinates, mixed
+from nag.bench.atlas.changes import NAMES, Coordinates, mixed
 from nag.bench.reference import Reference
 from nag.cli import main
 from nag.decomposition import decompose, project

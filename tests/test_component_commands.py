@@ -13,7 +13,7 @@ import pytest
 
 from nag.cli import main
 from nag.files.export import read_export
-from nag.files.schemas import schema
+from nag.files.json_values import schema
 
 CASES = Path(__file__).parent.parent / "cases"
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import nag
-from nag.witness.expansion import expanded
+from nag.witness.frame import expanded
 from nag.witness.witness import WitnessSet
 
 

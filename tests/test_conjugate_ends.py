@@ -14,7 +14,7 @@ from nag.numerics.singular_point import Place
 from nag.solving import judged_ends
 from nag.solving import solve as solving
 from nag.solving.conjugate_ends import with_conjugate_ends
-from nag.solving.counted import counted
+from nag.solving.missing_zeros import counted
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
 from nag.solving.start.target import Start

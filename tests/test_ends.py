@@ -13,11 +13,10 @@ import nag
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.ends.at_infinity import at_infinity
-from nag.tracking.ends.evidence import digits_of_evidence
 from nag.tracking.ends.follow import Unfinished, follow
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.initial_forms import FINE, InitialForms
-from nag.tracking.ends.limits import Limits
+from nag.tracking.ends.limits import Limits, digits_of_evidence
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.paths import NEVER, Paths, PathStatus

@@ -14,9 +14,9 @@ from nag.bench.atlas.families import FAMILIES
 from nag.bench.reference import Reference
 from nag.decomposition import decompose, witness_at
 from nag.files.cases import read_case
-from nag.witness.error_radii import error_radii, sharpened
-from nag.witness.expansion import expanded
+from nag.witness.exact_points import error_radii, sharpened
 from nag.witness.fibres import Fibre
+from nag.witness.frame import expanded
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import WitnessSet
 

@@ -15,7 +15,7 @@ from systems import system
 from nag.algebra.expression import parse_polynomial
 from nag.bench.atlas.curves import FAMILIES as CURVES
 from nag.bench.atlas.points import FAMILIES as POINTS
-from nag.bench.zero_set import ZeroSet
+from nag.bench.verdicts import ZeroSet
 
 needs_singular = pytest.mark.skipif(
     shutil.which("Singular") is None, reason="Singular is not installed"

@@ -17,7 +17,7 @@ from nag.files.export import read_decomposition, write_decomposition
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
-from nag.witness.expansion import expanded
+from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition, Status
 
 

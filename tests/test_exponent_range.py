@@ -11,8 +11,8 @@ from test_ends import followed
 from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.ends import end_run, records, runs
-from nag.tracking.ends.exponent_range import powers_of_two, scaled
 from nag.tracking.ends.follow import States
+from nag.tracking.ends.runs import powers_of_two, scaled
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.settings import Settings
 

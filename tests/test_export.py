@@ -26,7 +26,7 @@ from nag.files.export import (
     read_export,
     write_decomposition,
 )
-from nag.files.schemas import schema
+from nag.files.json_values import schema
 from nag.files.written_file import TargetError, check_target, write_target
 from nag.witness.moving import witness_at
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet

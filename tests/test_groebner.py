@@ -11,14 +11,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nag.algebra import groebner
-from nag.algebra.division import divisor, remainder
 from nag.algebra.expression import parse_polynomial
-from nag.algebra.groebner import UnfinishedBasis, ideal, ideal_of, intersection, quotient
-from nag.algebra.hilbert import dimension_and_degree
+from nag.algebra.groebner import (
+    UnfinishedBasis,
+    dimension_and_degree,
+    divisor,
+    ideal,
+    ideal_of,
+    intersection,
+    quotient,
+    remainder,
+)
 from nag.algebra.rational_function import FunctionField
-from nag.check.irreducibility import certainly_irreducible
-from nag.check.matrices import determinant, minors
-from nag.check.rings import intersect_in, smooth
+from nag.check.bricard_variety import certainly_irreducible
+from nag.check.rings import determinant, intersect_in, minors, smooth
 
 
 def of(names: str, *equations: str):

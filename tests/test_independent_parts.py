@@ -9,7 +9,7 @@ from systems import system
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition import decompose
-from nag.decomposition.independent_parts import independent_variables
+from nag.decomposition.components import independent_variables
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model
 

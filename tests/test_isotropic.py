@@ -15,7 +15,7 @@ from nag.mechanism.framework import Framework, placed_framework
 from nag.mechanism.framework_model import framework_model
 from nag.mechanism.isotropic import isotropic_system
 from nag.mechanism.parts_decomposition import decompose_parts
-from nag.witness.expansion import expanded
+from nag.witness.frame import expanded
 
 
 def placed_in_plane(places, bars):

@@ -1,6 +1,7 @@
 """The packages' imports run one way, and files and functions are of a size to be read."""
 
 import ast
+import re
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -62,6 +63,24 @@ def test_packages_import_only_what_is_before_them(package: str) -> None:
         if ".".join(module.split(".")[:2]) in later
     ]
     assert backwards == []
+
+
+# One file a subject, a command or a statement: these say so, and where to begin.
+ALIKE = {"", "check", "cli", "report", "symbolic"}
+
+
+def packages() -> list[str]:
+    found = (p.parent.relative_to(NAG).as_posix() for p in NAG.rglob("__init__.py"))
+    return sorted({"" if p == "." else p for p in found} - ALIKE)
+
+
+@pytest.mark.parametrize("package", packages())
+def test_every_package_says_where_each_of_its_files_comes_in_the_reading(package: str) -> None:
+    text = ast.get_docstring(ast.parse((NAG / package / "__init__.py").read_text("utf-8")))
+    named = set(re.findall(r"`([a-z_0-9]+)`", text))
+    files = {p.stem for p in (NAG / package).glob("*.py")}
+    folders = {p.parent.name for p in (NAG / package).glob("*/__init__.py")}
+    assert (files | folders) - {"__init__"} <= named
 
 
 # Lines of a file, lines of a function with its docstring, arguments of a function without self.

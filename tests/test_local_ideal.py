@@ -11,8 +11,12 @@ from hypothesis import strategies as st
 from systems import system
 
 from nag.algebra.factoring import factored
-from nag.algebra.generic_multiplicity import generic_multiplicity, independent_gradients
-from nag.algebra.local_ideal import local_ideal, standard_monomials
+from nag.algebra.generic_multiplicity import (
+    generic_multiplicity,
+    independent_gradients,
+    local_ideal,
+    standard_monomials,
+)
 
 
 @given(st.lists(st.tuples(*[st.integers(0, 4)] * 3), min_size=0, max_size=5))

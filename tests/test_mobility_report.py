@@ -12,7 +12,7 @@ from local_points import sarrus
 
 import nag
 from nag.cli import main
-from nag.files.schemas import schema
+from nag.files.json_values import schema
 from nag.mechanism.graph import Joint, Mechanism
 from nag.numerics.local_dimension import NoSolution
 

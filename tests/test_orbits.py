@@ -19,9 +19,8 @@ from nag.decomposition.superset import Ambient, witness_superset
 from nag.files.cases import read_case
 from nag.files.export import read_decomposition, write_decomposition
 from nag.report.agreement import Verdict, compare
-from nag.witness.expansion import expanded
 from nag.witness.fibres import Tracker
-from nag.witness.frame import Frame
+from nag.witness.frame import Frame, expanded
 from nag.witness.points import Points
 from nag.witness.shown import kinds
 from nag.witness.slices import random_rows

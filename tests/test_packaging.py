@@ -16,7 +16,7 @@ import pytest
 import nag
 from nag.cli import main
 from nag.files.export import FORMAT, VERSION
-from nag.files.schemas import schema
+from nag.files.json_values import schema
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text("utf-8")

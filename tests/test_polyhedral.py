@@ -17,9 +17,13 @@ from systems import benchmark
 from nag.solving.start.choice import choose
 from nag.solving.start.fibre_monodromy import GenericSystem
 from nag.solving.start.mixed_cells import MixedCells, mixed_cells
-from nag.solving.start.polyhedral import polyhedral
+from nag.solving.start.polyhedral import (
+    binomial_solutions,
+    by_degeneration,
+    cell_weights,
+    polyhedral,
+)
 from nag.solving.start.target import Start, StartError, unit
-from nag.solving.start.toric import binomial_solutions, by_degeneration, cell_weights
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 

@@ -16,7 +16,7 @@ from nag.decomposition import by_sampling, decompose, memberships, real_points_n
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.witness import moving
-from nag.witness.expansion import expanded
+from nag.witness.frame import expanded
 from nag.witness.membership import Membership
 from nag.witness.sampling import SamplingError
 from nag.witness.witness import Decomposition, Status

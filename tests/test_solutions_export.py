@@ -12,8 +12,7 @@ import pytest
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
-from nag.files.json_values import ExportError
-from nag.files.schemas import schema
+from nag.files.json_values import ExportError, schema
 from nag.files.solutions_export import (
     FORMAT,
     VERSION,

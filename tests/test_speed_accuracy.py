@@ -13,14 +13,13 @@ import pytest
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench import peer_components, peer_points, peers, sharpening
-from nag.bench.chart_data import document, read_charts
 from nag.bench.component_curves import Listed, agreement, witness_section
 from nag.bench.peer_points import forms
 from nag.bench.reference import Reference, ReferenceError, compared, compared_in_balls
 from nag.bench.speed_accuracy import chart_of, ratios
 from nag.bench.speed_accuracy_picture import COLOURS, MARKS, PEERS
 from nag.bench.whole_paths import WHOLE_TOLERANCES, WholePaths, tracked_in
-from nag.bench.work_precision import Curve, Point, Subject, best_form
+from nag.bench.work_precision import Curve, Point, Subject, best_form, document, read_charts
 from nag.cli import main
 from nag.files.cases import read_case
 from nag.solving.solve import solve

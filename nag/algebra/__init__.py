@@ -1,9 +1,11 @@
 """Exact polynomials over the rationals, and systems of them.
 
-Read in this order: `number`, `polynomial`, `system` (the data); `expression` and `from_python`
-(text and Python's numbers in); `evaluation` (in doubles) and `high_precision`; `linear_algebra`
-and `prime_field`; `elimination`, `symmetry`, `combinations` (of equations); `factoring`, `branches`
-(on `branch_search` and `consequences`) and `algebraic_zeros` (what exact algebra decides before any
-path is tracked); `division`, `groebner` and `hilbert`
-(ideals).
+Read in this order: `number`, `polynomial`, `system` (the data); `tokens`, `bounded`, `expression`
+and `from_python` (with `from_sympy`: text and Python's numbers in); `evaluation` (in doubles) and
+`high_precision`; `linear_algebra`, `elimination`, `symmetry`, `combinations` and `turns` (what
+equations show at once); `factoring`, `branches` (on `branch_search`, `branch_equations` and
+`consequences`), `algebraic_zeros` (with `bivariate`), `zero_count` and `generic_multiplicity` (what
+exact algebra decides before any path is tracked); `groebner`, `smoothness` and `multipliers`
+(ideals); `rational_function` and `interpolation`; `family`, `rational_map` and `symmetric_family`
+(systems with parameters).
 """

@@ -17,8 +17,8 @@ from fractions import Fraction
 from math import lcm, prod
 from typing import Any
 
+from nag.algebra.linear_algebra import LARGE
 from nag.algebra.polynomial import Exponents, Polynomial
-from nag.algebra.prime_field import LARGE
 
 # Coefficients beyond which no combination of lower degree is looked for.
 MOST_COEFFICIENTS = 100_000

@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.linear_algebra import LARGE
 from nag.algebra.polynomial import Exponents, Polynomial
-from nag.algebra.prime_field import LARGE
 
 # Integer coefficients of more bits are divided by a power of two, so that they fit into doubles.
 MOST_BITS = 200

@@ -1,4 +1,8 @@
-"""Multiplicity of a component in the scheme that equations define, at one of its generic points."""
+"""Multiplicity of a component in the scheme that equations define, at one of its generic points.
+
+There the factors of the equations show what the ideal of the system is: only those that vanish on
+the component matter, the others are units.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +13,151 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nag.algebra.elimination import linear_variables, solved, substituted
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.factoring import Factors
-from nag.algebra.local_ideal import local_ideal
+from nag.algebra.factoring import Factors, factored, product
 from nag.algebra.polynomial import Polynomial
+
+# Powers of polynomials with more terms are not substituted.
+MOST_TERMS = 2000
+
+
+@dataclass(frozen=True)
+class LocalIdeal:
+    """Generators of an ideal at a generic point of a component.
+
+    Attributes:
+        coordinates: generators that are solved for a variable, which occurs in no other one.
+        monomials: the other generators, as powers of distinct irreducible polynomials that vanish
+            on the component.
+    """
+
+    coordinates: tuple[Polynomial, ...]
+    monomials: tuple[Factors, ...]
+
+    @property
+    def factors(self) -> tuple[Polynomial, ...]:
+        """The distinct polynomials that occur in the monomials."""
+        return tuple(dict.fromkeys(p for m in self.monomials for p, _ in m))
+
+    @property
+    def generators(self) -> tuple[Polynomial, ...]:
+        powers = [product([p**k for p, k in m], m[0][0].n) for m in self.monomials if m]
+        return (*self.coordinates, *powers)
+
+    def intersections(self, codimension: int) -> float:
+        """Number of choices of a factor of each generator; infinite if these are too many or few.
+
+        As many generators as the codimension are a complete intersection there.
+        """
+        if len(self.coordinates) + len(self.monomials) != codimension:
+            return math.inf
+        return math.prod(len(m) for m in self.monomials)
+
+    def multiplicity(
+        self, codimension: int, independent: Callable[[Sequence[Polynomial]], bool]
+    ) -> int | None:
+        """The multiplicity of a component of that codimension; None if it does not show.
+
+        Where coordinates and factors are as many as the codimension and have independent gradients
+        at a generic point, they are local coordinates of a slice through it, transversal to the
+        component. In these the ideal is one of monomials, and the dimension of the local ring is
+        the number of monomials that no generator divides. For a hypersurface that is the least
+        exponent.
+
+        Args:
+            independent: whether the gradients of polynomials are, at the generic point.
+        """
+        factors = self.factors
+        if len(self.coordinates) + len(factors) != codimension:
+            return None
+        if codimension > 1 and not independent([*self.coordinates, *factors]):
+            return None
+        exponents = [tuple(dict(m).get(p, 0) for p in factors) for m in self.monomials]
+        return standard_monomials(exponents, len(factors))
+
+
+def local_ideal(equations: Sequence[Factors], vanishes: Callable[[Polynomial], bool]) -> LocalIdeal:
+    """The ideal of the equations at a generic point of a component of their zero set.
+
+    A generator that is linear in a variable, with a constant coefficient, is used to eliminate it
+    from the others, which may then have more factors.
+
+    Args:
+        equations: those that are not zero, by their factors.
+        vanishes: whether a polynomial vanishes on the component.
+    """
+    known: dict[Polynomial, bool] = {}
+
+    def there(factors: Factors) -> dict[Polynomial, int]:
+        found: dict[Polynomial, int] = {}
+        for p, k in factors:
+            if p not in known:
+                known[p] = vanishes(p)
+            if known[p]:
+                found[p] = k
+        return found
+
+    monomials = [there(factors) for factors in equations]
+    coordinates: list[Polynomial] = []
+    while True:
+        monomials = [dict(m) for m in dict.fromkeys(tuple(m.items()) for m in monomials)]
+        pivot = _pivot(monomials)
+        if pivot is None:
+            return LocalIdeal(tuple(coordinates), tuple(tuple(m.items()) for m in monomials))
+        row, p, index = pivot
+        del monomials[row]
+        image = solved(p, index)
+        coordinates = [substituted(f, index, image) for f in coordinates] + [p]
+        reduced = []
+        for m in monomials:
+            after: dict[Polynomial, int] | None = {}
+            for q, k in m.items():
+                value = substituted(q, index, image)
+                if not value:
+                    after = None
+                    break
+                for r, j in there(factored(value)).items() if value is not q else ((q, 1),):
+                    after[r] = after.get(r, 0) + j * k
+            if after is not None:
+                reduced.append(after)
+        monomials = reduced
+
+
+def _pivot(monomials: Sequence[dict[Polynomial, int]]) -> tuple[int, Polynomial, int] | None:
+    """A generator that is linear in a variable, and the variable: of least degree."""
+    best: tuple[tuple[int, int], tuple[int, Polynomial, int]] | None = None
+    for row, m in enumerate(monomials):
+        if len(m) != 1:
+            continue
+        ((p, k),) = m.items()
+        alone = linear_variables(p) if k == 1 and len(p.terms) <= MOST_TERMS else ()
+        for index in sorted(alone):
+            key = (p.degree, len(p.terms))
+            if best is None or key < best[0]:
+                best = key, (row, p, index)
+    return None if best is None else best[1]
+
+
+def standard_monomials(exponents: Sequence[tuple[int, ...]], n: int) -> int | None:
+    """Number of monomials in ``n`` variables that none of some monomials divides; None: infinite.
+
+    Args:
+        exponents: of the monomials, ``n`` numbers each.
+    """
+    if n == 0:
+        return 0 if exponents else 1
+    steps = sorted({e[-1] for e in exponents} | {0})
+    total = 0
+    for i, low in enumerate(steps):
+        below = [e[:-1] for e in exponents if e[-1] <= low]
+        count = standard_monomials(below, n - 1)
+        if count is None or (count and i + 1 == len(steps)):
+            return None
+        if count:
+            total += count * (steps[i + 1] - low)
+    return total
+
 
 # Generators with more choices of a factor of each are not taken apart.
 MOST_INTERSECTIONS = 64

@@ -1,6 +1,10 @@
-"""Ideals of polynomials over the rationals by Groebner bases.
+"""Ideals of polynomials over the rationals by Groebner bases: division, dimension and degree.
 
 Bases come from FLINT's Buchberger algorithm, within bounds; divisions by them are our own.
+Polynomials are FLINT's with whole coefficients. Everything is multiplied through, never divided:
+the remainder is one of a non-zero multiple of the polynomial, by a polynomial in the parameters
+that divides a product of leading coefficients. Dimension and degree of an ideal follow from the
+leading monomials.
 """
 
 from __future__ import annotations
@@ -11,10 +15,140 @@ from functools import cached_property
 from math import lcm
 from typing import Any
 
-from nag.algebra.division import Divisor, divisor, remainder
-from nag.algebra.hilbert import dimension_and_degree
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import Exponents, Polynomial, divides
 from nag.algebra.rational_function import FunctionField, Order, RationalFunction
+
+
+@dataclass(frozen=True)
+class Divisor:
+    """A polynomial with its leading monomial and coefficient.
+
+    Attributes:
+        polynomial: all of it.
+        monomial: exponents of the leading monomial in the ``k`` first variables.
+        coefficient: what stands before it, a polynomial in the other ones.
+    """
+
+    polynomial: Any
+    monomial: Exponents
+    coefficient: Any
+
+
+def divisor(polynomial: Any, k: int) -> Divisor:
+    """The leading term, where the first ``k`` variables are variables and the rest parameters.
+
+    The order is that of the polynomial's ring; with parameters it must be lexicographic, so that
+    the terms with one monomial stand together.
+    """
+    monomial, coefficient = _leading(polynomial, k)
+    return Divisor(polynomial, monomial, coefficient)
+
+
+def remainder(polynomial: Any, divisors: Sequence[Divisor], k: int) -> Any:
+    """The remainder of a polynomial: no monomial of it is a multiple of a leading one.
+
+    It is zero if the polynomial is a combination of the divisors and these are a Groebner basis,
+    and only if a non-zero multiple by parameters is one.
+    """
+    ring = polynomial.context()
+    rest = ring.from_dict({})
+    while polynomial != 0:
+        monomial, coefficient = _leading(polynomial, k)
+        for d in divisors:
+            if divides(d.monomial, monomial):
+                quotient = tuple(map(int.__sub__, monomial, d.monomial))
+                common = coefficient.gcd(d.coefficient)
+                raised = ring.from_dict({(*quotient, *[0] * (ring.nvars() - k)): 1})
+                factor = d.coefficient // common
+                polynomial = polynomial * factor - d.polynomial * raised * (coefficient // common)
+                rest = rest * factor
+                break
+        else:
+            term = coefficient * ring.from_dict({(*monomial, *[0] * (ring.nvars() - k)): 1})
+            polynomial, rest = polynomial - term, rest + term
+    return rest
+
+
+def _leading(polynomial: Any, k: int) -> tuple[Exponents, Any]:
+    ring = polynomial.context()
+    terms = {}
+    first: Exponents | None = None
+    for exponents, coefficient in polynomial.terms():
+        exponents = tuple(map(int, exponents))
+        if first is None:
+            first = exponents[:k]
+        if exponents[:k] != first:
+            break
+        terms[(*[0] * k, *exponents[k:])] = coefficient
+    return first or (), ring.from_dict(terms)
+
+
+def dimension_and_degree(monomials: Iterable[Exponents], n: int) -> tuple[int, int]:
+    """Dimension and degree of the zero set of an ideal, its components counted by multiplicity.
+
+    The numerator of the Hilbert series of the leading monomials, divided by 1 - t as often as it
+    can be (Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, section 9.3). For an order
+    that compares degrees first these are those of the affine variety; the dimension is right for
+    every order.
+
+    Args:
+        monomials: exponents of the leading monomials, in ``n`` variables.
+
+    Returns:
+        (-1, 0) for the whole ring.
+    """
+    series = _numerator(_minimal(monomials))
+    if not any(series):
+        return -1, 0
+    dimension = n
+    while sum(series) == 0:
+        # Division by 1 - t: partial sums.
+        quotient, total = [], 0
+        for c in series[:-1]:
+            total += c
+            quotient.append(total)
+        series, dimension = quotient, dimension - 1
+    return dimension, sum(series)
+
+
+def _minimal(monomials: Iterable[Exponents]) -> list[Exponents]:
+    kept: list[Exponents] = []
+    for e in sorted(set(monomials), key=sum):
+        if not any(divides(f, e) for f in kept):
+            kept.append(e)
+    return kept
+
+
+def _numerator(monomials: Sequence[Exponents]) -> list[int]:
+    """Coefficients of the numerator over (1 - t)^n, by the exact sequence of a pivot."""
+    counts = [
+        sum(1 for e in monomials if e[i]) for i in range(len(monomials[0]) if monomials else 0)
+    ]
+    if any(sum(e) == 0 for e in monomials):
+        return [0]
+    if all(c <= 1 for c in counts):
+        # Coprime monomials: a product of 1 - t^d.
+        series = [1]
+        for e in monomials:
+            d = sum(e)
+            longer = [*series, *[0] * d]
+            for i, c in enumerate(series):
+                longer[i + d] -= c
+            series = longer
+        return series
+    pivot = counts.index(max(counts))
+    power = min(e[pivot] for e in monomials if e[pivot])
+    x = tuple(power if i == pivot else 0 for i in range(len(counts)))
+    with_x = _numerator(_minimal([*monomials, x]))
+    quotients = [tuple(max(a - b, 0) for a, b in zip(e, x, strict=True)) for e in monomials]
+    by_x = _numerator(_minimal(quotients))
+    series = [0] * max(len(with_x), len(by_x) + power)
+    for i, c in enumerate(with_x):
+        series[i] += c
+    for i, c in enumerate(by_x):
+        series[i + power] += c
+    return series
+
 
 # Polynomials of a basis, terms of one of them, bits of a coefficient; beyond, it is given up.
 BOUNDS = (1000, 10_000, 20_000)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from nag.algebra.division import divisor, remainder
-from nag.algebra.groebner import ideal
+from nag.algebra.groebner import divisor, ideal, remainder
 from nag.algebra.rational_function import FunctionField
 from nag.check.identities import Residuals, identity, labelled
 from nag.check.loops import axis_equations

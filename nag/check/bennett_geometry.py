@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from nag.check.identities import Residuals, identity, labelled, misprinted, surviving
-from nag.check.matrices import determinant
+from nag.check.rings import determinant
 from nag.check.statement import Verdict, decided, statement
 from nag.mechanism.axes import cross, difference, dot
 from nag.symbolic import bennett_geometry as b

@@ -7,8 +7,7 @@ from typing import Any
 from nag.algebra.groebner import ideal
 from nag.algebra.rational_function import FunctionField
 from nag.check.loops import axis_equations, local
-from nag.check.matrices import apply, product, transpose
-from nag.check.rings import contains, euler_ring, intersect_in, unit
+from nag.check.rings import apply, contains, euler_ring, intersect_in, product, transpose, unit
 from nag.check.statement import Verdict, decided, statement
 from nag.mechanism.axes import difference, dot
 from nag.mechanism.quaternion import K, K_tilde, add, norm_squared, rotate

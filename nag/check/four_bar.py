@@ -8,8 +8,7 @@ from typing import Any
 from nag.algebra.groebner import Ideal, ideal, intersection, quotient
 from nag.algebra.rational_function import FunctionField, RationalFunction
 from nag.check.known import circle
-from nag.check.matrices import minors
-from nag.check.rings import contains
+from nag.check.rings import contains, minors
 from nag.check.statement import Verdict, decided, fails, statement
 from nag.symbolic import four_bar
 

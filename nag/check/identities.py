@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from nag.algebra.division import divisor, remainder
+from nag.algebra.groebner import divisor, remainder
 from nag.algebra.rational_function import FunctionField, RationalFunction
 from nag.check.statement import Kind, Verdict, fails, holds
 

@@ -7,8 +7,16 @@ from typing import Any
 
 from nag.algebra.groebner import Ideal, ideal
 from nag.check.identities import Residuals, Root, identity, labelled, matrix, surviving
-from nag.check.matrices import apply, product, scalar, transpose
-from nag.check.rings import contains, euler_ring, intersect_in, unit
+from nag.check.rings import (
+    apply,
+    contains,
+    euler_ring,
+    intersect_in,
+    product,
+    scalar,
+    transpose,
+    unit,
+)
 from nag.check.statement import Verdict, decided, holds, statement
 from nag.mechanism.axes import difference, dot
 from nag.mechanism.quaternion import (

@@ -8,7 +8,7 @@ from typing import Any
 from nag.algebra.groebner import ideal
 from nag.algebra.rational_function import FunctionField
 from nag.check.identities import Residuals, identity, labelled, matrix
-from nag.check.matrices import apply, determinant, product, scalar, transpose
+from nag.check.rings import apply, determinant, product, scalar, transpose
 from nag.check.statement import Verdict, decided, statement
 from nag.mechanism.axes import cross, difference, dot
 from nag.mechanism.quaternion import (

@@ -7,8 +7,7 @@ from typing import Any
 
 from nag.algebra.groebner import Ideal, ideal
 from nag.algebra.rational_function import FunctionField
-from nag.check.matrices import minors
-from nag.check.rings import contains, derivatives, radical_contains
+from nag.check.rings import contains, derivatives, minors, radical_contains
 from nag.check.statement import Verdict, decided, statement
 from nag.symbolic import slider_crank
 

@@ -67,10 +67,10 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     check_targets(options)
     charts = _read(options.data) if options.data is not None else _run(options)
 
-    from nag.bench.chart_data import document
     from nag.bench.peer_points import SCALED
     from nag.bench.speed_accuracy import ratios
     from nag.bench.speed_accuracy_picture import draw_all, draw_case
+    from nag.bench.work_precision import document
     from nag.text.table import align
 
     write_text(options.json, json.dumps(document(charts)) + "\n")
@@ -94,7 +94,7 @@ def _default(chart: Chart) -> list:
 
 
 def _read(path: str) -> list[Chart]:
-    from nag.bench.chart_data import read_charts
+    from nag.bench.work_precision import read_charts
     from nag.files.json_values import ExportError, read_file
 
     try:

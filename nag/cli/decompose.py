@@ -97,7 +97,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
     ):
         from nag.decomposition.through import accounted, through_points
         from nag.files.problem import origin, points_of
-        from nag.witness.expansion import expanded
+        from nag.witness.frame import expanded
 
         if arguments.modes == "all":
             return _all_modes(arguments, case, progress)

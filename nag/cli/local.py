@@ -137,7 +137,7 @@ def _through(
         from nag.decomposition.components import decompose
         from nag.decomposition.through import through_points
         from nag.files.problem import symmetries_of
-        from nag.witness.expansion import expanded
+        from nag.witness.frame import expanded
 
         with progress_line(sys.stderr, options.quiet) as progress:
             decomposition = decompose(

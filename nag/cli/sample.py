@@ -70,7 +70,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     # A point of a component needs no other component to be known.
     complete = str(component.status) == "irreducible" and not doubt
     if options.json is not None:
-        from nag.files.json_text import pairs
+        from nag.files.json_values import pairs
 
         document = head(found, FORMAT, options) | {
             "complete": complete,

@@ -109,7 +109,7 @@ def _for_parameters(options: argparse.Namespace) -> tuple[list[str], bool]:
     """For which parameters there are singular points: they are solved for as well; as `run`."""
     from nag.files.case_table import CaseError
     from nag.files.cases import read_case
-    from nag.files.freed_parameters import freed_system
+    from nag.files.problem import freed_system
     from nag.text.table import labelled, printable
     from nag.witness.shown import paths_text
 

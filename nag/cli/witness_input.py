@@ -67,7 +67,7 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
         UsageError: if the export cannot be read.
     """
     from nag.files.json_values import ExportError
-    from nag.witness.expansion import expanded
+    from nag.witness.frame import expanded
 
     if is_export(options.case):
         from nag.files.export import read_export
@@ -214,7 +214,7 @@ def write_document(document: dict[str, Any], target: str) -> None:
     Raises:
         UsageError: if the file cannot be written.
     """
-    from nag.files.json_text import lay_out
+    from nag.files.json_values import lay_out
     from nag.files.written_file import write_target
 
     with writing_json():

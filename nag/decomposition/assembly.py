@@ -15,7 +15,7 @@ from nag.decomposition.final_checks import Examined, checked_witness_set
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.trace import digits_of_evidence
-from nag.numerics.small_values import LEAST
+from nag.numerics.zero_values import LEAST
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import Membership, is_member
 from nag.witness.points import Points

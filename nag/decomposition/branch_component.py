@@ -9,13 +9,18 @@ from functools import cached_property
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero
-from nag.algebra.branch_equations import BranchEquations
+from nag.algebra.branch_equations import BranchEquations, Vanishing
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.vanishing import Vanishing
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.numerics.small_values import NONZERO
-from nag.numerics.zero_values import WRITTEN, alike, possible_zeros, surely_differs, vanishes_at_all
+from nag.numerics.zero_values import (
+    NONZERO,
+    WRITTEN,
+    alike,
+    possible_zeros,
+    surely_differs,
+    vanishes_at_all,
+)
 from nag.witness.confirm import vanishing
 from nag.witness.fibres import Fibre
 from nag.witness.membership import component_fibres

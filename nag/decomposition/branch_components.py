@@ -23,14 +23,17 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_component import BranchComponent
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.singular_point import Place
-from nag.numerics.small_values import NONZERO, ON, SINGULAR, widened
 from nag.numerics.zero_values import (
+    NONZERO,
+    ON,
+    SINGULAR,
     WRITTEN,
     multiplicity_of_all,
     possible_zeros,
+    widened,
 )
 from nag.witness.cutting import Cut, numerical_corank
-from nag.witness.error_radii import framed, sharpened
+from nag.witness.exact_points import framed, sharpened
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, component_fibres, is_member

@@ -1,21 +1,126 @@
-"""Numerical irreducible decomposition of the zero set of a polynomial system."""
+"""Numerical irreducible decomposition of the zero set of a polynomial system.
+
+Where equations share no variables, components are products: one of irreducible sets is irreducible
+over the complex numbers, of the sum of the dimensions and the product of the degrees. Mechanisms
+whose loops hang together in single bodies are such.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import product
+from math import prod
 
 import numpy as np
 
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_components import decompose_apart
-from nag.decomposition.independent_parts import decompose_parts
 from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.rational_curve import decompose_rational_curve
 from nag.decomposition.reduction import Reduction
 from nag.witness.fibres import Progress, Tracker
-from nag.witness.witness import Decomposition
+from nag.witness.witness import Decomposition, PathCounts
+
+# Products beyond this number, or with more witness points, are not worked out one by one.
+MOST_PRODUCTS = 64
+MOST_POINTS = 1000
+
+Decompose = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
+
+
+def decompose_parts(
+    system: PolynomialSystem,
+    whole: Decompose,
+    symmetries: Sequence[SignedPermutation],
+    seed: int,
+    threads: int,
+    settings: str,
+) -> Decomposition | None:
+    """The components of a system that falls apart by its variables; None if it does not.
+
+    None as well where there are too many products, or a symmetry exchanges parts.
+
+    Args:
+        whole: decomposes a part.
+    """
+    parts = independent_variables(system)
+    if len(parts) < 2 or not all(_stays(g, parts) for g in symmetries):
+        return None
+    answers = [whole(_part(system, part), _restricted(symmetries, part)) for part in parts]
+    if not all(a.complete for a in answers):
+        return None
+    choices = list(product(*(a.components for a in answers)))
+    points = [prod(c.degree for c in chosen) for chosen in choices]
+    if len(choices) > MOST_PRODUCTS or max(points, default=0) > MOST_POINTS:
+        return None
+    from nag.decomposition.given_points import components_through_points
+
+    starts = []
+    for chosen in choices:
+        x = np.zeros(system.n, dtype=complex)
+        for part, component in zip(parts, chosen, strict=True):
+            x[list(part)] = component.points[0]
+        starts.append((sum(c.dimension for c in chosen), x))
+    answer = components_through_points(
+        system, starts, seed=seed, threads=threads, settings=settings, symmetries=symmetries
+    )
+    wanted = [
+        (sum(c.dimension for c in chosen), k) for chosen, k in zip(choices, points, strict=False)
+    ]
+    if sorted(wanted) != sorted((c.dimension, c.degree) for c in answer.components):
+        return None
+    return replace(answer, paths=sum((a.paths for a in answers), PathCounts()) + answer.paths)
+
+
+def independent_variables(system: PolynomialSystem) -> list[tuple[int, ...]]:
+    """The variables, those that occur together in a polynomial together."""
+    label = list(range(system.n))
+    for f in (*system.polynomials, *system.nonzero):
+        support = sorted(f.support)
+        names = {label[i] for i in support}
+        label = [min(names) if k in names else k for k in label]
+    return [tuple(i for i, k in enumerate(label) if k == name) for name in sorted(set(label))]
+
+
+def _part(system: PolynomialSystem, part: Sequence[int]) -> PolynomialSystem:
+    position = {i: k for k, i in enumerate(part)}
+
+    def own(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+        return tuple(
+            Polynomial(len(part), {tuple(e[i] for i in part): c for e, c in f.terms.items()})
+            for f in polynomials
+            if f.support and f.support <= position.keys()
+        )
+
+    groups = [tuple(position[i] for i in g if i in position) for g in system.groups]
+    return PolynomialSystem(
+        tuple(system.variables[i] for i in part),
+        own(system.polynomials),
+        own(system.nonzero),
+        tuple(g for g in groups if g),
+    )
+
+
+def _stays(g: SignedPermutation, parts: Sequence[tuple[int, ...]]) -> bool:
+    """Whether a symmetry moves the variables of one part only, among themselves."""
+    moved = {i for i, (k, s) in enumerate(zip(g.sources, g.signs, strict=True)) if k != i or s < 0}
+    return any(moved <= set(part) for part in parts)
+
+
+def _restricted(
+    symmetries: Sequence[SignedPermutation], part: Sequence[int]
+) -> list[SignedPermutation]:
+    position = {i: k for k, i in enumerate(part)}
+    found = [
+        SignedPermutation(
+            tuple(position[g.sources[i]] for i in part), tuple(g.signs[i] for i in part)
+        )
+        for g in symmetries
+    ]
+    return [g for g in dict.fromkeys(found) if not g.is_identity]
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -50,7 +155,7 @@ def decompose(
         progress: called with a stage's name, the step reached and the number of steps.
         symmetries: signed permutations of the variables that keep the equations. Of the components
             that they carry into each other one is worked out and reported, with the size of its
-            orbit; `nag.witness.expansion.expanded` lists the others.
+            orbit; `nag.witness.frame.expanded` lists the others.
 
     Raises:
         nag.algebra.symmetry.SymmetryError: if one of ``symmetries`` does not keep the equations.

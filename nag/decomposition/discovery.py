@@ -17,11 +17,11 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Assembly, Known, assembled
-from nag.decomposition.common_slices import CommonSlices, Start
 from nag.decomposition.excluded import forbidden
+from nag.decomposition.given_points import CommonSlices, Start
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.symmetric_images import in_orbits
-from nag.numerics.small_values import LEAST
+from nag.numerics.zero_values import LEAST
 from nag.witness.cutting import NEARLY_SINGULAR, Cut
 from nag.witness.fibres import Progress, Tracker
 from nag.witness.gauss_newton import CLOSE, descend, polish

@@ -9,8 +9,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import SAFETY
-from nag.numerics.small_values import ON
-from nag.numerics.zero_values import possible_zeros, vanishes_at
+from nag.numerics.zero_values import ON, possible_zeros, vanishes_at
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Moved

@@ -10,10 +10,10 @@ import numpy as np
 
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
-from nag.numerics.small_values import ON, SINGULAR
+from nag.numerics.zero_values import ON, SINGULAR
 from nag.witness.confirm import confirmed
 from nag.witness.cutting import Equations, numerical_corank
-from nag.witness.error_radii import Sharp, framed, in_order, sharpened
+from nag.witness.exact_points import Sharp, framed, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity

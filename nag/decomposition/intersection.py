@@ -23,7 +23,7 @@ from nag.decomposition.superset import (
     intersection_order,
     witness_superset,
 )
-from nag.numerics.small_values import LEAST, ON
+from nag.numerics.zero_values import LEAST, ON
 from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
 from nag.witness.fibres import Fibre, Progress, Tracker, admit
 from nag.witness.membership import component_system

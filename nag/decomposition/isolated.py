@@ -22,7 +22,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import most_zeros
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.coincidence import coincident
-from nag.numerics.small_values import NONZERO, SINGULAR
+from nag.numerics.zero_values import NONZERO, SINGULAR
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError

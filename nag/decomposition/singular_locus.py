@@ -25,8 +25,8 @@ from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
-from nag.witness.expansion import expanded
 from nag.witness.fibres import Tracker
+from nag.witness.frame import expanded
 from nag.witness.membership import component_fibres, component_system
 from nag.witness.multiplicity import multiplicity_at
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
@@ -179,7 +179,7 @@ def singular_locus(
     """The singular points of the components of a decomposition, and where components meet.
 
     Args:
-        only: indices of components of `nag.witness.expansion.expanded`; singular points of these
+        only: indices of components of `nag.witness.frame.expanded`; singular points of these
             and their intersections with all others are looked for. All of them by default.
     """
     whole = expanded(decomposition)

@@ -18,8 +18,8 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.rank_drop import new_names, product
-from nag.numerics.small_values import NONZERO, ON, SINGULAR
-from nag.witness.expansion import expanded
+from nag.numerics.zero_values import NONZERO, ON, SINGULAR
+from nag.witness.frame import expanded
 from nag.witness.sampling import SamplingError, sample
 from nag.witness.witness import PathCounts
 

@@ -16,8 +16,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.decomposition.excluded import excluded
 from nag.decomposition.hypersurface import Crossing, Sections, crossing
 from nag.numerics.coincidence import SAFETY, clusters, coincident
-from nag.numerics.small_values import ON
-from nag.numerics.zero_values import vanishes_at
+from nag.numerics.zero_values import ON, vanishes_at
 from nag.witness.close_to_sets import Meant, among, meant, regular_fibre
 from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.fibres import Fibre, Moved, Tracker, admit

@@ -22,7 +22,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.given_points import components_through_points
-from nag.numerics.small_values import ON
+from nag.numerics.zero_values import ON
 from nag.solving.parameter_line import parameter_line
 from nag.tracking.paths import PathStatus
 from nag.tracking.track import track

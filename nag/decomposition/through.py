@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.algebra.number import Number, is_zero
-from nag.witness.expansion import expanded
+from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from nag.files.json_text import pairs
+from nag.files.json_values import pairs
 from nag.numerics.tangent_cone import form_text
 
 if TYPE_CHECKING:

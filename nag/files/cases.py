@@ -23,8 +23,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import is_name, nearest, quote
 from nag.files.assembly_case import KEYS as ASSEMBLY_KEYS
 from nag.files.assembly_case import read_assembly
-from nag.files.case_table import CaseError, Table, kind_of, read_toml
-from nag.files.parameters import read_parameters, with_values
+from nag.files.case_table import CaseError, Table, kind_of, read_parameters, read_toml, with_values
 from nag.mechanism.formulation_names import FORMULATIONS
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from typing import Any
 
 import flint
 
-from nag.files.json_text import lay_out, pairs, real_or_null, system_document
+from nag.files.json_values import lay_out, pairs, real_or_null, system_document
 from nag.files.written_file import write_target
 from nag.numerics.certified_points import CertifiedPoints
 from nag.numerics.krawczyk import BITS, FineBox

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from nag.files.json_text import real_or_null
-from nag.files.json_values import as_count, as_double, as_list, as_table, entry, wrong
+from nag.files.json_values import as_count, as_double, as_list, as_table, entry, real_or_null, wrong
 from nag.witness.close_points import WORDS, Fine
 
 

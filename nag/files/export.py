@@ -19,7 +19,6 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
 from nag.files.close_points import close_document, close_points
-from nag.files.json_text import lay_out, pairs, real_or_null, system_document
 from nag.files.json_values import (
     ExportError,
     as_count,
@@ -35,7 +34,11 @@ from nag.files.json_values import (
     as_texts,
     as_vector,
     entry,
+    lay_out,
+    pairs,
     read_file,
+    real_or_null,
+    system_document,
     wrong,
 )
 from nag.files.written_file import write_target

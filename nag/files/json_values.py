@@ -1,7 +1,9 @@
-"""Values of a JSON document, each checked as it is taken out.
+"""Values of a JSON document as they are written, and each checked as it is taken out.
 
-Every function takes the value and its place in the document, returns it in our own type, and
-raises `ExportError` with the place and what it must be.
+Complex arrays are written as pairs, one line for each key and each point. Every function that reads
+takes the value and its place in the document, returns it in our own type, and raises `ExportError`
+with the place and what it must be. The JSON Schemas of the exports are in the folder ``schema``
+beside this module.
 """
 
 from __future__ import annotations
@@ -10,6 +12,7 @@ import json
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
+from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -18,6 +21,52 @@ import numpy as np
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+
+
+def real_or_null(value: float) -> float | None:
+    """The number, or None where it is not finite: JSON knows no other numbers."""
+    return float(value) if math.isfinite(value) else None
+
+
+def pairs(array: np.ndarray) -> list[Any]:
+    """A complex array as nested lists with ``[re, im]`` in place of each entry."""
+    doubles = np.ascontiguousarray(array).view(float).reshape(*array.shape, 2)
+    if np.isfinite(doubles).all():
+        return doubles.tolist()
+    return np.where(np.isfinite(doubles), doubles.astype(object), None).tolist()
+
+
+def system_document(system: PolynomialSystem) -> dict[str, Any]:
+    """A polynomial system as a JSON object."""
+    return {
+        "variables": list(system.variables),
+        "polynomials": system.text(),
+        "nonzero": [f.text(system.variables) for f in system.nonzero],
+        "groups": [[system.variables[i] for i in group] for group in system.groups],
+        "exact": system.exact,
+    }
+
+
+def _depth(value: Any) -> float:
+    """Nesting depth of lists; infinite if there is an object inside."""
+    if isinstance(value, dict):
+        return math.inf
+    return 1 + max(map(_depth, value), default=0) if isinstance(value, list) else 0
+
+
+def lay_out(value: Any, indent: str = "") -> str:
+    """JSON text with one line for each key, and one line for each point."""
+    deeper = indent + "  "
+    if isinstance(value, dict) and value:
+        parts = [f"{json.dumps(k)}: {lay_out(v, deeper)}" for k, v in value.items()]
+        left, right = "{}"
+    elif isinstance(value, list) and (_depth(value) > 2 or any(isinstance(v, str) for v in value)):
+        parts = [lay_out(v, deeper) for v in value]
+        left, right = "[]"
+    else:
+        return json.dumps(value, allow_nan=False)
+    return f"{left}\n{deeper}" + f",\n{deeper}".join(parts) + f"\n{indent}{right}"
+
 
 LARGEST_FILE = 256 * 1024**2
 T = TypeVar("T")
@@ -171,3 +220,13 @@ def read_file(path: str | os.PathLike[str], convert: Callable[[Any], T]) -> T:
         raise ExportError(f"{file}: is not an export: lists are nested too deep") from None
     except ValueError as error:
         raise ExportError(f"{file}: is not JSON: {error}") from None
+
+
+def schema(name: str, version: int = 1) -> dict[str, Any]:
+    """The JSON Schema of a format, such as ``"nag-decomposition"``.
+
+    >>> schema("nag-decomposition", 2)["properties"]["format"]["const"]
+    'nag-decomposition'
+    """
+    file = resources.files("nag.files") / "schema" / f"{name}-{version}.json"
+    return json.loads(file.read_text("utf-8"))

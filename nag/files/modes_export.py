@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from nag.files.export import Origin
 from nag.files.export import document as decomposition_document
-from nag.files.json_text import lay_out
+from nag.files.json_values import lay_out
 from nag.files.written_file import write_target
 
 if TYPE_CHECKING:

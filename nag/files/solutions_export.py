@@ -10,7 +10,6 @@ import os
 from dataclasses import dataclass, fields
 from typing import Any
 
-from nag.files.json_text import lay_out, pairs, real_or_null, system_document
 from nag.files.json_values import (
     as_count,
     as_document,
@@ -24,7 +23,11 @@ from nag.files.json_values import (
     as_texts,
     as_vector,
     entry,
+    lay_out,
+    pairs,
     read_file,
+    real_or_null,
+    system_document,
     wrong,
 )
 from nag.files.written_file import write_target

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.algebra.hilbert import dimension_and_degree
+from nag.algebra.groebner import dimension_and_degree
 from nag.algebra.polynomial import Polynomial
 from nag.interpolation.essential import VariableMap, essential_variables, maps
 from nag.interpolation.point_cloud import SMALL, Cloud

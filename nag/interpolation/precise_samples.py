@@ -18,7 +18,7 @@ from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.small_values import ON
+from nag.numerics.zero_values import ON
 from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres

@@ -8,8 +8,15 @@ from math import prod
 
 import flint
 
-from nag.algebra.division import Divisor, divisor, remainder
-from nag.algebra.groebner import Ideal, UnfinishedBasis, cleared, ideal_of
+from nag.algebra.groebner import (
+    Divisor,
+    Ideal,
+    UnfinishedBasis,
+    cleared,
+    divisor,
+    ideal_of,
+    remainder,
+)
 from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.multipliers import multipliers
 from nag.algebra.polynomial import Polynomial
@@ -17,7 +24,7 @@ from nag.algebra.rational_function import FunctionField, RationalFunction
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.point_cloud import Cloud
 from nag.numerics.digits import number
-from nag.numerics.small_values import NONZERO
+from nag.numerics.zero_values import NONZERO
 
 FRESH_POINTS = 30
 # Groebner bases of larger systems are not begun.

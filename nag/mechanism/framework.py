@@ -142,7 +142,7 @@ class Framework:
         """
         import random
 
-        from nag.algebra.prime_field import LARGE
+        from nag.algebra.linear_algebra import LARGE
 
         draw = random.Random(0)
         places = [

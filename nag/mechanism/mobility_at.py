@@ -29,7 +29,7 @@ from nag.mechanism.parts_decomposition import decompose_parts
 from nag.mechanism.pins import PinModel
 from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import local_dimension
-from nag.witness.expansion import expanded
+from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition, WitnessSet
 
 

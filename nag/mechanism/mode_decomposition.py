@@ -15,7 +15,7 @@ from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.mode_classes import ModeClass, mode_classes
 from nag.mechanism.model import Model, ModelError, model, with_loops
-from nag.witness.expansion import expanded
+from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition
 
 Progress = Callable[[str, int, int], None]

@@ -12,8 +12,8 @@ from typing import Any
 
 import flint
 
+from nag.algebra.linear_algebra import PrimeField
 from nag.algebra.number import Irrational, Number
-from nag.algebra.prime_field import PrimeField
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.power_series import Terms
 

@@ -15,9 +15,9 @@ import numpy as np
 
 from nag.algebra.elimination import Elimination
 from nag.algebra.factoring import common_factor
+from nag.algebra.linear_algebra import PrimeField
 from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.prime_field import PrimeField
 from nag.numerics.algebraic_point import prime_images
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, Deflated

@@ -12,9 +12,9 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.algebra.linear_algebra import PrimeField
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.prime_field import PrimeField
 from nag.numerics.digits import LOG10_2, log_norm, number
 from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Terms

@@ -10,8 +10,8 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.algebra.linear_algebra import PrimeField
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.prime_field import PrimeField
 from nag.numerics.clusters import close_zeros
 from nag.numerics.curves import curve_through, is_exact_zero
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate

@@ -1,7 +1,10 @@
-"""The exact isolated zero that a point stands for: its multiplicity, and what vanishes there.
+"""What values are taken for: certainly not zero, or zero at the exact zero that a point stands for.
 
-Where several zeros are so close that the point may stand for any of them, only what is the same
-at all of them is known.
+Values in doubles are relative to the sum of their terms' sizes
+(`nag.algebra.evaluation.Evaluator.residuals`), singular values to the size of a balanced matrix.
+Whatever lies between, or may be zero, is decided in more digits, or exactly, wherever something
+depends on it. Where several zeros are so close that a point may stand for any of them, only what
+is the same at all of them is known.
 """
 
 from __future__ import annotations
@@ -13,7 +16,21 @@ import numpy as np
 from nag.algebra.high_precision import BallValues, vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.numerics.small_values import SLACK
+
+# Zeros lie below 2.5e-13 at sharpened points, others above 2e-6 in all systems measured.
+ON = 1e-9
+# Values at points that are not sharpened that are certainly not zero.
+NONZERO = 1e-6
+# Singular values at a point of a component below which a gap is looked for.
+SINGULAR = 1e-9
+# How much larger than its estimate the error of a point may be, and the least that is believed.
+SLACK, LEAST = 1e3, 1e-12
+
+
+def widened(x: np.ndarray, accuracy: float) -> float:
+    """An error of the coordinates of a point of that relative accuracy, with a margin."""
+    return max(SLACK * accuracy, LEAST) * (1 + float(np.abs(x).max(initial=0.0)))
+
 
 # Relative difference of coordinates that agree, and coordinates beside the largest that are zero.
 ALIKE, NOTHING = 1e-6, 1e-60

@@ -24,7 +24,7 @@ from nag.report.model import (
     table_lines,
 )
 from nag.text.table import labelled, printable, sheet
-from nag.witness.expansion import expanded
+from nag.witness.frame import expanded
 from nag.witness.shown import component_table, in_words, kinds, paths_text, remarks, title_line
 from nag.witness.witness import Decomposition, Status
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.algebraic_zeros import BITS, AlgebraicZero, algebraic_zeros
-from nag.algebra.branch_equations import BranchEquations
+from nag.algebra.branch_equations import BranchEquations, Vanishing
 from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
@@ -25,17 +25,18 @@ from nag.algebra.generic_multiplicity import (
 )
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.vanishing import Vanishing
 from nag.numerics.scaling import scaled_at
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.small_values import NONZERO, SLACK, widened
 from nag.numerics.zero_values import (
+    NONZERO,
+    SLACK,
     WRITTEN,
     alike,
     multiplicity_of_all,
     possible_zeros,
     surely_differs,
     vanishes_at_all,
+    widened,
 )
 from nag.solving.lifted_solution import lifted_solution
 from nag.solving.missing_zeros import DIGITS

@@ -13,7 +13,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import ZeroCount
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.numerics.small_values import ON
+from nag.numerics.zero_values import ON
 from nag.solving.isolated_zero import FinePoint, IsolatedZero, which_are_real
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem

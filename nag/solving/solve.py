@@ -12,9 +12,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import ZeroCount
 from nag.solving.branch_solutions import solve_apart
 from nag.solving.conjugate_ends import with_conjugate_ends
-from nag.solving.counted import Verdict, counted, doubtful, verdict
 from nag.solving.judged_ends import JudgedEnds, judged_ends
-from nag.solving.missing_zeros import with_missing_zeros
+from nag.solving.missing_zeros import Verdict, counted, doubtful, verdict, with_missing_zeros
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import check_kind, choose

@@ -17,7 +17,7 @@ from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.numerics.coincidence import meeting
-from nag.numerics.small_values import NONZERO
+from nag.numerics.zero_values import NONZERO
 from nag.solving.kantorovich import Confirmation, Confirmed
 from nag.solving.parameter_line import ParameterLine, parameter_line
 from nag.solving.solution_classes import invariants

@@ -16,8 +16,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import sharp_zero, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.small_values import NONZERO
-from nag.numerics.zero_values import possible_zeros, vanishes_at_all
+from nag.numerics.zero_values import NONZERO, possible_zeros, vanishes_at_all
 from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.start.choice import FEW
 from nag.solving.start.target import Target, most_digits

@@ -27,7 +27,7 @@ class Settings:
             straight run to t = 0 leaves it doubtful.
         digits: most decimal digits in which that is done, 16, 32, 64 or 120.
         evidence: digits beyond the least to which an end at infinity, or a singular one, must
-            satisfy the exact equations (see `nag.tracking.ends.evidence.digits_of_evidence`).
+            satisfy the exact equations (see `nag.tracking.ends.limits.digits_of_evidence`).
         retries: how often paths that prove to have jumped are tracked again, more tightly.
     """
 

@@ -29,7 +29,7 @@ from nag.numerics.certified_points import (
     joined_boxes,
 )
 from nag.numerics.discs import DiscPolynomials, Discs
-from nag.witness.expansion import image
+from nag.witness.frame import image
 from nag.witness.moving import SliceError, witness_at
 from nag.witness.witness import Decomposition, Slice, WitnessSet
 

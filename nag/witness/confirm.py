@@ -11,8 +11,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import DIGITS, vanish, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, analyse
-from nag.numerics.small_values import ON
-from nag.numerics.zero_values import vanishes_at
+from nag.numerics.zero_values import ON, vanishes_at
 from nag.witness.close_points import Fine, zero_from
 from nag.witness.cutting import Cut
 from nag.witness.multiplicity import ACCURACY

@@ -17,7 +17,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.scaling import scaled_terms, variable_scales
-from nag.numerics.small_values import SLACK
+from nag.numerics.zero_values import SLACK
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.witness.isosingular import Deflated, Level
 from nag.witness.slices import padded

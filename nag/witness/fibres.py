@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from nag.numerics.coincidence import coincident
-from nag.numerics.small_values import ON
+from nag.numerics.zero_values import ON
 from nag.tracking.homotopy import Homotopy, norms
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.settings import Settings

@@ -12,7 +12,7 @@ from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
-from nag.numerics.small_values import NONZERO, ON
+from nag.numerics.zero_values import NONZERO, ON
 from nag.witness.close_points import DIGITS, Fine, distance
 from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.cutting import Cut, Equations

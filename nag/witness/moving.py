@@ -9,9 +9,9 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.small_values import ON
+from nag.numerics.zero_values import ON
 from nag.witness.comparable import move_together
-from nag.witness.error_radii import Sharp, in_order, sharpened
+from nag.witness.exact_points import Sharp, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres
 from nag.witness.slices import to_slice

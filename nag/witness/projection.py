@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
-from nag.numerics.small_values import SINGULAR
+from nag.numerics.zero_values import SINGULAR
 from nag.witness.comparable import coordinate_sizes
 from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre, Tracker

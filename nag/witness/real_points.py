@@ -15,7 +15,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import coincident
-from nag.numerics.small_values import LEAST, ON
+from nag.numerics.zero_values import LEAST, ON
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import descend, polish
 from nag.witness.membership import Membership, component_fibres, is_member

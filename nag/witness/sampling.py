@@ -9,7 +9,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.small_values import ON
+from nag.numerics.zero_values import ON
 from nag.witness.comparable import coordinate_sizes
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.membership import component_fibres

@@ -86,7 +86,7 @@ class WitnessSet:
         residual: largest relative residual of the original equations at the points.
         radii: errors of the points' coordinates, absolute, shape ``(degree, n)``: no coordinate of
             a point is further from that of the exact point on the slice, as far as arithmetic of
-            twice the digits shows (`nag.witness.error_radii`); inf where it does not.
+            twice the digits shows (`nag.witness.exact_points`); inf where it does not.
         digits: decimal digits of the arithmetic that the radii rest on, shape ``(degree,)``.
         corank: corank of the Jacobian of the original equations at the points.
         multidegree: integer array of order ``dimension``: entry ``[i, j, ..]`` counts the points

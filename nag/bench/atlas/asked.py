@@ -9,8 +9,7 @@ import numpy as np
 from nag.bench.atlas.nine_points import CARRIED
 from nag.bench.atlas.points import Problem
 from nag.bench.reference import Reference, ReferenceError
-from nag.bench.verdicts import Answer, answered
-from nag.bench.zero_set import Components
+from nag.bench.verdicts import Answer, Components, answered
 from nag.decomposition.components import decompose
 from nag.decomposition.singular_locus import SingularSet, singular_locus
 from nag.solving.parameter import solve_family, solve_generic

@@ -15,9 +15,9 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.bench.atlas.asked import MET, NOT_SIMPLE
-from nag.bench.atlas.general_position import hidden, mixed
+from nag.bench.atlas.changes import hidden, mixed
 from nag.bench.atlas.points import Problem, plain
-from nag.bench.zero_set import Components
+from nag.bench.verdicts import Components
 from nag.witness.witness import Slice
 
 ONLY = ("decompose",)

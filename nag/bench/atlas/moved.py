@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.general_position import Coordinates, mixed
+from nag.bench.atlas.changes import Coordinates, mixed, sparsely_changed
 from nag.bench.atlas.nine_points import CARRIED, NinePoints
 from nag.bench.atlas.points import Problem, points
-from nag.bench.atlas.sparse_changes import sparsely_changed
-from nag.bench.zero_set import Components
+from nag.bench.verdicts import Components
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 

@@ -20,7 +20,7 @@ from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
 from nag.algebra.symmetric_family import SymmetricFamily
-from nag.bench.atlas.sparse_changes import combined, power, small
+from nag.bench.atlas.changes import combined, power, small
 from nag.files.case_family import CaseFamily
 from nag.numerics.coincidence import meeting
 from nag.solving.kantorovich import Confirmation

@@ -15,10 +15,9 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.general_position import NAMES, hidden, mixed
+from nag.bench.atlas.changes import NAMES, hidden, mixed
 from nag.bench.atlas.nine_points import NinePoints
-from nag.bench.verdicts import METHODS
-from nag.bench.zero_set import Components, ZeroSet
+from nag.bench.verdicts import METHODS, Components, ZeroSet
 from nag.witness.witness import Slice
 
 

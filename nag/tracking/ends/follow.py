@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.tracking.ends.at_infinity import at_infinity
-from nag.tracking.ends.evidence import LEAST_EVIDENCE, digits_of_evidence
 from nag.tracking.ends.inclusion import proved
-from nag.tracking.ends.limits import BEYOND, Limit, Limits
+from nag.tracking.ends.limits import BEYOND, LEAST_EVIDENCE, Limit, Limits, digits_of_evidence
 from nag.tracking.ends.runs import LAST_STEPS, MAX_STEPS, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
