@@ -19,7 +19,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.check.bennett_special import ROOTS as SPECIAL_ROOTS
 from nag.check.four_way import RESIDUAL, WAYS, Decompose, digits, evaluator
 from nag.check.identities import labelled, surviving
-from nag.check.known import BRICARD_ROOTS, Parametrisation, bennett_roots, parameter_text
+from nag.check.known import Parametrisation, parameter_text
+from nag.check.known_space import BRICARD_ROOTS, bennett_roots
 from nag.check.loops import (
     bennett_equations,
     bennett_mechanism,

@@ -2,6 +2,15 @@
 
 Each command has ``add_arguments(parser)`` and ``run(arguments)``, which returns the lines to print
 and whether the answer is complete. Nothing imports this package.
+
+The way of ``nag decompose cases/bennett.toml`` from the command to the table leads through
+`cli/command_line`, `cli/decompose`, `cli/arguments`; `files/cases`, `files/mechanism_case`;
+`mechanism/graph`, `mechanism/model`, `mechanism/loops`, `mechanism/formulations`,
+`mechanism/half_angles`, `mechanism/loop_product`, `mechanism/joint_factors`; `algebra/system`;
+`files/problem`; `decomposition/components`, `decomposition/reduction`,
+`decomposition/one_equation`, `decomposition/roots`, `decomposition/final_checks`;
+`witness/witness`; `report/answer`, `witness/shown`. What these call on the way gives them a value,
+and can be taken by its name.
 """
 
 from nag.cli.command_line import main

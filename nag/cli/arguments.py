@@ -126,6 +126,21 @@ def add_tracking(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
+def add_certify(parser: argparse.ArgumentParser) -> None:
+    """The option of the commands that find points."""
+    parser.add_argument(
+        "--certify",
+        action="store_true",
+        help="prove a zero in a box about each point found, as `nag certify` does of an export; "
+        "the answer is complete only if all are proved",
+    )
+    parser.add_argument(
+        "--certify-paths",
+        action="store_true",
+        help="the same, and prove that no path jumped, as `nag certify --paths` does",
+    )
+
+
 def read_case_file(path: str, values: Sequence[tuple[str, str]] = ()) -> Case:
     """The case in a file, ``values`` given to its parameters."""
     from nag.files.cases import CaseError, read_case

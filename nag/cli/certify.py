@@ -33,21 +33,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", metavar="FILE", help="write the boxes to FILE as JSON")
 
 
-def add_certify(parser: argparse.ArgumentParser) -> None:
-    """The option of the commands that find points."""
-    parser.add_argument(
-        "--certify",
-        action="store_true",
-        help="prove a zero in a box about each point found, as `nag certify` does of an export; "
-        "the answer is complete only if all are proved",
-    )
-    parser.add_argument(
-        "--certify-paths",
-        action="store_true",
-        help="the same, and prove that no path jumped, as `nag certify --paths` does",
-    )
-
-
 def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """Certify an export; returns the lines to print and whether all points are proved.
 

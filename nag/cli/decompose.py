@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 from nag.cli.arguments import (
     UsageError,
     add_case,
+    add_certify,
     add_running,
     only_assembled,
     read_problem,
     whole,
 )
-from nag.cli.certify import add_certify, certified
+from nag.cli.certify import certified
 from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds, writing_json
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of

@@ -7,8 +7,8 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import UsageError, add_case, add_running, read_problem
-from nag.cli.certify import add_certify, certified
+from nag.cli.arguments import UsageError, add_case, add_certify, add_running, read_problem
+from nag.cli.certify import certified
 from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds, writing_json
 
 if TYPE_CHECKING:
