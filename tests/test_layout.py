@@ -2,8 +2,9 @@
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -63,6 +64,46 @@ def test_packages_import_only_what_is_before_them(package: str) -> None:
         if ".".join(module.split(".")[:2]) in later
     ]
     assert backwards == []
+
+
+# What data can do stands in files that are loaded when it is asked for; and to see whether an
+# equation that deflation leaves has a zero set, other points of it are deflated.
+ASKED_FOR = {
+    "nag.witness.witness": None,
+    "nag.mechanism.graph": {"nag.mechanism.networkx_graph", "nag.mechanism.shown"},
+    "nag.solving.solutions": {"nag.solving.shown"},
+    "nag.numerics.singular_point": {"nag.numerics.local_structure"},
+    "nag.numerics.local_dimension": {"nag.numerics.dimension_bounds"},
+    "nag.numerics.deflation": {"nag.numerics.curves"},
+}
+
+
+def at_run_time(nodes: Iterable[ast.AST]) -> Iterator[tuple[ast.AST, bool]]:
+    """What is executed, and whether only when a function is called; no imports for types."""
+    for node in nodes:
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            continue
+        yield node, False
+        function = isinstance(node, ast.FunctionDef)
+        inner = at_run_time(ast.iter_child_nodes(node))
+        yield from ((below, later or function) for below, later in inner)
+
+
+def test_imports_run_one_way_inside_packages_as_well() -> None:
+    files = {
+        ".".join(("nag", *f.relative_to(NAG).with_suffix("").parts)): f
+        for f in NAG.rglob("*.py")
+        if f.name != "__init__.py"
+    }
+    order = TopologicalSorter[str]()
+    for module, file in files.items():
+        for node, later in at_run_time(ast.parse(file.read_text("utf-8")).body):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                names = {node.module} | {f"{node.module}.{a.name}" for a in node.names}
+                asked = ASKED_FOR.get(module, set()) if later else set()
+                left = set() if asked is None else (names & files.keys()) - asked
+                order.add(module, *left)
+    order.prepare()
 
 
 # One file a subject, a command or a statement: these say so, and where to begin.
