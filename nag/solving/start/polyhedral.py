@@ -35,6 +35,47 @@ from nag.tracking.track import track_regular
 LENGTH = 10.0
 # Largest determinant and entry of an adjugate that doubles give exactly.
 LARGEST = 1 << 40
+# Arc of the start system's coefficients round those of the target, in turns.
+WIDTH = 1 / 3
+
+
+def polyhedral(target: Target, cells: MixedCells, rng: np.random.Generator, threads: int) -> Start:
+    """The homotopy from random coefficients, whose solutions come from the mixed cells.
+
+    What toric paths do not reach is looked for by monodromy.
+
+    Raises:
+        StartError: if there are too many paths, or not all solutions were found.
+    """
+    volume = cells.mixed_volume
+    if volume > MOST_PATHS:
+        raise StartError(f"polyhedral: {volume} paths; at most {MOST_PATHS} are tracked")
+    system, spent = by_degeneration(cells, _near(target, rng), threads)
+    reached = len(system.points)
+    detail = f"its solutions by {spent} toric paths"
+    if 0 < reached < volume:
+        system, spent, _ = by_monodromy(system, volume, rng, threads)
+        detail += f", {volume - reached} of them by monodromy with {spent} regular paths"
+    if len(system.points) != volume:
+        raise StartError(
+            f"polyhedral: {len(system.points)} of the {volume} solutions of the start system were "
+            "found"
+        )
+    return start_at("polyhedral", target, system, detail, 1.0)
+
+
+def _near(target: Target, rng: np.random.Generator) -> tuple[np.ndarray, ...]:
+    """Random coefficients of absolute value 1, in an arc round the target's.
+
+    On the way to the target no coefficient comes near zero then; where that of a vertex does, paths
+    run far towards infinity and back.
+    """
+    result = []
+    for row, support in zip(target.rows, target.supports, strict=True):
+        c = np.array([complex(row.get(tuple(e), 0)) for e in support.tolist()])
+        turns = np.where(c == 0, 1.0, WIDTH) * (rng.random(len(c)) - 0.5)
+        result.append(np.exp(1j * np.angle(c) + 2j * np.pi * turns))
+    return tuple(result)
 
 
 def cell_vectors(cells: MixedCells) -> np.ndarray:
@@ -161,46 +202,3 @@ def _single_terms(rows: CompiledRows) -> CompiledRows:
         for row in rows.parts
     )
     return CompiledRows(rows.N, parts, rows.groups, rows.infinity, rows.degrees)
-
-
-# Arc of the start system's coefficients round those of the target, in turns.
-WIDTH = 1 / 3
-
-
-def polyhedral(target: Target, cells: MixedCells, rng: np.random.Generator, threads: int) -> Start:
-    """The homotopy from random coefficients, whose solutions come from the mixed cells.
-
-    What toric paths do not reach is looked for by monodromy.
-
-    Raises:
-        StartError: if there are too many paths, or not all solutions were found.
-    """
-    volume = cells.mixed_volume
-    if volume > MOST_PATHS:
-        raise StartError(f"polyhedral: {volume} paths; at most {MOST_PATHS} are tracked")
-    system, spent = by_degeneration(cells, _near(target, rng), threads)
-    reached = len(system.points)
-    detail = f"its solutions by {spent} toric paths"
-    if 0 < reached < volume:
-        system, spent, _ = by_monodromy(system, volume, rng, threads)
-        detail += f", {volume - reached} of them by monodromy with {spent} regular paths"
-    if len(system.points) != volume:
-        raise StartError(
-            f"polyhedral: {len(system.points)} of the {volume} solutions of the start system were "
-            "found"
-        )
-    return start_at("polyhedral", target, system, detail, 1.0)
-
-
-def _near(target: Target, rng: np.random.Generator) -> tuple[np.ndarray, ...]:
-    """Random coefficients of absolute value 1, in an arc round the target's.
-
-    On the way to the target no coefficient comes near zero then; where that of a vertex does, paths
-    run far towards infinity and back.
-    """
-    result = []
-    for row, support in zip(target.rows, target.supports, strict=True):
-        c = np.array([complex(row.get(tuple(e), 0)) for e in support.tolist()])
-        turns = np.where(c == 0, 1.0, WIDTH) * (rng.random(len(c)) - 0.5)
-        result.append(np.exp(1j * np.angle(c) + 2j * np.pi * turns))
-    return tuple(result)
