@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from nag.machine_code.lanes import fma, load, select_less, splat, square_root, store
+from nag.machine_code.lanes import any_less, fma, load, select_less, splat, square_root, store
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
 
@@ -25,6 +25,7 @@ def _keep(data, k, accepted, value):
 def keep_series(s, r, order):
     """Taylor coefficients of coordinates and logarithms into the base, in the accepted lanes."""
     accepted = load(r.accepted, 0)
+    nothing = z.exact(splat(0.0), splat(0.0))
     n = s.N
     size = n + 1 + s.value_products
     for j in range(n):
@@ -33,12 +34,11 @@ def keep_series(s, r, order):
         # m x_m = sum of i l_i x_(m-i) for l = log x; the sums take the place of l for now.
         for m in range(1, order + 1):
             own = z.read(r.series, (m - 1) * size + j)
-            total = z.stretch(own, number.exact(splat(float(m))))
+            total = z.gather_real(nothing, z.negative(own), number.exact(splat(float(m))))
             for i in range(1, m):
                 left = z.read(r.change, i)
-                product = z.multiply(left, z.read(r.series, (m - i - 1) * size + j))
-                total = z.add(total, z.negative(product))
-            total = z.multiply(total, inverse)
+                total = z.gather(total, left, z.read(r.series, (m - i - 1) * size + j))
+            total = z.multiply(z.gathered(total), z.negative(inverse))
             z.write(r.change, m, total)
             _keep(r.coordinates, (m - 1) * n + j, accepted, own)
             log = z.stretch(total, number.same(s.inverses, m))
@@ -88,9 +88,11 @@ def predict(s, r, order, wanted, finishing, h):
             log = z.stretch(z.add(log, z.read(r.logarithms, k)), step)
             plain = z.stretch(z.add(plain, own), step)
             end = z.add(end, z.stretch(own, number.same(s.at_end, m)))
-        by_log = z.multiply(base, z.exponential(log, s.inverses))
         last, other = _last_terms(s, r, order, j)
-        value = z.choose(last, other, by_log, z.add(base, plain))
+        value = z.add(base, plain)
+        if any_less(last, other):
+            by_log = z.multiply(base, z.exponential(log, s.inverses))
+            value = z.choose(last, other, by_log, value)
         value = z.choose(half, finishing, z.add(base, end), value)
         z.write(r.slots, j, z.choose(half, wanted, value, z.read(r.slots, j)))
     zero = number.exact(splat(0.0))

@@ -10,7 +10,7 @@ import math
 from typing import NamedTuple
 
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import load, select_less, splat, store
+from nag.machine_code.lanes import any_less, load, select_less, splat, store
 from nag.machine_code.records import Reals, Wholes
 from nag.tracking.ends.branch import (
     extrapolate,
@@ -326,7 +326,8 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
                 f[8 * EVALUATED + lane] += r.accepted[lane] * b.order
             keep(s, r, f, b.order)
             _best_winding(s, r, b)
-            extrapolate(s, r, b.order, load(r.measures, 1))
+            if any_less(load(r.measures, 0), splat(2.0 * b.tail)):
+                extrapolate(s, r, b.order, load(r.measures, 1))
             for lane in range(8):
                 if r.accepted[lane] > 0.5:
                     best, winding = r.measures[lane], r.measures[8 + lane]

@@ -42,6 +42,20 @@ def _line(s, r, data, k, slots, first):
     return total
 
 
+def _is_real(data, k):
+    """Whether complex number ``k`` of an array that is the same in all lanes is real."""
+    return data[number.WORDS * (2 * k + 1)] == 0.0
+
+
+def _term(data, k, slot):
+    """A coefficient times a slot."""
+    if _is_real(data, k):
+        term = z.stretch(slot, number.same(data, 2 * k))
+    else:
+        term = z.multiply(z.same(data, k), slot)
+    return term
+
+
 def values(s, r):
     """Minus the values of all rows into the right-hand side, and the sizes of their terms."""
     zero = splat(0.0)
@@ -53,7 +67,7 @@ def values(s, r):
         total = nothing
         size = zero
         for q in range(s.value_start[b], s.value_start[b + 1]):
-            term = z.multiply(z.same(s.value, q), z.read(r.slots, s.value_slot[q]))
+            term = _term(s.value, q, z.read(r.slots, s.value_slot[q]))
             total = z.add(total, term)
             size = size + z.magnitude(term)
         z.write(r.sums, b, total)
@@ -133,7 +147,7 @@ def jacobian(s, r):
         total = nothing
         for q in range(s.jacobian_start[b], s.jacobian_start[b + 1]):
             slot = z.read(r.slots, s.jacobian_slot[q])
-            total = z.add(total, z.multiply(z.same(s.jacobian, q), slot))
+            total = z.add(total, _term(s.jacobian, q, slot))
         part = s.jacobian_part[b]
         if s.moving[part] != 0:
             total = z.multiply(z.read(r.factor, part), total)
@@ -165,30 +179,29 @@ def incomplete_slots(s, r, m):
         total = nothing
         # The second factor is a coordinate, whose coefficient of this order is taken as 0.
         if a > s.N:
-            total = z.multiply(z.read(r.series, top + a), z.read(r.slots, b))
+            total = z.gather(total, z.read(r.series, top + a), z.read(r.slots, b))
         for i in range(1, m):
             left = z.read(r.series, (i - 1) * size + a)
             right = z.read(r.series, (m - i - 1) * size + b)
-            total = z.add(total, z.multiply(left, right))
-        z.write(r.series, top + s.N + 1 + q, total)
+            total = z.gather(total, left, right)
+        z.write(r.series, top + s.N + 1 + q, z.gathered(total))
 
 
 def complete_slots(s, r, m):
     """Add to the coefficients of order ``m`` what the solution in the right-hand side adds."""
+    nothing = z.exact(splat(0.0), splat(0.0))
     size = s.N + 1 + s.value_products
     top = (m - 1) * size
     for j in range(s.N):
         x = z.read(r.right, j)
         z.write(r.change, j, x)
         z.write(r.series, top + j, x)
-    z.write(r.change, s.N, z.exact(splat(0.0), splat(0.0)))
+    z.write(r.change, s.N, nothing)
     for q in range(s.value_products):
         a = s.first[q]
         b = s.second[q]
-        total = z.add(
-            z.multiply(z.read(r.slots, a), z.read(r.change, b)),
-            z.multiply(z.read(r.change, a), z.read(r.slots, b)),
-        )
+        total = z.gather(nothing, z.read(r.slots, a), z.read(r.change, b))
+        total = z.gathered(z.gather(total, z.read(r.change, a), z.read(r.slots, b)))
         k = s.N + 1 + q
         z.write(r.change, k, total)
         z.write(r.series, top + k, z.add(z.read(r.series, top + k), total))
@@ -196,31 +209,43 @@ def complete_slots(s, r, m):
 
 def block_sums(s, r, m):
     """Taylor coefficients of order ``m`` of the blocks and of the linear rows' moving parts."""
+    nothing = z.exact(splat(0.0), splat(0.0))
     size = s.N + 1 + s.value_products
     top = (m - 1) * size
     for b in range(s.value_blocks):
-        total = z.exact(splat(0.0), splat(0.0))
+        total = nothing
         for q in range(s.value_start[b], s.value_start[b + 1]):
             slot = z.read(r.series, top + s.value_slot[q])
-            total = z.add(total, z.multiply(z.same(s.value, q), slot))
-        z.write(r.sums, m * s.value_blocks + b, total)
+            if _is_real(s.value, q):
+                total = z.gather_real(total, slot, number.same(s.value, 2 * q))
+            else:
+                total = z.gather(total, slot, z.same(s.value, q))
+        z.write(r.sums, m * s.value_blocks + b, z.gathered(total))
     for k in range(s.linear):
         z.write(r.lines, m * s.linear + k, _line(s, r, s.A1, k, r.series, top))
 
 
-def _shifted(s, r, data, first, stride, m):
-    """Coefficient of order ``m`` of ``t (exp(h) - 1)`` times a series, minus it."""
-    total = z.exact(splat(0.0), splat(0.0))
+def _shifts(s, r, m):
+    """Taylor coefficients of ``t exp(h)`` up to order ``m`` into ``r.change``."""
     weight = number.read(r.t, 0)
     for i in range(1, m + 1):
         weight = number.multiply(weight, number.same(s.inverses, i))
-        total = z.add(total, z.stretch(z.read(data, first + (m - i) * stride), weight))
-    return z.negative(total)
+        number.write(r.change, i, weight)
+
+
+def _shifted(r, data, first, stride, m):
+    """Coefficient of order ``m`` of ``t (exp(h) - 1)`` times a series, minus it."""
+    total = z.exact(splat(0.0), splat(0.0))
+    for i in range(1, m + 1):
+        term = z.read(data, first + (m - i) * stride)
+        total = z.gather_real(total, term, number.read(r.change, i))
+    return z.negative(z.gathered(total))
 
 
 def right_side(s, r, m):
     """Minus the coefficient of order ``m`` of the rows, the coordinates' own taken as 0."""
     nothing = z.exact(splat(0.0), splat(0.0))
+    _shifts(s, r, m)
     for k in range(s.N):
         z.write(r.right, k, nothing)
     for b in range(s.value_blocks):
@@ -230,9 +255,9 @@ def right_side(s, r, m):
             total = z.multiply(z.read(r.factor, part), total)
             re = splat(s.factors[4 * part + 2])
             im = splat(s.factors[4 * part + 3])
-            moved = _shifted(s, r, r.sums, b, s.value_blocks, m)
+            moved = _shifted(r, r.sums, b, s.value_blocks, m)
             total = z.add(total, z.multiply(z.exact(re, im), moved))
         k = s.value_place[b]
         z.write(r.right, k, z.add(z.read(r.right, k), total))
     for k in range(s.linear):
-        z.write(r.right, s.rows + k, _shifted(s, r, r.lines, k, s.linear, m))
+        z.write(r.right, s.rows + k, _shifted(r, r.lines, k, s.linear, m))

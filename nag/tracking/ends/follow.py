@@ -128,6 +128,13 @@ class States:
         parts = self.found.get(path, self.where[path]).sum(axis=-1)
         return parts[:, 0] + 1j * parts[:, 1]
 
+    def astray(self, path: int) -> bool:
+        """Whether a path has gone on from the last point that was known well, in rounding errors.
+
+        Newton's constant, estimated from these, may then seem small, and steps are without end.
+        """
+        return bool(self.safe_t[path, 0] > self.t[path, 0])
+
     def known(self, path: int) -> np.ndarray:
         """Which coordinates exceed their rounding errors."""
         return np.abs(self.point(path)) > KNOWN * self.errors[path]
@@ -239,6 +246,8 @@ def _follow_in(
                 states.outcome[path] = end_run.LIMIT
             elif outcome == end_run.LOST:
                 (again if states.from_its_start(path, words) else later).append(path)
+            elif outcome == end_run.TOO_LONG and states.astray(path):
+                later.append(path)
             elif outcome == end_run.LIMIT:
                 verdict = _limit(states, limits, path, found[k], needs)
                 if verdict != end_run.LIMIT:

@@ -80,8 +80,9 @@ def factorize(s, r):
             factor = z.negative(z.multiply(z.read(r.matrix, i * n + k), pivot))
             z.write(r.matrix, i * n + k, factor)
             for j in range(k + 1, n):
+                entry = z.read(r.matrix, i * n + j)
                 product = z.multiply(factor, z.read(r.matrix, k * n + j))
-                z.write(r.matrix, i * n + j, z.add(z.read(r.matrix, i * n + j), product))
+                z.write(r.matrix, i * n + j, z.add(entry, product))
 
 
 def substitute(s, r, data):
@@ -103,14 +104,13 @@ def substitute(s, r, data):
     for i in range(1, n):
         total = z.read(data, i)
         for j in range(i):
-            product = z.multiply(z.read(r.matrix, i * n + j), z.read(data, j))
-            total = z.add(total, product)
-        z.write(data, i, total)
+            total = z.gather(total, z.read(r.matrix, i * n + j), z.read(data, j))
+        z.write(data, i, z.gathered(total))
     for i in range(n - 1, -1, -1):
-        total = z.read(data, i)
+        total = z.negative(z.read(data, i))
         for j in range(i + 1, n):
-            product = z.multiply(z.read(r.matrix, i * n + j), z.read(data, j))
-            total = z.add(total, z.negative(product))
+            total = z.gather(total, z.read(r.matrix, i * n + j), z.read(data, j))
+        total = z.negative(z.gathered(total))
         z.write(data, i, z.multiply(total, z.read(r.matrix, i * n + i)))
     for j in range(n):
         z.write(data, j, z.scale(z.read(data, j), load(r.columns, j)))

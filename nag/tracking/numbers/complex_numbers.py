@@ -64,6 +64,29 @@ def multiply(a, b):
     return re, im
 
 
+def gather(s, a, b):
+    """``s + a b`` where words of ``s`` and of the result may overlap: half the work of the two."""
+    sr, si = s
+    ar, ai = a
+    br, bi = b
+    sr = number.gather(number.gather(sr, ar, br), number.negative(ai), bi)
+    si = number.gather(number.gather(si, ar, bi), ai, br)
+    return sr, si
+
+
+def gather_real(s, a, x):
+    """``s + a x`` with a real number; words of ``s`` and of the result may overlap."""
+    sr, si = s
+    ar, ai = a
+    return number.gather(sr, ar, x), number.gather(si, ai, x)
+
+
+def gathered(s):
+    """The number whose words overlap."""
+    sr, si = s
+    return number.gathered(sr), number.gathered(si)
+
+
 def scale(a, power):
     """``a`` times lanes that hold powers of two."""
     re, im = a
@@ -131,9 +154,9 @@ def exponential(a, inverses):
     # where exp(..) itself becomes small, squares do.
     s = small
     for k in range(number.TERMS, 1, -1):
-        s = multiply(small, add(one, stretch(s, number.same(inverses, k))))
+        s = gathered(gather(small, small, stretch(s, number.same(inverses, k))))
     for _k in range(HALVINGS - SQUARINGS):
-        s = add(scale(s, splat(2.0)), multiply(s, s))
+        s = gathered(gather(scale(s, splat(2.0)), s, s))
     result = add(one, s)
     for _k in range(SQUARINGS):
         result = multiply(result, result)

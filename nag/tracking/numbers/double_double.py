@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nag.machine_code.lanes import load, select_less, splat, store
+from nag.machine_code.lanes import fma, load, select_less, splat, store
 from nag.tracking.numbers.error_free import quick_two_sum, two_product, two_sum
 
 WORDS = 2
@@ -53,6 +53,18 @@ def multiply(a, b):
     """``a b``."""
     p, e = two_product(a[0], b[0])
     return quick_two_sum(p, e + (a[0] * b[1] + a[1] * b[0]))
+
+
+def gather(s, a, b):
+    """``s + a b`` where the words of ``s`` and of the result may overlap."""
+    p, e = two_product(a[0], b[0])
+    t, f = two_sum(s[0], p)
+    return t, s[1] + (f + fma(a[0], b[1], fma(a[1], b[0], e)))
+
+
+def gathered(s):
+    """The number whose words overlap."""
+    return two_sum(s[0], s[1])
 
 
 def scale(a, power):

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from nag.machine_code.lanes import fused, splat
+from nag.machine_code.lanes import fused
 
 
 def two_sum(a, b):
@@ -25,7 +25,7 @@ def quick_two_sum(a, b):
 def two_product(a, b):
     """``(p, e)`` with ``p = fl(a b)`` and ``p + e = a b`` exactly."""
     p = a * b
-    return p, fused(a, b, splat(0.0) - p)
+    return p, fused(a, b, -p)
 
 
 def three_sum(a, b, c):

@@ -147,13 +147,8 @@ def _product_6(s, x, y):
     return s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7] + q
 
 
-def multiply(a, b):
-    """``a b``."""
-    zero = splat(0.0)
-    p, q = two_product(a[0], b[0])
-    last = a[0] * b[7] + a[1] * b[6] + a[2] * b[5] + a[3] * b[4]
-    last = last + (a[4] * b[3] + a[5] * b[2] + a[6] * b[1] + a[7] * b[0])
-    s = p, q, zero, zero, zero, zero, zero, last
+def _later_products(s, a, b):
+    """Add to a sum all of ``a b`` but the product of the first words."""
     s = _product_1(s, a[0], b[1])
     s = _product_1(s, a[1], b[0])
     s = _product_2(s, a[0], b[2])
@@ -181,6 +176,28 @@ def multiply(a, b):
     s = _product_6(s, a[4], b[2])
     s = _product_6(s, a[5], b[1])
     s = _product_6(s, a[6], b[0])
+    last = a[0] * b[7] + a[1] * b[6] + a[2] * b[5] + a[3] * b[4]
+    last = last + (a[4] * b[3] + a[5] * b[2] + a[6] * b[1] + a[7] * b[0])
+    return s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7] + last
+
+
+def multiply(a, b):
+    """``a b``."""
+    zero = splat(0.0)
+    p, q = two_product(a[0], b[0])
+    return _normalized(_later_products((p, q, zero, zero, zero, zero, zero, zero), a, b))
+
+
+def gather(s, a, b):
+    """``s + a b`` where the words of ``s`` and of the result may overlap."""
+    p, q = two_product(a[0], b[0])
+    s0, p = two_sum(s[0], p)
+    s = _from_1((s0, s[1], s[2], s[3], s[4], s[5], s[6], s[7]), p)
+    return _later_products(_from_1(s, q), a, b)
+
+
+def gathered(s):
+    """The number whose words overlap."""
     return _normalized(s)
 
 

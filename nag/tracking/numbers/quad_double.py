@@ -5,7 +5,7 @@ Words are read, written and chosen as those of two double-doubles.
 
 from __future__ import annotations
 
-from nag.machine_code.lanes import splat
+from nag.machine_code.lanes import fma, splat
 from nag.tracking.numbers import double_double as half
 from nag.tracking.numbers.error_free import (
     quick_two_sum,
@@ -93,6 +93,43 @@ def multiply(a, b):
     s2 = s2 + (t0 + t1)
     s1 = s1 + (a[0] * b[3] + a[1] * b[2] + a[2] * b[1] + a[3] * b[0] + q0 + q3 + q4 + q5)
     return _normalized(p0, p1, s0, s1, s2)
+
+
+def gather(s, a, b):
+    """``s + a b`` where the words of ``s`` and of the result may overlap."""
+    p0, q0 = two_product(a[0], b[0])
+    p1, q1 = two_product(a[0], b[1])
+    p2, q2 = two_product(a[1], b[0])
+    p3, q3 = two_product(a[0], b[2])
+    p4, q4 = two_product(a[1], b[1])
+    p5, q5 = two_product(a[2], b[0])
+    last = fma(a[0], b[3], fma(a[1], b[2], fma(a[2], b[1], fma(a[3], b[0], q3 + q4 + q5))))
+    s0, e0 = two_sum(s[0], p0)
+    s1, e1 = two_sum(s[1], p1)
+    s1, e2 = two_sum(s1, p2)
+    s1, e3 = two_sum(s1, q0)
+    s1, e4 = two_sum(s1, e0)
+    s2, f0 = two_sum(s[2], p3)
+    s2, f1 = two_sum(s2, p4)
+    s2, f2 = two_sum(s2, p5)
+    s2, f3 = two_sum(s2, q1)
+    s2, f4 = two_sum(s2, q2)
+    s2, f5 = two_sum(s2, e1)
+    s2, f6 = two_sum(s2, e2)
+    s2, f7 = two_sum(s2, e3)
+    s2, f8 = two_sum(s2, e4)
+    rest = ((f0 + f1) + (f2 + f3)) + ((f4 + f5) + (f6 + f7)) + (f8 + last)
+    return s0, s1, s2, s[3] + rest
+
+
+def gathered(s):
+    """The number whose words overlap."""
+    c, d = two_sum(s[2], s[3])
+    b, c = two_sum(s[1], c)
+    a, b = two_sum(s[0], b)
+    b, c = two_sum(b, c)
+    c, d = two_sum(c, d)
+    return a, b, c, d
 
 
 def scale(a, power):
