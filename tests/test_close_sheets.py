@@ -82,6 +82,14 @@ def test_a_component_is_sampled_on_its_own_sheet(name: str, k: int) -> None:
     assert np.allclose(sorted(means), [-1, 1], atol=1e-3)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_points_of_sheets_that_doubles_do_not_tell_apart_are_sampled(seed: int) -> None:
+    # A random slice is scaled on the way to it: it has to stay the same to the last bit.
+    for component in pair("circles on a sphere", 20):
+        x = component.sample(seed, 1)[0]
+        assert abs(x[0] + 2 * x[1] - 1) < 1e-14
+
+
 def test_a_point_is_on_the_sheet_it_is_nearest_to_or_cannot_be_told() -> None:
     first, second = pair("circles on a sphere", 6)
     x = first.sample(0, 1)[0]

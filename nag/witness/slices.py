@@ -48,11 +48,13 @@ def rows_through(
 
 
 def evened(rows: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """The same slice by rows of norm one where coordinates are divided by ``sizes``.
+    """The same slice by rows of norm about one where coordinates are divided by ``sizes``.
 
-    Of two rows of very unequal norms one would decide until the very end of a path.
+    Of two rows of very unequal norms one would decide until the very end of a path. Powers of two
+    leave the slice as it is, so that points that are close to others are still on it.
     """
-    return rows / np.linalg.norm(rows * sizes, axis=1, keepdims=True)
+    norms = np.linalg.norm(rows * sizes, axis=1, keepdims=True)
+    return rows / 2.0 ** np.rint(np.log2(norms))
 
 
 def to_slice(rows: np.ndarray) -> Slice:

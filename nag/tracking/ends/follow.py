@@ -10,7 +10,7 @@ import numpy as np
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.limits import BEYOND, LEAST_EVIDENCE, Limit, Limits, digits_of_evidence
-from nag.tracking.ends.runs import LAST_STEPS, MAX_STEPS, MOST_STEPS, ORDER, run
+from nag.tracking.ends.runs import CLOSE_ORDER, LAST_STEPS, MAX_STEPS, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.newton import refine
@@ -128,6 +128,11 @@ class States:
         parts = self.found.get(path, self.where[path]).sum(axis=-1)
         return parts[:, 0] + 1j * parts[:, 1]
 
+    @property
+    def orders(self) -> dict[int, int]:
+        """Order of the Taylor coefficients, by words."""
+        return CLOSE_ORDER if self.close else ORDER
+
     def astray(self, path: int) -> bool:
         """Whether a path has gone on from the last point that was known well, in rounding errors.
 
@@ -232,7 +237,7 @@ def _follow_in(
     if words == max(DIGITS):
         states.most[pending] = states.steps[pending] + LAST_STEPS
     terms, fine = Terms(homotopy), Terms(homotopy)
-    limits = Limits(terms, words, ORDER[words])
+    limits = Limits(terms, words, states.orders[words])
     needs = [10.0**-digits for digits in digits_of_evidence(homotopy, settings.evidence)]
     more = DIGITS[words] < min(settings.digits, max(DIGITS.values()))
     later: list[int] = []

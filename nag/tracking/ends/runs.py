@@ -29,6 +29,8 @@ EXPONENTS, WORD = 1022, 53
 # Order of the Taylor coefficients, by words. Where 64 digits do not do, other paths are so near
 # that a prediction must hold to some 50 digits: twice the order then makes a quarter of the steps.
 ORDER = {2: 14, 4: 14, 8: 28}
+# The same where paths run so close together that they are followed in more digits throughout.
+CLOSE_ORDER = {2: 14, 4: 28, 8: 28}
 # Steps to an end that must hold to the least number of digits, and those of a path that is lost on
 # the way there.
 MAX_STEPS, MOST_STEPS = 300, 3000
@@ -55,7 +57,7 @@ def run(
 
     compiled = end_run.KERNELS[words]
     compiled.prepare()
-    order = ORDER[words]
+    order = states.orders[words]
     system = records.equations(homotopy, words, order)
     limits = np.zeros((len(chosen), homotopy.N, 4, 2, words))
     powers = powers_of_two(homotopy, states.where[chosen], states.met[chosen] > 0)
@@ -105,7 +107,7 @@ def _batch(
     outcome, winding, steps, spent = (np.zeros(count, dtype=np.int64) for _ in range(4))
     return Batch(
         count,
-        ORDER[words],
+        states.orders[words],
         ends.ravel(),
         states.tried[own],
         states.straight[own],
