@@ -433,12 +433,13 @@ def test_zeros_nearer_than_evidence_reaches_are_not_proved_to_be_one() -> None:
         assert not set(found.points.proofs) & {Proof.EXACT, Proof.DEFLATED, Proof.SIMPLE}
 
 
-@pytest.mark.parametrize("digits", [16, 20, 30])
+@pytest.mark.parametrize("digits", [16, 30])
 @pytest.mark.parametrize("name", ["cluster-2", "far-cluster", "triple"])
 def test_zeros_that_doubles_do_not_tell_apart_are_all_proved(name: str, digits: int) -> None:
     problem = family_named(name).make(digits, np.random.default_rng([1, 20]))
     result = solve(problem.system)
     certificate = certify_solutions(result)
+    assert result.complete
     assert certificate.simple == len(result.solutions) == problem.truth[0, 1, 1]
     assert certificate.all_proved and certificate.complete
 

@@ -173,9 +173,9 @@ def test_points_of_two_curves_are_never_connected() -> None:
         digits=np.full(len(together), 16),
         fibres=(),
     )
-    proved = prove_monodromy(system, both, np.random.default_rng(0), most=4)
+    proved = prove_monodromy(system, both, np.random.default_rng(0), most=2)
     assert not proved.connected
-    assert len(proved.permutations) == 4
+    assert len(proved.permutations) == 2
     for places in proved.permutations:
         assert {p // 2 for p in places[:2]} == {0}
         assert {p // 2 for p in places[2:]} == {1}

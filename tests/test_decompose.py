@@ -38,8 +38,15 @@ def assert_sound(answer: Decomposition) -> None:
         assert gaps.min() > 1e-6
 
 
-@pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
-@pytest.mark.parametrize("seed", [0, 1])
+# A second seed of those that take longest shows nothing else.
+DEAR = ("adjacent-minors-3x4", "rhombus-chain-3")
+
+
+@pytest.mark.parametrize(
+    ("path", "seed"),
+    [(p, seed) for p in CASES for seed in (0, 1) if seed == 0 or p.stem not in DEAR],
+    ids=lambda p: p.stem if isinstance(p, Path) else str(p),
+)
 def test_case_agrees_with_what_is_known(path: Path, seed: int) -> None:
     case = read_case(path)
     chosen = None if case.mechanism is None else model(case.mechanism)
