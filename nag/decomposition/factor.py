@@ -11,6 +11,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, Tracker, carried, cut_fibres
+from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts, WitnessSet
@@ -34,6 +35,11 @@ class Factor:
                 f"the component has {component.points.shape[1]} coordinates, its system {system.n}"
             )
         return cls(Reduction.of(system), component)
+
+    @classmethod
+    def in_branch(cls, system: PolynomialSystem, component: WitnessSet) -> Factor:
+        """`of` the branch of a system that the component is one of, if it has branches."""
+        return cls.of(component_system(system, component), component)
 
     @property
     def n(self) -> int:

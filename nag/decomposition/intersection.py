@@ -99,13 +99,21 @@ def intersect_components(
     """
     other = second.system or system
     _check_variables(system, other)
-    system, other = component_system(system, first), component_system(other, second)
-    factors = Factor.of(system, first), Factor.of(other, second)
-    tracker = Tracker(settings, threads, progress)
-    common = Reduction.of(_union(system, other))
+    factors = Factor.in_branch(system, first), Factor.in_branch(other, second)
+    return intersect_factors(*factors, seed=seed, tracker=Tracker(settings, threads, progress))
 
+
+def intersect_factors(
+    first: Factor, second: Factor, *, seed: int, tracker: Tracker
+) -> Intersection:
+    """`intersect_components` for components whose equations have been looked at before.
+
+    Raises:
+        IntersectionError: if witness points are none.
+    """
+    common = Reduction.of(_union(first.reduction.system, second.reduction.system))
     rng = np.random.default_rng([seed, 5])
-    found = meeting(*factors, common, rng, tracker)
+    found = meeting(first, second, common, rng, tracker)
     points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
     result = _intersection(common, points, found.counts, found.notes, rng, tracker)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]

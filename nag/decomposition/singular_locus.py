@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.factor import IntersectionError
-from nag.decomposition.intersection import intersect_components
+from nag.decomposition.factor import Factor, IntersectionError
+from nag.decomposition.intersection import intersect_factors
 from nag.decomposition.linear_hull import simple_in, within_hull
 from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
@@ -120,6 +120,7 @@ class _Search:
     proved: list[int] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     counts: PathCounts = field(default=PathCounts())
+    _factors: dict[int, Factor] = field(default_factory=dict)
 
     def on_component(self, i: int) -> None:
         """Points of a component where the rank of its own equations drops."""
@@ -142,9 +143,10 @@ class _Search:
 
     def of_pair(self, i: int, j: int) -> None:
         """The intersection of two components that no common equations show."""
-        (system, first), (_, second) = self.own[i], self.own[j]
+        tracker = Tracker(self.options["settings"], self.options["threads"])
         try:
-            found = intersect_components(system, first, second, **self.options)
+            factors = self._factor(i), self._factor(j)
+            found = intersect_factors(*factors, seed=self.options["seed"], tracker=tracker)
         except (IntersectionError, ValueError) as reason:
             self.notes.append(f"components {i + 1} and {j + 1}: {reason}")
             return
@@ -154,6 +156,12 @@ class _Search:
             _Candidate(SetOfPoints(c.dimension, c.degree, c.points, c.accuracy), (i, j))
             for c in found.components
         ]
+
+    def _factor(self, i: int) -> Factor:
+        """A component as one of several that are intersected with each other."""
+        if i not in self._factors:
+            self._factors[i] = Factor.in_branch(*self.own[i])
+        return self._factors[i]
 
     def unseen(self, i: int, j: int) -> bool:
         """Whether a pair's intersection may hold points where neither rank drops."""

@@ -8,7 +8,7 @@ from enum import Enum
 
 import numpy as np
 
-from nag.algebra.branches import branches
+from nag.algebra.branches import Branch, branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
@@ -121,7 +121,7 @@ def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fi
     """
     if component.fibres:
         return list(component.fibres)
-    _, fibres = _cut(system, component)
+    _, fibres = _cut(system, component, branches(system) or ())
     if fibres is None:
         raise ValueError("the witness points are no regular zeros of the system")
     return fibres
@@ -132,21 +132,22 @@ def component_system(system: PolynomialSystem, component: WitnessSet) -> Polynom
 
     A component may be multiple in the system and simple in its branch.
     """
-    if branches(system) is None:
+    apart = branches(system)
+    if apart is None:
         return system
-    found, _ = _cut(system, component)
+    found, _ = _cut(system, component, apart)
     return system if found is None else found
 
 
 def _cut(
-    system: PolynomialSystem, component: WitnessSet
+    system: PolynomialSystem, component: WitnessSet, apart: Sequence[Branch]
 ) -> tuple[PolynomialSystem | None, list[Fibre] | None]:
     """A branch of a system, or the system, with square systems that cut a component's points.
 
     A set that lies in several branches may be one in which these meet.
     """
     parts = []
-    for branch in branches(system) or ():
+    for branch in apart:
         residuals = Evaluator.of(branch.polynomials, system.n).residuals(component.points)
         if residuals.max(initial=0.0) < ON:
             parts.append(branch.system(system))
