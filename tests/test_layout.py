@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -32,21 +33,50 @@ ORDER = (
 )
 
 
+class Imported(NamedTuple):
+    """A module, or what may be one, and whether it is imported only when a function is called."""
+
+    module: str
+    later: bool
+    only_for_types: bool
+
+
+class Read(NamedTuple):
+    """What a file imports, and its functions with their lines and numbers of arguments."""
+
+    lines: int
+    imports: tuple[Imported, ...]
+    functions: tuple[tuple[str, int, int], ...]
+
+
+def statements(
+    body: Iterable[ast.AST], later: bool = False, types: bool = False
+) -> Iterator[tuple[ast.AST, bool, bool]]:
+    """They, and those inside of them at any depth: if in functions, and if for types alone."""
+    for statement in body:
+        yield statement, later, types
+        inner = later or isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef)
+        for inside in ("body", "orelse", "finalbody", "handlers", "cases"):
+            checked = inside == "body" and isinstance(statement, ast.If)
+            only = types or (checked and ast.unparse(statement.test) == "TYPE_CHECKING")
+            yield from statements(getattr(statement, inside, ()), inner, only)
+
+
 @cache
-def statements(file: Path) -> tuple[ast.AST, ...]:
-    """The imports and the functions of a file, anywhere in it."""
-    wanted = ast.Import | ast.ImportFrom | ast.FunctionDef | ast.AsyncFunctionDef
-    nodes = ast.walk(ast.parse(file.read_text("utf-8")))
-    return tuple(node for node in nodes if isinstance(node, wanted))
-
-
-def imported(file: Path) -> Iterator[str]:
-    """Modules of ours that a file imports, anywhere in it."""
-    for node in statements(file):
+def read(file: Path) -> Read:
+    text = file.read_text("utf-8")
+    imports, functions = [], []
+    for node, later, types in statements(ast.parse(text).body):
         if isinstance(node, ast.ImportFrom) and node.module:
-            yield node.module
+            names = (node.module, *(f"{node.module}.{a.name}" for a in node.names))
+            imports += [Imported(name, later, types) for name in names]
         elif isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
+            imports += [Imported(alias.name, later, types) for alias in node.names]
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            given = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+            arguments = sum(a.arg not in ("self", "cls") for a in given)
+            functions.append((node.name, node.end_lineno - node.lineno + 1, arguments))
+    return Read(len(text.splitlines()), tuple(imports), tuple(functions))
 
 
 def test_every_package_has_its_place() -> None:
@@ -58,10 +88,10 @@ def test_every_package_has_its_place() -> None:
 def test_packages_import_only_what_is_before_them(package: str) -> None:
     later = {f"nag.{name}" for name in ORDER[ORDER.index(package) + 1 :]}
     backwards = [
-        f"{file.relative_to(NAG)}: {module}"
+        f"{file.relative_to(NAG)}: {given.module}"
         for file in (NAG / package).rglob("*.py")
-        for module in imported(file)
-        if ".".join(module.split(".")[:2]) in later
+        for given in read(file).imports
+        if ".".join(given.module.split(".")[:2]) in later
     ]
     assert backwards == []
 
@@ -78,17 +108,6 @@ ASKED_FOR = {
 }
 
 
-def at_run_time(nodes: Iterable[ast.AST]) -> Iterator[tuple[ast.AST, bool]]:
-    """What is executed, and whether only when a function is called; no imports for types."""
-    for node in nodes:
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
-            continue
-        yield node, False
-        function = isinstance(node, ast.FunctionDef)
-        inner = at_run_time(ast.iter_child_nodes(node))
-        yield from ((below, later or function) for below, later in inner)
-
-
 def test_imports_run_one_way_inside_packages_as_well() -> None:
     files = {
         ".".join(("nag", *f.relative_to(NAG).with_suffix("").parts)): f
@@ -97,12 +116,11 @@ def test_imports_run_one_way_inside_packages_as_well() -> None:
     }
     order = TopologicalSorter[str]()
     for module, file in files.items():
-        for node, later in at_run_time(ast.parse(file.read_text("utf-8")).body):
-            if isinstance(node, ast.ImportFrom) and node.module:
-                names = {node.module} | {f"{node.module}.{a.name}" for a in node.names}
-                asked = ASKED_FOR.get(module, set()) if later else set()
-                left = set() if asked is None else (names & files.keys()) - asked
-                order.add(module, *left)
+        asked = ASKED_FOR.get(module, set())
+        for name, later, only_for_types in read(file).imports:
+            left_out = only_for_types or (later and (asked is None or name in asked))
+            if name in files and not left_out:
+                order.add(module, name)
     order.prepare()
 
 
@@ -132,15 +150,11 @@ def sizes() -> list[tuple[str, int, int]]:
     """Each file and function: what is measured, its size, the most it may be."""
     found = []
     for file in sorted(NAG.rglob("*.py")):
-        where, text = file.relative_to(NAG).as_posix(), file.read_text("utf-8")
-        found.append((f"{where}: lines", len(text.splitlines()), MOST_LINES))
-        for node in statements(file):
-            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-                lines = node.end_lineno - node.lineno + 1
-                given = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
-                arguments = sum(a.arg not in ("self", "cls") for a in given)
-                found.append((f"{where}: lines of {node.name}", lines, MOST_FUNCTION_LINES))
-                found.append((f"{where}: arguments of {node.name}", arguments, MOST_ARGUMENTS))
+        where, known = file.relative_to(NAG).as_posix(), read(file)
+        found.append((f"{where}: lines", known.lines, MOST_LINES))
+        for name, lines, arguments in known.functions:
+            found.append((f"{where}: lines of {name}", lines, MOST_FUNCTION_LINES))
+            found.append((f"{where}: arguments of {name}", arguments, MOST_ARGUMENTS))
     return found
 
 
