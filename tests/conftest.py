@@ -11,6 +11,10 @@ settings.load_profile("nag")
 
 
 def pytest_collection_finish() -> None:
-    """What was collected stays to the end; the collector of garbage need not look through it."""
+    """What was collected stays to the end; the collector of garbage need not look through it.
+
+    Nor need it look at every few hundred objects: a test makes thousands, which go with it.
+    """
     gc.collect()
     gc.freeze()
+    gc.set_threshold(10_000)
