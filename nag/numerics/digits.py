@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from fractions import Fraction
-from math import hypot, log10
+from math import log10
 
 import flint
 import numpy as np
@@ -57,8 +57,10 @@ def log_size(z: flint.acb | int) -> float:
     """
     if isinstance(z, int):
         return LOG10_2 * z.bit_length() if z else -np.inf
-    rounded = complex(z)
-    size = hypot(rounded.real, rounded.imag)
+    try:
+        size = abs(complex(z))
+    except OverflowError:
+        size = np.inf
     if SMALLEST < size < LARGEST:
         return log10(size)
     if not z:

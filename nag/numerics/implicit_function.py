@@ -105,11 +105,16 @@ class Composition:
     def _product_in_one(self, a: Sequence[Series], b: Sequence[Series], degree: int) -> Series:
         """The same in one variable, where each degree has one term."""
         total: Any = None
-        for k in range(degree + 1):
-            first, second = a[k], b[degree - k]
+        middle = (degree + 1) // 2 if a is b else degree + 1
+        for first, second in zip(a[:middle], b[degree::-1], strict=False):
             if first and second:
                 (x,), (y,) = first.values(), second.values()
                 total = x * y if total is None else total + x * y
+        if a is b:
+            total = None if total is None else total + total
+            if degree % 2 == 0 and a[middle]:
+                (x,) = a[middle].values()
+                total = x * x if total is None else total + x * x
         if total is None:
             return {}
         modulus = self.ring.modulus
