@@ -61,6 +61,9 @@ numerics.null_space.WELL                    1e-8    Pivots, over the largest, of
                                                     digits.
 numerics.pivots.CLEAR                       0.5     Decimal logarithm of a pivot over its error that
                                                     makes it no zero.
+numerics.rational_relations.CLEAR           1e-9    Singular values of columns of length one at
+                                                    most, in doubles, that are no rounding: smaller
+                                                    ones are looked at in all digits.
 numerics.rational_relations.SHARP           0.4     Share of the digits to which a relation must
                                                     hold to be one; the others show in further
                                                     points.

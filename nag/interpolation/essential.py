@@ -12,9 +12,16 @@ from fractions import Fraction
 from math import inf
 
 import flint
+import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.interpolation.point_cloud import Cloud, Exponents, monomial_values, real_rows
+from nag.interpolation.point_cloud import (
+    Cloud,
+    Exponents,
+    monomial_values,
+    monomials_in_doubles,
+    real_rows,
+)
 from nag.interpolation.vanishing import (
     DIGITS,
     MORE_POINTS,
@@ -24,7 +31,7 @@ from nag.interpolation.vanishing import (
     next_degree,
     start,
 )
-from nag.numerics.rational_relations import Echelon, TooFewDigitsError
+from nag.numerics.rational_relations import Echelon, TooFewDigitsError, clearly_independent
 
 # Largest degree of a numerator that is looked at.
 MOST_DEGREE = 4
@@ -105,9 +112,14 @@ def _of_degree(
     targets: Sequence[int],
 ) -> list[VariableMap]:
     """Maps with numerators among the monomials ``standard`` and denominators among ``lower``."""
-    found: dict[int, VariableMap | None] = {}
+    count = (len(standard) + len(lower) + 1) // 2 + MORE_POINTS
+    doubles = cloud.doubles(count, DIGITS[0])
+    found: dict[int, VariableMap | None] = dict.fromkeys(
+        _without_map(doubles, coordinates, standard, lower, targets)
+    )
     for digits in DIGITS:
-        count = (len(standard) + len(lower) + 1) // 2 + MORE_POINTS
+        if len(found) == len(targets):
+            break
         points = cloud.balls(count, digits)
         with flint.ctx.workdps(digits + 20):
             values = monomial_values([[p[i] for i in coordinates] for p in points], standard)
@@ -123,9 +135,22 @@ def _of_degree(
                     found[y] = _map(echelon, y, factor, values, standard, lower)
                 except TooFewDigitsError:
                     continue
-        if len(found) == len(targets):
-            break
     return [m for m in found.values() if m is not None]
+
+
+def _without_map(
+    points: np.ndarray,
+    coordinates: Sequence[int],
+    standard: Sequence[Exponents],
+    lower: Sequence[Exponents],
+    targets: Sequence[int],
+) -> list[int]:
+    """Targets for which doubles show already that there is no relation of these monomials."""
+    values = monomials_in_doubles(points[:, coordinates], standard)
+    factors = monomials_in_doubles(points[:, coordinates], lower or standard[:1])
+    return [
+        y for y in targets if clearly_independent(np.hstack([values, factors * points[:, [y]]]))
+    ]
 
 
 def _map(
@@ -168,11 +193,12 @@ def essential_variables(cloud: Cloud, polynomial: bool = False) -> tuple[int, ..
     """
     chosen = _linearly_independent(cloud)
     for only in (True,) if polynomial else (True, False):
+        first = chosen
         ranked = sorted((_complexity(cloud, chosen, i, only), -i) for i in chosen)
         for complexity, i in ranked:
             if complexity == inf:
                 break
-            if _complexity(cloud, chosen, -i, only) < inf:
+            if chosen is first or _complexity(cloud, chosen, -i, only) < inf:
                 chosen = [j for j in chosen if j != -i]
     return tuple(chosen)
 

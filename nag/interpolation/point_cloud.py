@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -101,6 +101,10 @@ class Cloud:
                 known.append([flint.acb(f(point, number)) for f in self.ambient.images])
         return known[:count]
 
+    def doubles(self, count: int, digits: int) -> np.ndarray:
+        """The same rounded, shape ``(count, n)``."""
+        return np.array([[complex(x) for x in p] for p in self.balls(count, digits)])
+
     def image_dimension(self, coordinates: Sequence[int]) -> int:
         """Dimension of the closure of the component's image in some of the variables."""
         sample = self.samples(1)[0]
@@ -128,19 +132,32 @@ def monomial_values(
     points: Sequence[Sequence[flint.acb]], monomials: Sequence[Exponents]
 ) -> dict[Exponents, list[flint.acb]]:
     """Values of monomials at points, each by one product from the one below it."""
-    one = (0,) * len(points[0])
-    values = {one: [flint.acb(1)] * len(points)}
-
-    def value(e: Exponents) -> list[flint.acb]:
-        if e not in values:
-            i = next(i for i, k in enumerate(e) if k)
-            below = value((*e[:i], e[i] - 1, *e[i + 1 :]))
-            values[e] = [x * p[i] for x, p in zip(below, points, strict=True)]
-        return values[e]
-
-    for e in monomials:
-        value(e)
+    values = {(0,) * len(points[0]): [flint.acb(1)] * len(points)}
+    for e, below, i in _products(monomials, values):
+        values[e] = [x * p[i] for x, p in zip(values[below], points, strict=True)]
     return values
+
+
+def monomials_in_doubles(points: np.ndarray, monomials: Sequence[Exponents]) -> np.ndarray:
+    """The same in doubles, from shape ``(points, variables)`` to ``(points, monomials)``."""
+    values = {(0,) * points.shape[1]: np.ones(len(points), dtype=complex)}
+    for e, below, i in _products(monomials, values):
+        values[e] = values[below] * points[:, i]
+    return np.array([values[e] for e in monomials]).T
+
+
+def _products(
+    monomials: Sequence[Exponents], known: Mapping[Exponents, Any]
+) -> Iterator[tuple[Exponents, Exponents, int]]:
+    """What is to be worked out for monomials: each, the one below it, and the variable between."""
+    for e in monomials:
+        path = []
+        while e not in known:
+            i = next(i for i, k in enumerate(e) if k)
+            below = (*e[:i], e[i] - 1, *e[i + 1 :])
+            path.append((e, below, i))
+            e = below
+        yield from reversed(path)
 
 
 def real_rows(column: Sequence[flint.acb]) -> list[flint.arb]:

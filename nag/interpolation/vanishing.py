@@ -17,8 +17,14 @@ import flint
 
 from nag.algebra.multipliers import order
 from nag.algebra.polynomial import Polynomial, divides
-from nag.interpolation.point_cloud import Cloud, Exponents, monomial_values, real_rows
-from nag.numerics.rational_relations import Echelon, TooFewDigitsError
+from nag.interpolation.point_cloud import (
+    Cloud,
+    Exponents,
+    monomial_values,
+    monomials_in_doubles,
+    real_rows,
+)
+from nag.numerics.rational_relations import Echelon, TooFewDigitsError, clearly_independent
 
 # Digits that are tried one after the other.
 DIGITS = (100, 250, 700)
@@ -82,11 +88,16 @@ def start(coordinates: Sequence[int]) -> Interpolated:
     return Interpolated(tuple(coordinates), 0, (), (), (1,), (one,), 0)
 
 
+def _points_for(columns: int) -> int:
+    """How many points make so many real columns longer than they are many."""
+    return (columns + 1) // 2 + MORE_POINTS
+
+
 def columns_at(
     cloud: Cloud, coordinates: Sequence[int], monomials: Sequence[Exponents], digits: int, more: int
 ) -> dict[Exponents, list[flint.arb]]:
     """Real columns of the monomials' values, for ``more`` columns beside these."""
-    count = (len(monomials) + more + 1) // 2 + MORE_POINTS
+    count = _points_for(len(monomials) + more)
     points = [[p[i] for i in coordinates] for p in cloud.balls(count, digits)]
     values = monomial_values(points, monomials)
     return {e: real_rows(values[e]) for e in monomials}
@@ -159,6 +170,9 @@ def _split(
 ) -> tuple[list[Exponents], list[tuple[Exponents, list[Fraction]]]]:
     """The candidates that are independent, after those known to be, and the others' relations."""
     together = [*known.standard, *candidates]
+    points = cloud.doubles(_points_for(len(together)), digits)[:, known.coordinates]
+    if clearly_independent(monomials_in_doubles(points, together)):
+        return together, []
     with flint.ctx.workdps(digits + 20):
         columns = columns_at(cloud, known.coordinates, together, digits, 0)
         echelon = Echelon(len(columns[together[0]]), digits)
