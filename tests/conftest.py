@@ -6,7 +6,7 @@ import gc
 
 from hypothesis import settings
 
-settings.register_profile("nag", derandomize=True, deadline=None, max_examples=30)
+settings.register_profile("nag", derandomize=True, deadline=None, max_examples=20)
 settings.load_profile("nag")
 
 

@@ -103,7 +103,7 @@ def test_independence_of_gradients_is_decided_exactly() -> None:
     st.lists(st.tuples(st.integers(-3, 3), st.integers(1, 2)), min_size=1, max_size=2),
     st.integers(-2, 2),
 )
-@settings(max_examples=40)
+@settings(max_examples=25)
 def test_grids_of_fat_points_have_the_product_of_the_multiplicities(xs, ys, k) -> None:
     x, y = Polynomial.variables(2)
     f, g = Polynomial.constant(2, 1), Polynomial.constant(2, 1)

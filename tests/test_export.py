@@ -134,7 +134,7 @@ origins = st.none() | st.builds(
     reason=st.none() | texts,
 )
 
-whole_file = settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+whole_file = settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 def circle(**changes: object) -> Decomposition:

@@ -33,7 +33,7 @@ def texts(of: PolynomialSystem) -> set[frozenset[str]] | None:
 
 
 @given(st.lists(st.tuples(polynomials, st.integers(1, 3)), min_size=1, max_size=3))
-@settings(max_examples=60)
+@settings(max_examples=30)
 def test_the_factors_multiply_to_the_polynomial_up_to_a_constant(parts) -> None:
     f = product([p**k for p, k in parts], 2)
     if not f:

@@ -36,7 +36,7 @@ from nag.interpolation.vanishing import (
 from nag.numerics.rational_relations import Echelon, TooFewDigitsError, recognised
 from nag.witness.fibres import Tracker
 
-laws = settings(max_examples=40)
+laws = settings(max_examples=25)
 DIGITS = 60
 
 

@@ -97,7 +97,7 @@ def test_an_isolated_configuration_is_none_of_those_that_are_far_off() -> None:
 # Local dimension, tangent dimension, status, and what another formulation is.
 GENERAL = {
     "spatial/bennett": (1, 1, "overconstrained", "E"),
-    "spatial/assembled-5r": (0, 0, "rigid", "E"),
+    "spatial/assembled-4r": (0, 0, "rigid", "E"),
     "planar/henneberg-6": (0, 0, "rigid", "coordinates (x, y)"),
     "planar/watt-six-bar": (1, 1, "mobile", "pins"),
     "spatial/octahedron": (0, 0, "rigid", "A-B-F pinned"),

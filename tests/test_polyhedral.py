@@ -82,7 +82,7 @@ def test_every_cell_is_on_the_lower_hull(name: str) -> None:
     assert all(lowest(cells, edge) for edge in cells.edges)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(st.integers(2, 4), st.integers(0, 10**6))
 def test_the_volume_does_not_depend_on_the_lifting(n: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -96,7 +96,7 @@ def test_the_volume_does_not_depend_on_the_lifting(n: int, seed: int) -> None:
 
 
 @given(st.lists(st.integers(1, 5), min_size=1, max_size=5))
-@settings(max_examples=30)
+@settings(max_examples=20)
 def test_the_volume_of_multiples_of_a_simplex_is_bezouts_number(degrees: list[int]) -> None:
     n = len(degrees)
     simplex = np.vstack([np.zeros((1, n), int), np.eye(n, dtype=int)])

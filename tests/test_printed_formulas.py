@@ -17,7 +17,7 @@ from nag.mechanism.quaternion import conjugate, multiply, norm_squared, rotate
 from nag.symbolic import bennett, bennett_geometry, bennett_special, bricard, revolute
 
 OWN = exact("7/4", "5/6", "1/3")
-laws = settings(max_examples=25)
+laws = settings(max_examples=20)
 
 
 @st.composite

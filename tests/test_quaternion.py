@@ -26,7 +26,7 @@ rationals = st.builds(Fraction, st.integers(-30, 30), st.integers(1, 12))
 quaternions = st.tuples(*[rationals] * 4)
 vectors = st.tuples(*[rationals] * 3)
 dual_quaternions = st.tuples(quaternions, quaternions)
-laws = settings(max_examples=30)
+laws = settings(max_examples=20)
 
 
 def product(a, b):

@@ -97,7 +97,7 @@ def test_bilinear_systems_have_binomial_numbers(a: int, b: int) -> None:
     assert bezout_number(degrees, [a, b]) == comb(a + b, a)
 
 
-@settings(max_examples=25)
+@settings(max_examples=20)
 @given(st.permutations(range(5)), st.integers(0, 10**6))
 def test_a_partition_gives_at_most_what_the_search_ends_with(order: list[int], seed: int) -> None:
     rng = np.random.default_rng(seed)
