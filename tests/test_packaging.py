@@ -73,14 +73,21 @@ print("loaded:", *sorted(unused & set(sys.modules)), file=sys.stderr)
 
 
 @pytest.mark.parametrize(
-    "command", ["decompose cases/bennett.toml", "solve cases/benchmarks/katsura-8.toml"]
+    "command", ["decompose cases/bennett.toml", "solve cases/benchmarks/katsura-6.toml"]
 )
-def test_a_warm_run_loads_no_library_that_it_does_not_use(command: str) -> None:
-    arguments = [sys.executable, "-c", RUN, *command.split()]
-    for _ in range(2):
-        done = subprocess.run(
-            arguments, cwd=ROOT, capture_output=True, text=True, timeout=120, check=True
-        )
+def test_a_warm_run_loads_no_library_that_it_does_not_use(
+    command: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(ROOT)
+    assert main([*command.split(), "--quiet"]) == 0
+    done = subprocess.run(
+        [sys.executable, "-c", RUN, *command.split()],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=True,
+    )
     assert done.stderr == "loaded:\n"
 
 

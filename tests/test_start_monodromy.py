@@ -61,7 +61,8 @@ def test_the_search_ends_with_all_solutions_by_the_trace_alone(name: str) -> Non
 def test_the_trace_of_all_is_linear_and_that_of_fewer_is_not(name: str) -> None:
     pencil, system = all_points(name, 1)
     assert trace_is_linear(pencil, system.points, np.random.default_rng(5), 1)
-    for k in range(len(system.points)):
+    count = len(system.points)
+    for k in range(0, count, max(1, count // 20)):
         fewer = np.delete(system.points, k, axis=0)
         assert not trace_is_linear(pencil, fewer, np.random.default_rng(5), 1)
     assert not trace_is_linear(pencil, system.points[::2], np.random.default_rng(5), 1)
