@@ -163,7 +163,7 @@ def test_a_multiplicity_beyond_what_is_worked_out_leaves_both_bounds(monkeypatch
     assert not found.decided and "grows" in found.reason
 
 
-@pytest.mark.parametrize("order", [300, 1000])
+@pytest.mark.parametrize("order", [1000])
 def test_high_orders_of_contact_do_not_pass_for_curves(order: int, monkeypatch) -> None:
     monkeypatch.setattr("nag.numerics.dual_space.MOST_FUNCTIONALS", 40)
     system = plain(polynomials("x y", "x*y", f"x^{order} + y^{order}"))
