@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from linkages import four_bar
+from solved import components_of
 
 from nag.check import bennett_geometry, joints, known_planar
 from nag.check import four_bar as four_bar_statements
@@ -28,7 +29,6 @@ from nag.check.planar_mechanism import equal_sides
 from nag.check.statement import Kind, Statement, Verdict, statement
 from nag.check.subjects import BENNETT, SUBJECTS, recognised, same_mechanism
 from nag.cli import main
-from nag.decomposition import decompose
 from nag.files.cases import read_case
 from nag.mechanism.mobility_at import mobility
 from nag.mechanism.model import model
@@ -40,7 +40,7 @@ STATEMENTS = [s for subject in SUBJECTS.values() for s in subject.statements]
 
 
 def decomposed(system):
-    return decompose(system, seed=0)
+    return components_of(system)
 
 
 @pytest.mark.parametrize("subject", SUBJECTS)
