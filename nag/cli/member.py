@@ -67,6 +67,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
                 found.decomposition,
                 at,
                 accuracy=1e-15 if exact else max(1e-12, 10 * residual),
+                exact=point if exact else (),
                 **as_chosen(options),
             )
     open_ = sum(answer is Membership.UNDECIDED for answer in answers)

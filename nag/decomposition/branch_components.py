@@ -17,6 +17,7 @@ from nag.algebra.generic_multiplicity import (
     generic_multiplicity,
     independent_gradients,
 )
+from nag.algebra.linear_algebra import independent_polynomials
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
@@ -167,6 +168,7 @@ def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
     sharp = sharpened(Fibre(Cut(d, 0, ()), d, point), rows)
     x = frame.points(sharp.fibre.x)
     evaluator = Evaluator.of(system.polynomials, system.n)
+    cut = Cut(system.n, 0, tuple(independent_polynomials(system.polynomials)))
     witness = WitnessSet(
         slice=frame.slice(rows),
         points=x,
@@ -176,6 +178,7 @@ def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
         radii=framed(frame, sharp.fibre.x, sharp.radii),
         digits=sharp.digits,
         corank=d,
+        fibres=(Fibre(cut, d, x),),
     )
     return _Part(system, (BranchComponent(witness, branch),), None)
 

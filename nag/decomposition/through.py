@@ -50,6 +50,7 @@ def through_points(
             indices = components_through(
                 everything,
                 at,
+                exact=point,
                 seed=decomposition.seed,
                 threads=threads,
                 settings=decomposition.settings,

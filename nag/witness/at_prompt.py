@@ -66,7 +66,8 @@ def contains(
             return False
         accuracy = max(INEXACT, 10 * residual) if accuracy is None else accuracy
     alone = Decomposition(system, (component,), PathCounts(), 0, "default", (), True)
-    (answer,) = memberships(alone, at, accuracy=accuracy, **running)
+    known = entries if exact else ()
+    (answer,) = memberships(alone, at, accuracy=accuracy, exact=known, **running)
     if answer is Membership.UNDECIDED:
         raise UndecidedError([], [0])
     return answer is Membership.MEMBER

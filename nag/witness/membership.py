@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from enum import Enum
+from fractions import Fraction
 
 import numpy as np
 
 from nag.algebra.branches import Branch, branches
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
 from nag.numerics.zero_values import NONZERO, ON
-from nag.witness.close_points import DIGITS, Fine, distance
+from nag.witness.close_points import DIGITS, Fine, distance, rated
 from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres
@@ -39,12 +41,17 @@ def is_member(
     flag: np.ndarray,
     rng: np.random.Generator,
     tracker: Tracker,
+    bounded: bool = False,
 ) -> tuple[Membership, PathCounts]:
     """Whether an affine point lies in the closure of the set that ``fibres`` stand for.
 
     ``fibres`` have one dimension and lie on the leading rows of ``flag``. The slice moves to a
     generic one through the point; the point is a member exactly when a path ends there
     (Sommese, Verschelde & Wampler 2001).
+
+    Args:
+        bounded: whether ``accuracy`` is a bound of the point's relative error. A regular end that
+            is further from the point than this and its own error explain is another one then.
     """
     counts = PathCounts()
     fibres = [fibre for fibre in fibres if len(fibre)]
@@ -56,6 +63,8 @@ def is_member(
     unclear = False
     for fibre, ends in move_together(fibres, flag[:dimension], target, rng, tracker):
         counts += ends.counts.judged_elsewhere
+        if bounded:
+            ends = _near_ones_rated(point, accuracy, fibre, ends, target)
         if ends.fine:
             answers = [_at_end(point, accuracy * scale, fibre, ends, i, target) for i in ends.fine]
             if Membership.MEMBER in answers:
@@ -71,6 +80,21 @@ def is_member(
     return Membership.UNDECIDED if unclear else Membership.FOREIGN, counts
 
 
+def _near_ones_rated(
+    point: np.ndarray, accuracy: float, fibre: Fibre, ends: Moved, rows: np.ndarray
+) -> Moved:
+    """The ends with Newton's constant of those that are near to a point, and not at it."""
+    n, scale = fibre.cut.n, 1 + float(np.linalg.norm(point))
+    x = np.where(ends.finite[:, None], ends.points[:, :n], np.inf)
+    distances = np.linalg.norm(x - point, axis=1) / scale
+    same, doubtful = compared(distances, accuracy)
+    near = ends.regular & (same | doubtful) & (distances > np.maximum(accuracy, ends.accuracy))
+    fine = dict(ends.fine)
+    for i in set(np.flatnonzero(near).tolist()) - fine.keys():
+        fine[i] = rated(fibre.cut.polynomials, rows, Fine.of_doubles(ends.points[i]))
+    return replace(ends, fine=fine)
+
+
 def _at_end(
     point: np.ndarray, error: float, fibre: Fibre, ends: Moved, i: int, rows: np.ndarray
 ) -> Membership:
@@ -81,6 +105,7 @@ def _at_end(
     """
     end = ends.fine[i]
     # The slice through a point beside the set meets it so much further off at most.
+    error = max(error, float(ends.accuracy[i]) * (1 + float(np.linalg.norm(point))))
     reach = SPREAD * error / _angle(fibre.cut, rows, end)
     if np.linalg.norm(ends.points[i, : fibre.cut.n] - point) > reach:
         return Membership.FOREIGN
@@ -146,11 +171,13 @@ def _cut(
 
     A set that lies in several branches may be one in which these meet.
     """
-    parts = []
+    near = []
     for branch in apart:
         residuals = Evaluator.of(branch.polynomials, system.n).residuals(component.points)
         if residuals.max(initial=0.0) < ON:
-            parts.append(branch.system(system))
+            near.append((residuals.max(initial=0.0), branch.system(system)))
+    # Of branches that come near to each other the nearest one is meant.
+    parts = [part for _, part in sorted(near, key=lambda pair: pair[0])]
     if len(parts) > 1:
         together = dict.fromkeys(f for part in parts for f in part.polynomials)
         parts.append(replace(system, polynomials=tuple(together)))
@@ -177,6 +204,7 @@ def memberships(
     point: np.ndarray,
     *,
     accuracy: float = 1e-12,
+    exact: Sequence[Number] = (),
     seed: int = 0,
     threads: int = 1,
     settings: str = "default",
@@ -185,7 +213,10 @@ def memberships(
 
     Args:
         point: complex, shape ``(n,)``, in the system's variables.
-        accuracy: relative error of the point.
+        accuracy: bound of the relative error of the point.
+        exact: the exact coordinates that ``point`` is rounded from, if they are known: then a
+            component on which an equation holds that does not hold there is told from the others
+            however near it is.
     """
     rng = np.random.default_rng([seed, 1])
     tracker = Tracker(settings, threads)
@@ -203,9 +234,19 @@ def memberships(
         except ValueError:
             answers.append(Membership.UNDECIDED)
             continue
-        answer, _ = is_member(point, accuracy, fibres, component.slice.rows, rng, tracker)
+        if exact and not all(_may_be_on(fibre.cut, exact) for fibre in fibres):
+            answers.append(Membership.FOREIGN)
+            continue
+        rows = component.slice.rows
+        answer, _ = is_member(point, accuracy, fibres, rows, rng, tracker, bounded=True)
         answers.append(answer)
     return tuple(answers)
+
+
+def _may_be_on(cut: Cut, point: Sequence[Number]) -> bool:
+    """Whether an exact point satisfies the exact equations of a cut in the system's variables."""
+    plain = (f for f in cut.polynomials if f.exact and max(f.support, default=0) < cut.n)
+    return all(is_zero(f((*point, *[Fraction(0)] * cut.aux))) for f in plain)
 
 
 def _far(isolated: WitnessSet, point: np.ndarray, accuracy: float) -> bool:
@@ -237,6 +278,7 @@ def components_through(
     point: np.ndarray,
     *,
     accuracy: float = 1e-12,
+    exact: Sequence[Number] = (),
     seed: int = 0,
     threads: int = 1,
     settings: str = "default",
@@ -245,13 +287,20 @@ def components_through(
 
     Args:
         point: complex, shape ``(n,)``, in the system's variables.
-        accuracy: relative error of the point.
+        accuracy: bound of the relative error of the point.
+        exact: the exact coordinates that ``point`` is rounded from, if they are known.
 
     Raises:
         UndecidedError: if the membership in a component could not be decided.
     """
     answers = memberships(
-        decomposition, point, accuracy=accuracy, seed=seed, threads=threads, settings=settings
+        decomposition,
+        point,
+        accuracy=accuracy,
+        exact=exact,
+        seed=seed,
+        threads=threads,
+        settings=settings,
     )
     found = [i for i, answer in enumerate(answers) if answer is Membership.MEMBER]
     undecided = [i for i, answer in enumerate(answers) if answer is Membership.UNDECIDED]

@@ -1,0 +1,95 @@
+"""Points and components nearer to each other than paths tell: which is which."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import nag
+from nag.decomposition import memberships, witness_at
+from nag.witness.membership import Membership
+
+PAIRS = {
+    "parabolas": ("y - x^2", "y - x^2 - {0}", (2, 4)),
+    "a circle and a line": ("x^2 + y^2 - 1", "x + y - 7/5 - {0}", (Fraction(3, 5), Fraction(4, 5))),
+    "lines": ("x - y", "x - y - {0}", (Fraction(1, 3), Fraction(1, 3))),
+    "a cusp and a cubic": ("y^2 - x^3", "(y - {0})^2 - x^3", (0, 0)),
+}
+
+
+def decomposed(name: str, digits: int) -> tuple[nag.Decomposition, nag.WitnessSet, nag.WitnessSet]:
+    """Two sets together, and the component of each of the two equations."""
+    first, second, _ = PAIRS[name]
+    texts = first, second.format(f"1/10^{digits}")
+    answer = nag.decompose(f"({texts[0]})*({texts[1]})")
+    assert answer.complete and len(answer.components) == 2
+    own, other = ([c for c in answer.components if _is_cut_by(c, text)] for text in texts)
+    assert len(own) == len(other) == 1
+    return answer, own[0], other[0]
+
+
+def _is_cut_by(component: nag.WitnessSet, text: str) -> bool:
+    (f,) = nag.system([text], "x y").polynomials
+    ((g,),) = (fibre.cut.polynomials for fibre in component.fibres)
+    return f.terms.keys() == g.terms.keys() and len({g.terms[e] / f.terms[e] for e in f.terms}) == 1
+
+
+@pytest.mark.parametrize("digits", [9, 12, 20, 30])
+@pytest.mark.parametrize("name", PAIRS)
+def test_exact_points_are_on_the_component_whose_equations_hold(name: str, digits: int) -> None:
+    _, own, other = decomposed(name, digits)
+    point = PAIRS[name][2]
+    assert own.contains(point)
+    assert not other.contains(point)
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_points_in_doubles_are_told_apart_as_far_as_their_errors_go(name: str) -> None:
+    answer, own, other = decomposed(name, 9)
+    point = np.array(PAIRS[name][2], dtype=complex)
+    found = dict(zip(map(id, answer.components), memberships(answer, point), strict=True))
+    assert found[id(own)] is Membership.MEMBER
+    assert found[id(other)] is not Membership.MEMBER
+
+
+@pytest.mark.parametrize("digits", [9, 20])
+def test_lines_are_sampled_and_cut_each_by_its_own_equation(digits: int) -> None:
+    answer, *lines = decomposed("lines", digits)
+    target = nag.Slice(np.array([[1.0, 1.0]]), np.array([0.0]))
+    for line, apart in zip(lines, (0, 10.0**-digits), strict=True):
+        for points in (line.sample(0, 4), witness_at(answer.system, line, target).points):
+            assert points[:, 0] - points[:, 1] == pytest.approx(apart, rel=1e-6, abs=1e-40)
+
+
+def test_a_linear_component_holds_its_equations() -> None:
+    answer = nag.decompose(
+        ["(x - y)*(x + z - 1)", "x + y + z + w - 2", "2*x + 2*y + 2*z + 2*w - 4"]
+    )
+    for plane in answer.components:
+        (fibre,) = plane.fibres
+        assert len(fibre.cut.polynomials) == 2 and fibre.dimension == plane.dimension == 2
+
+
+def test_a_component_without_its_equations_is_that_of_the_nearest_branch() -> None:
+    _, *lines = decomposed("lines", 9)
+    for line, apart in zip(lines, (0, 1e-9), strict=True):
+        points = replace(line, fibres=()).sample(0, 4)
+        assert points[:, 0] - points[:, 1] == pytest.approx(apart, rel=1e-5, abs=1e-15)
+
+
+def test_isolated_points_near_to_each_other_are_not_one() -> None:
+    answer = nag.decompose(["x*(x - 1/10^9)*(x - 1)", "y - 1/3*x"])
+    for x in (0, Fraction(1, 10**9), 1):
+        assert sum(c.contains((x, Fraction(x) / 3)) for c in answer.components) == 1
+
+
+@pytest.mark.parametrize(
+    "text", ["(x + y - 1/3)^2 - (x - 1/3)^3", "(x + y - 1/3)^2 - (x - 1/3)^3 - (x - 1/3)^2"]
+)
+def test_a_singular_point_that_doubles_round_is_on_its_curve(text: str) -> None:
+    (curve,) = nag.decompose(text).components
+    assert curve.contains((Fraction(1, 3), 0))
+    assert curve.contains(np.array([1 / 3 + 0j, 0j]))
