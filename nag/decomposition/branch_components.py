@@ -22,6 +22,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_component import BranchComponent
+from nag.decomposition.final_checks import judged
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.singular_point import Place
 from nag.numerics.zero_values import (
@@ -97,17 +98,8 @@ def decompose_apart(
     components.sort(key=lambda c: (-c.dimension, c.degree))
     answers = [part.answer for part in parts if part.answer is not None]
     notes += [note for answer in answers for note in answer.notes]
-    undecided = any(c.status is Status.UNDECIDED for c in components)
-    return Decomposition(
-        system=system,
-        components=tuple(components),
-        paths=sum((answer.paths for answer in answers), counts),
-        seed=seed,
-        settings=settings,
-        order=(),
-        complete=not (undecided or notes),
-        notes=tuple(dict.fromkeys(notes)),
-    )
+    paths = sum((answer.paths for answer in answers), counts)
+    return judged(system, components, paths, settings, notes, seed=seed)
 
 
 def _keep(symmetries: Sequence[SignedPermutation], system: PolynomialSystem) -> bool:

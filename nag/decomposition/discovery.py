@@ -18,6 +18,7 @@ from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Assembly, Known, assembled
 from nag.decomposition.excluded import forbidden
+from nag.decomposition.final_checks import judged
 from nag.decomposition.given_points import CommonSlices, Start
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.symmetric_images import in_orbits
@@ -75,16 +76,8 @@ def by_sampling(
     if symmetries:
         components, more = _with_orbits(system, components, symmetries, seed, tracker)
         notes += more
-    return Decomposition(
-        system=system,
-        components=tuple(components),
-        paths=search.counts + found.counts,
-        seed=seed,
-        settings=settings,
-        order=(),
-        complete=False,
-        notes=(*notes, *found.notes),
-    )
+    notes += found.notes
+    return judged(system, components, search.counts + found.counts, settings, notes, seed=seed)
 
 
 @dataclass(eq=False)

@@ -1,4 +1,4 @@
-"""The last checks of a class of points before it is reported as a component."""
+"""The last checks: of a class of points that is to be a component, and of an answer as a whole."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from itertools import combinations_with_replacement, permutations
 
 import numpy as np
 
+from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.numerics.zero_values import ON, SINGULAR
@@ -19,10 +20,32 @@ from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
 from nag.witness.points import Points
 from nag.witness.slices import complex_normal, unit_complex
-from nag.witness.witness import PathCounts, Slice, Status, WitnessSet
+from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 # Multidegrees are counted only where so many choices of groups are enough.
 MOST_MULTIDEGREES = 100
+
+
+def judged(
+    system: PolynomialSystem,
+    components: Sequence[WitnessSet],
+    paths: PathCounts,
+    settings: str,
+    notes: Sequence[str] = (),
+    order: Sequence[int] = (),
+    seed: int = 0,
+) -> Decomposition:
+    """A decomposition: complete exactly where every component is confirmed and nothing is noted."""
+    return Decomposition(
+        system=system,
+        components=tuple(components),
+        paths=paths,
+        seed=seed,
+        settings=settings,
+        order=tuple(order),
+        complete=not notes and all(c.status is Status.IRREDUCIBLE for c in components),
+        notes=tuple(dict.fromkeys(notes)),
+    )
 
 
 def _multidegree(

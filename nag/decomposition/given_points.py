@@ -15,6 +15,7 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import assembled
+from nag.decomposition.final_checks import judged
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.symmetric_images import in_orbits, keeps, sign_orbit
 from nag.numerics.coincidence import coincident
@@ -177,16 +178,7 @@ def components_through_points(
                 notes.append(f"the orbit of a component of dimension {d} is not known")
             component = component if whole is None else whole
         components.append(component)
-    return Decomposition(
-        system=system,
-        components=tuple(components),
-        paths=counts,
-        seed=seed,
-        settings=settings,
-        order=(),
-        complete=found.complete and not notes,
-        notes=(*notes, *found.notes),
-    )
+    return judged(system, components, counts, settings, (*notes, *found.notes), seed=seed)
 
 
 def _on_common_slices(

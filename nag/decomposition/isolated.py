@@ -20,6 +20,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import most_zeros
+from nag.decomposition.final_checks import judged
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.coincidence import coincident
 from nag.numerics.zero_values import NONZERO, SINGULAR
@@ -116,15 +117,8 @@ def solved_at_once(
     if found.positive_dimensional and not (outside and _all_excluded(system, found.on_components)):
         return None
     components = _components(found, system, symmetries)
-    return Decomposition(
-        system=system,
-        components=tuple(components),
-        paths=PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity),
-        seed=0,
-        settings=tracker.settings,
-        order=(),
-        complete=True,
-    )
+    paths = PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
+    return judged(system, components, paths, tracker.settings)
 
 
 def with_points(

@@ -22,7 +22,7 @@ import numpy as np
 from nag.algebra.factoring import factored, most_absolute_factors
 from nag.algebra.linear_algebra import rational_matrix
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set
+from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set, judged
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, ball, line, points_in_balls, zeros_on
@@ -30,7 +30,7 @@ from nag.decomposition.splitting import Class
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
-from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
+from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # Digits to which sums of second derivatives must vanish.
 EVIDENCE = 60
@@ -74,15 +74,8 @@ def decompose_one_equation(
     if cut_out is None or classes is None:
         return None
     components = _components(reduction, cut_out, rows, classes, rng, tracker, scheme)
-    return Decomposition(
-        system=reduction.system,
-        components=tuple(components),
-        paths=PathCounts(),
-        seed=0,
-        settings=str(tracker.settings),
-        order=(0,),
-        complete=all(c.status is Status.IRREDUCIBLE for c in components),
-    )
+    settings = str(tracker.settings)
+    return judged(reduction.system, components, PathCounts(), settings, order=(0,))
 
 
 def _components(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from nag.algebra.elimination import eliminate_linear, linear_variables
-from nag.decomposition.final_checks import Examined, checked_witness_set
+from nag.decomposition.final_checks import Examined, checked_witness_set, judged
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, ball, points_at_roots, points_in_balls
@@ -18,7 +18,7 @@ from nag.decomposition.splitting import Class
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
-from nag.witness.witness import Decomposition, Status
+from nag.witness.witness import Decomposition
 
 # Points of curves of higher degree lie so far out that their powers leave the range of doubles.
 MOST_DEGREE = 20
@@ -65,12 +65,5 @@ def decompose_rational_curve(
     whole = Class(np.arange(degree))
     examined = Examined.of(points, [whole], reduction, rng)
     found, counts = checked_witness_set(whole, examined, rng, tracker, scheme)
-    return Decomposition(
-        system=reduction.system,
-        components=(found,),
-        paths=counts,
-        seed=0,
-        settings=str(tracker.settings),
-        order=tuple(range(n - 1)),
-        complete=found.status is Status.IRREDUCIBLE,
-    )
+    settings, order = str(tracker.settings), range(n - 1)
+    return judged(reduction.system, [found], counts, settings, order=order)

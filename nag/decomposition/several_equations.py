@@ -9,6 +9,7 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.assembly import Known, assembled
+from nag.decomposition.final_checks import judged
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once, with_points
 from nag.decomposition.orbits import Action
@@ -97,14 +98,7 @@ def _put_together(
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
     points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
     found = assembled(points, reduction, rng, tracker, known)
-    answer = Decomposition(
-        system=reduction.system,
-        components=found.components,
-        paths=superset.counts + found.counts,
-        seed=0,
-        settings=tracker.settings,
-        order=(),
-        complete=found.complete and not notes,
-        notes=(*notes, *found.notes),
-    )
+    notes += found.notes
+    paths = superset.counts + found.counts
+    answer = judged(reduction.system, found.components, paths, tracker.settings, notes)
     return answer, superset.only_points and not found.notes

@@ -86,6 +86,8 @@ def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> Ze
         u, s, vh = np.linalg.svd(jacobian, full_matrices=False)
         corank = numerical_corank(s, n, SMALL) if known is None else known
         rank = min(n - corank, len(s))
+        if rank and not s[rank - 1] > 0:
+            return Zero(x, corank, np.inf, False)
         delta = vh[:rank].conj().T @ ((u[:, :rank].conj().T @ values) / s[:rank])
         x = x - delta
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(x)))
