@@ -93,3 +93,25 @@ def test_a_singular_point_that_doubles_round_is_on_its_curve(text: str) -> None:
     (curve,) = nag.decompose(text).components
     assert curve.contains((Fraction(1, 3), 0))
     assert curve.contains(np.array([1 / 3 + 0j, 0j]))
+
+
+def test_a_point_is_on_a_line_in_coordinates_of_very_unequal_sizes() -> None:
+    # Slices through the point are rounded: they fix x to a part of 1e11 only.
+    slant = "3*x/400000000000 + y + 799999999997/600000000000"
+    answer = nag.decompose(f"(y + 4/3)*({slant})*(-x^2 + y - 1/2)")
+    point = (Fraction(1, 4), Fraction(-1279999999997, 960000000000))
+    assert [c.contains(point) for c in answer.components] == [
+        _is_cut_by(c, slant) for c in answer.components
+    ]
+    assert sum(c.contains(point) for c in answer.components) == 1
+
+
+def test_a_rounded_point_is_not_on_a_sheet_further_off_than_its_error() -> None:
+    # The slice meets the sheets at a small angle: ends are further off than the sheets.
+    sheet = "2*x*y^2/3 - y^2/2 + z"
+    answer = nag.decompose(f"({sheet})*(-y^2 + y/4 + z - 1/2)*({sheet} - 1/10^7)")
+    point = np.array([-1, -3, 10.5], dtype=complex)
+    assert [c.contains(point) for c in answer.components] == [
+        c.contains((-1, -3, "21/2")) for c in answer.components
+    ]
+    assert sum(c.contains(point) for c in answer.components) == 1

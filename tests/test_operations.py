@@ -60,7 +60,7 @@ def test_a_component_that_is_not_reduced_knows_its_points() -> None:
 def test_what_was_found_is_kept_when_one_membership_is_undecided(monkeypatch) -> None:
     answers = iter([MEMBER, UNDECIDED, FOREIGN])
     monkeypatch.setattr(
-        membership_module, "is_member", lambda *_: (next(answers), PathCounts(tracked=1))
+        membership_module, "is_member", lambda *_, **__: (next(answers), PathCounts(tracked=1))
     )
     planes = decompose(system("x y z", "x*y*z"))
     answers = iter([MEMBER, UNDECIDED, FOREIGN])

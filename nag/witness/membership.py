@@ -15,7 +15,7 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
 from nag.numerics.zero_values import NONZERO, ON
-from nag.witness.close_points import DIGITS, Fine, distance, rated
+from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
 from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres
@@ -66,13 +66,13 @@ def is_member(
         if bounded:
             ends = _near_ones_rated(point, accuracy, fibre, ends, target)
         if ends.fine:
-            answers = [_at_end(point, accuracy * scale, fibre, ends, i, target) for i in ends.fine]
+            error = accuracy * scale
+            answers = [_at_end(point, error, fibre, ends, i, target, bounded) for i in ends.fine]
             if Membership.MEMBER in answers:
                 return Membership.MEMBER, counts
             unclear |= Membership.UNDECIDED in answers
             ends = ends.without(ends.fine)
-        x = ends.points[ends.finite, : fibre.cut.n]
-        distances = np.linalg.norm(x - point, axis=1) / scale
+        distances = _distances(point, fibre, ends)[ends.finite]
         if compared(distances, accuracy)[0].any():
             return Membership.MEMBER, counts
         errors = np.maximum(accuracy, ends.accuracy[ends.finite])
@@ -80,15 +80,28 @@ def is_member(
     return Membership.UNDECIDED if unclear else Membership.FOREIGN, counts
 
 
+def _distances(point: np.ndarray, fibre: Fibre, ends: Moved) -> np.ndarray:
+    """Of the ends from a point, relative to its size; infinite for those that are none.
+
+    In coordinates of comparable sizes, as paths are tracked and the slice is rounded in these.
+    """
+    sizes = coordinate_sizes(fibre)[1:]
+    distances = np.full(len(ends.points), np.inf)
+    off = (ends.points[ends.finite, : fibre.cut.n] - point) / sizes
+    distances[ends.finite] = np.linalg.norm(off, axis=1) / (1 + np.linalg.norm(point / sizes))
+    return distances
+
+
 def _near_ones_rated(
     point: np.ndarray, accuracy: float, fibre: Fibre, ends: Moved, rows: np.ndarray
 ) -> Moved:
     """The ends with Newton's constant of those that are near to a point, and not at it."""
-    n, scale = fibre.cut.n, 1 + float(np.linalg.norm(point))
-    x = np.where(ends.finite[:, None], ends.points[:, :n], np.inf)
-    distances = np.linalg.norm(x - point, axis=1) / scale
+    distances = _distances(point, fibre, ends)
     same, doubtful = compared(distances, accuracy)
-    near = ends.regular & (same | doubtful) & (distances > np.maximum(accuracy, ends.accuracy))
+    # Where sizes are unequal, what is little beside the largest may be much for the point.
+    off = np.linalg.norm(ends.points[:, : fibre.cut.n] - point, axis=1)
+    away = off > np.maximum(accuracy, ends.accuracy) * (1 + np.linalg.norm(point))
+    near = ends.regular & (same | doubtful) & away
     fine = dict(ends.fine)
     for i in set(np.flatnonzero(near).tolist()) - fine.keys():
         fine[i] = rated(fibre.cut.polynomials, rows, Fine.of_doubles(ends.points[i]))
@@ -96,7 +109,13 @@ def _near_ones_rated(
 
 
 def _at_end(
-    point: np.ndarray, error: float, fibre: Fibre, ends: Moved, i: int, rows: np.ndarray
+    point: np.ndarray,
+    error: float,
+    fibre: Fibre,
+    ends: Moved,
+    i: int,
+    rows: np.ndarray,
+    bounded: bool,
 ) -> Membership:
     """Whether a point that is off by so much may be an end to which other zeros are close.
 
@@ -105,15 +124,41 @@ def _at_end(
     """
     end = ends.fine[i]
     # The slice through a point beside the set meets it so much further off at most.
-    error = max(error, float(ends.accuracy[i]) * (1 + float(np.linalg.norm(point))))
+    if bounded:
+        error = max(error, float(ends.accuracy[i]) * (1 + float(np.linalg.norm(point))))
     reach = SPREAD * error / _angle(fibre.cut, rows, end)
-    if np.linalg.norm(ends.points[i, : fibre.cut.n] - point) > reach:
+    gap = float(np.linalg.norm(ends.points[i, : fibre.cut.n] - point))
+    if gap > reach:
         return Membership.FOREIGN
     apart = (1 + float(np.linalg.norm(point))) / end.curvature
+    beside = _beside(fibre.cut, point) if bounded else np.inf
+    if max(gap, beside) < BASIN * apart:
+        # The sheet on which the end is is the one beside the point.
+        return Membership.MEMBER if beside <= SPREAD * error else Membership.FOREIGN
     x = ends.points[:, : fibre.cut.n]
     others = [distance(x[i], end, x[j], ends.fine[j]) for j in ends.fine if j != i]
     sure = apart > SPREAD * reach or min(others, default=np.inf) < SPREAD * apart
     return Membership.MEMBER if sure else Membership.UNDECIDED
+
+
+def _beside(cut: Cut, point: np.ndarray) -> float:
+    """How far the set beside a point is, by Newton's method; infinite if that is unknown."""
+    import flint
+
+    from nag.numerics.ball_polynomials import BallPolynomials
+
+    if cut.aux or not cut.polynomials:
+        return np.inf
+    exact = BallPolynomials.of(cut.polynomials, np.zeros((0, 1 + cut.n), dtype=complex))
+    with flint.ctx.workdps(2 * DIGITS):
+        x = [flint.acb(complex(v)) for v in point]
+        slopes = exact.jacobian(x).mid()
+        across = slopes.conjugate().transpose()
+        try:
+            step = across * (slopes * across).solve(exact(x).mid(), algorithm="approx")
+        except ZeroDivisionError:
+            return np.inf
+        return float(np.linalg.norm([complex(v.mid()) for v in step.entries()]))
 
 
 def _angle(cut: Cut, rows: np.ndarray, end: Fine) -> float:
