@@ -167,7 +167,7 @@ def watched(measured: Measured) -> ExitStack:
         (limits, "_denominator", denominator),
         (judged_ends, "_residuals", values),
         (judged_ends, "_solutions", real),
-        (jumps, "meeting", met),
+        (jumps, "coinciding", met),
     ]:
         stack.enter_context(patch.object(owner, name, around(getattr(owner, name), note)))
     return stack

@@ -7,7 +7,7 @@ import pytest
 from systems import system
 
 from nag.decomposition import decompose
-from nag.decomposition.diagonal import Meeting, meeting
+from nag.decomposition.diagonal import Intersected, intersected
 from nag.decomposition.factor import Factor
 from nag.decomposition.reduction import Reduction
 from nag.witness.fibres import Tracker
@@ -17,7 +17,7 @@ SPHERE = "x^2 + y^2 + z^2 - 1"
 
 def met(
     first: str, second: str, seed: int = 0, *, nonzero: tuple[str, ...] = ()
-) -> tuple[Meeting, Reduction]:
+) -> tuple[Intersected, Reduction]:
     """The meeting of two surfaces in space, and the coordinates that its points have."""
     factors = []
     for equation in (first, second):
@@ -25,15 +25,15 @@ def met(
         (component,) = decompose(of).components
         factors.append(Factor.of(of, component))
     common = Reduction.of(system("x y z", first, second, nonzero=nonzero))
-    return meeting(*factors, common, np.random.default_rng(seed), Tracker()), common
+    return intersected(*factors, common, np.random.default_rng(seed), Tracker()), common
 
 
-def points(found: Meeting, common: Reduction) -> np.ndarray:
+def points(found: Intersected, common: Reduction) -> np.ndarray:
     """The points of a curve, in space."""
     return common.frame.points(np.vstack([fibre.x for fibre in found.fibres[1]]))
 
 
-def sizes(found: Meeting) -> dict[int, int]:
+def sizes(found: Intersected) -> dict[int, int]:
     return {d: sum(map(len, fibres)) for d, fibres in found.fibres.items() if fibres}
 
 

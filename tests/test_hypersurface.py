@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from cuts import curve, fibre
 
-from nag.decomposition.hypersurface import Sections, crossing, intersect
+from nag.decomposition.hypersurface import Sections, hypersurface_section, intersect
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.slices import random_rows, unit_complex
@@ -53,7 +53,7 @@ def test_what_lies_on_the_hypersurface_stays_and_the_rest_is_cut() -> None:
     rng = np.random.default_rng(8)
     flag = random_rows(rng, 2, 2)
     both = fibre(f"({CIRCLE})*({LINE})", flag[0])
-    crossed = crossing(Sections({1: [both]}, flag), curve(LINE), rng, TRACKER)
+    crossed = hypersurface_section(Sections({1: [both]}, flag), curve(LINE), rng, TRACKER)
     (kept,) = crossed.kept[1]
     assert len(kept) == 1 and abs(3 * kept.x[0, 0] - 4 * kept.x[0, 1]) < 1e-12
     ((cut, ends),) = crossed.ends[0]
@@ -68,7 +68,7 @@ def test_the_whole_plane_is_cut_to_the_hypersurface_itself() -> None:
     flag = random_rows(rng, 2, 2)
     point = np.linalg.solve(flag[:, 1:], -flag[:, 0])
     plane = Fibre(Cut(2, 0, ()), 2, point[None])
-    crossed = crossing(Sections({2: [plane]}, flag), curve(CIRCLE), rng, TRACKER)
+    crossed = hypersurface_section(Sections({2: [plane]}, flag), curve(CIRCLE), rng, TRACKER)
     found = finite(crossed.ends[1][0][1])[:, :2]
     assert len(found) == 2
     assert np.abs((found**2).sum(axis=1) - 1).max() < 1e-14

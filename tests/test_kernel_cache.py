@@ -72,14 +72,13 @@ def test_a_file_with_one_wrong_byte_is_replaced(cache: Path) -> None:
 def test_changed_sources_or_another_compiler_are_compiled_anew(
     cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from nag.machine_code import target
 
     _run()
     with monkeypatch.context() as patch:
         patch.setattr(kernel, "_sources", lambda package: b"other sources")
         assert _run() == ["add_up"]
     with monkeypatch.context() as patch:
-        patch.setattr(target, "compiler", lambda: "another one")
+        patch.setattr(processor, "compiler", lambda: "another one")
         assert _run() == ["add_up"]
     assert _run() == ["add_up"]
     assert _run() == []
@@ -88,12 +87,12 @@ def test_changed_sources_or_another_compiler_are_compiled_anew(
 def test_object_code_of_another_processor_is_kept_beside(
     cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from nag.machine_code import target
+    from nag.machine_code import processor
 
     _run()
-    triple, name, features = target.processor()
+    triple, name, features = processor.processor()
     with monkeypatch.context() as patch:
-        patch.setattr(target, "processor", lambda: (triple, name, features + ",-avx"))
+        patch.setattr(processor, "processor", lambda: (triple, name, features + ",-avx"))
         assert _run() == ["add_up"]
     assert _run() == []
 

@@ -12,8 +12,8 @@ import pytest
 from nag.machine_code import plain
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import aligned, store
+from nag.machine_code.processor import processor
 from nag.machine_code.records import Reals
-from nag.machine_code.target import processor
 from nag.tracking.ends.records import _constants, words
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double, octuple_double, quad_double

@@ -14,8 +14,8 @@ from nag.machine_code import lanes
 from nag.machine_code.functions import Module
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.operations import OPERATIONS
+from nag.machine_code.processor import ENTRY, Processor, object_code
 from nag.machine_code.records import Complexes, Reals, Wholes
-from nag.machine_code.target import ENTRY, Processor, object_code
 from nag.solving.start.mixed_cells import _kernel as cells
 from nag.tracking.ends import end_run
 from nag.tracking.newton_kernel import newton_lanes

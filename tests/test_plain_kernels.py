@@ -12,8 +12,8 @@ from systems import system
 from nag.machine_code import plain
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import LANES, aligned, load, store
+from nag.machine_code.processor import processor
 from nag.machine_code.records import Reals, Table, Wholes
-from nag.machine_code.target import processor
 from nag.solving.solve import solve
 
 

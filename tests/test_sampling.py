@@ -12,7 +12,7 @@ from systems import system
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import by_sampling, decompose, memberships, real_points_near, sample
+from nag.decomposition import decompose, discover, memberships, real_points_near, sample
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.witness import moving
@@ -170,20 +170,18 @@ def kinds(answer: Decomposition) -> Counter[tuple[int, int, int]]:
     ],
 )
 def test_components_are_discovered_from_random_points(of, expected, seed: int) -> None:
-    answer = by_sampling(of, seed=seed)
+    answer = discover(of, seed=seed)
     assert kinds(answer) == Counter(expected)
     assert "components may be missing" in answer.notes[0]
 
 
 def test_what_is_discovered_does_not_depend_on_threads() -> None:
     of = case("four-bar")
-    assert by_sampling(of, seed=2, starts=20, threads=1) == by_sampling(
-        of, seed=2, starts=20, threads=2
-    )
+    assert discover(of, seed=2, starts=20, threads=1) == discover(of, seed=2, starts=20, threads=2)
 
 
 def test_few_starts_find_some_components_and_each_is_whole() -> None:
-    answer = by_sampling(case("double-rhombus"), starts=4)
+    answer = discover(case("double-rhombus"), starts=4)
     assert 1 <= len(answer.components) <= 4
     assert set(kinds(answer)) == {(2, 4, 1)}
     assert "of 4 random points" in answer.notes[0]
@@ -193,7 +191,7 @@ def test_the_cube_in_euler_parameters_is_one_orbit_of_sixteen_curves() -> None:
     cube = model(read_case(CASES / "bricard-cube.toml").mechanism, "E")
     assert (cube.system.n, len(cube.system.polynomials)) == (16, 16)
     signs = cube.symmetries
-    answer = by_sampling(cube.system, starts=6, symmetries=signs)
+    answer = discover(cube.system, starts=6, symmetries=signs)
     assert kinds(answer) == {(1, 8, 1): 1}
     assert answer.components[0].orbit == 16
     curves = expanded(answer)
@@ -206,7 +204,7 @@ def test_symmetries_add_what_was_not_met_and_join_what_was() -> None:
     of = system("x y", "(x^2 - 1)*(y^2 - x)*(y^2 + x)")
     flip = SignedPermutation.of_signs((-1, 1))
     for starts in (3, 60):
-        answer = by_sampling(of, starts=starts, symmetries=[flip])
+        answer = discover(of, starts=starts, symmetries=[flip])
         assert all(c.orbit == 2 for c in answer.components)
         met = set(kinds(expanded(answer)))
         assert met <= {(1, 1, 1), (1, 2, 1)}

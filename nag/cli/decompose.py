@@ -163,11 +163,11 @@ def _decomposed(
 
     options = {**as_chosen(arguments), "progress": progress}
     if arguments.method == "sampling":
-        from nag.decomposition.discovery import by_sampling
+        from nag.decomposition.discovery import discover
 
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
         starts["symmetries"] = symmetries_of(case, model)
-        return case, model, by_sampling(system_of(case, model), **options, **starts)
+        return case, model, discover(system_of(case, model), **options, **starts)
     decomposition = decomposed(case, model, **options)
     known = model if case.assembly is None else case.assembly
     if arguments.coordinates != "euler" or known is None or known.formulation == "E":

@@ -19,7 +19,7 @@ What can be done with components, beside what they can do themselves (`nag.Witne
 >>> import nag
 >>> import numpy as np
 >>> from nag.decomposition import (
-...     by_sampling, components_through, intersect_components, intersect_equations,
+...     discover, components_through, intersect_components, intersect_equations,
 ...     real_points_near, witness_at,
 ... )
 >>> surface = nag.decompose("(x^2 + y^2 - z)*(x - y)")
@@ -38,7 +38,7 @@ What can be done with components, beside what they can do themselves (`nag.Witne
 >>> near = real_points_near(system, bowl, np.array([0.0, 0.0, 2.0]))
 >>> bool(abs(near.distances[0] - np.sqrt(7) / 2) < 1e-6)
 True
->>> by_sampling(system, starts=10).complete  # others might be missing
+>>> discover(system, starts=10).complete  # others might be missing
 False
 """
 
@@ -46,7 +46,7 @@ from importlib import import_module
 from typing import Any
 
 _HOME = {
-    "by_sampling": "nag.decomposition.discovery",
+    "discover": "nag.decomposition.discovery",
     "components_through": "nag.witness.membership",
     "decompose": "nag.decomposition.components",
     "genus": "nag.decomposition.curve_genus",

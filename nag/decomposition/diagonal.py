@@ -32,7 +32,7 @@ from nag.witness.witness import PathCounts
 
 
 @dataclass(eq=False)
-class Meeting:
+class Intersected:
     """Points of an intersection, by dimension.
 
     Attributes:
@@ -118,19 +118,19 @@ def _pairs(first: Fibre, second: Fibre) -> Fibre:
     return Fibre(cut, first.dimension + second.dimension, points)
 
 
-def meeting(
+def intersected(
     first: Factor,
     second: Factor,
     common: Reduction,
     rng: np.random.Generator,
     tracker: Tracker,
-) -> Meeting:
+) -> Intersected:
     """The points of the intersection of two components on generic slices of all dimensions.
 
     Raises:
         nag.decomposition.factor.IntersectionError: if witness points are none.
     """
-    product, result = _Product(first, second), Meeting()
+    product, result = _Product(first, second), Intersected()
     flag = random_rows(rng, product.n, product.n)
     equations = product.differences(rng)
     fibres, rows = product.fibres(rng)
@@ -176,7 +176,7 @@ class _Diagonal:
     product: _Product
     common: Reduction
     flag: np.ndarray
-    result: Meeting
+    result: Intersected
     rng: np.random.Generator
     tracker: Tracker
 

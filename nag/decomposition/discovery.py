@@ -38,7 +38,7 @@ DEEP = 1e-14
 MOST_REFUSALS = 3
 
 
-def by_sampling(
+def discover(
     system: PolynomialSystem,
     *,
     seed: int = 0,

@@ -55,7 +55,7 @@ class Sections:
 
 
 @dataclass(frozen=True, eq=False)
-class Crossing:
+class HypersurfaceSection:
     """What became of sets that met a hypersurface.
 
     Attributes:
@@ -164,9 +164,9 @@ def _intersect_close(
     return joined(places, (intersect(rest, f, flag, gamma, tracker), close))
 
 
-def crossing(
+def hypersurface_section(
     sections: Sections, f: Polynomial, rng: np.random.Generator, tracker: Tracker
-) -> Crossing:
+) -> HypersurfaceSection:
     """All points of the sets where ``f`` vanishes, and how many paths led there."""
     gamma, counts = complex(unit_complex(rng)), PathCounts()
     kept: dict[int, list[Fibre]] = {}
@@ -183,4 +183,4 @@ def crossing(
                 new = intersect(fibre.only(~on), f, sections.flag, gamma, tracker)
                 counts += new.counts
                 ends.setdefault(d - 1, []).append((fibre.cut.extended(f), new))
-    return Crossing(sections, kept, ends, counts)
+    return HypersurfaceSection(sections, kept, ends, counts)

@@ -13,7 +13,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
-from nag.decomposition.diagonal import meeting
+from nag.decomposition.diagonal import intersected
 from nag.decomposition.factor import Factor, IntersectionError, on_flag
 from nag.decomposition.hypersurface import Sections
 from nag.decomposition.reduction import Reduction
@@ -113,7 +113,7 @@ def intersect_factors(
     """
     common = Reduction.of(_union(first.reduction.system, second.reduction.system))
     rng = np.random.default_rng([seed, 5])
-    found = meeting(first, second, common, rng, tracker)
+    found = intersected(first, second, common, rng, tracker)
     points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
     result = _intersection(common, points, found.counts, found.notes, rng, tracker)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]

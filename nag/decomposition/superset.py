@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.excluded import excluded
-from nag.decomposition.hypersurface import Crossing, Sections, crossing
+from nag.decomposition.hypersurface import HypersurfaceSection, Sections, hypersurface_section
 from nag.numerics.coincidence import SAFETY, clusters, coincident
 from nag.numerics.zero_values import ON, vanishes_at
 from nag.witness.close_to_sets import Meant, among, meant, regular_fibre
@@ -123,12 +123,12 @@ def _mixed(f: Polynomial, others: Sequence[Polynomial], rng: np.random.Generator
 
 
 @dataclass(frozen=True, eq=False)
-class _Meeting:
+class _Outcome:
     """Sets that met a polynomial, and what they are then; None if that was left open."""
 
     polynomial: Polynomial
-    crossed: Crossing
-    settled: Superset | None
+    crossed: HypersurfaceSection
+    superset: Superset | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,8 +149,8 @@ class _Stage:
     def n(self) -> int:
         return len(self.found.flag)
 
-    def best(self, f: Polynomial, mixing: bool) -> tuple[_Meeting, bool, PathCounts]:
-        """The meeting with ``f``, or with a combination of it with later ones.
+    def best(self, f: Polynomial, mixing: bool) -> tuple[_Outcome, bool, PathCounts]:
+        """What becomes of the sets with ``f``, or with a combination of it with later ones.
 
         The first equations alone may define components that are not reduced where all together do
         not. A general combination of an equation with later ones of its degree meets a reduced set
@@ -159,25 +159,25 @@ class _Stage:
         """
         later = [g for g in self.after if g.degree == f.degree]
         first = _mixed(f, later, self.rng) if mixing else f
-        best, counts = self.meeting(first, deflate=mixing or not later)
-        if best.settled is None:
-            mixed, spent = self.meeting(_mixed(f, later, self.rng), deflate=False)
+        best, counts = self.outcome(first, deflate=mixing or not later)
+        if best.superset is None:
+            mixed, spent = self.outcome(_mixed(f, later, self.rng), deflate=False)
             counts += spent
-            if mixed.settled is None and mixed.crossed.singular >= best.crossed.singular:
+            if mixed.superset is None and mixed.crossed.singular >= best.crossed.singular:
                 mixed = best
             mixing = mixed is not best
             best = mixed
-            if best.settled is None:
-                settled, spent = self.settled(best.polynomial, best.crossed, deflate=True)
+            if best.superset is None:
+                found, spent = self.superset(best.polynomial, best.crossed, deflate=True)
                 counts += spent
-                best = replace(best, settled=settled)
+                best = replace(best, superset=found)
         return best, mixing, counts
 
-    def meeting(self, f: Polynomial, deflate: bool) -> tuple[_Meeting, PathCounts]:
+    def outcome(self, f: Polynomial, deflate: bool) -> tuple[_Outcome, PathCounts]:
         sections = Sections(self.found.fibres, self.found.flag)
-        crossed = crossing(sections, f, self.rng, self.tracker)
-        settled, spent = self.settled(f, crossed, deflate)
-        return _Meeting(f, crossed, settled), PathCounts(crossed.counts.tracked) + spent
+        crossed = hypersurface_section(sections, f, self.rng, self.tracker)
+        found, spent = self.superset(f, crossed, deflate)
+        return _Outcome(f, crossed, found), PathCounts(crossed.counts.tracked) + spent
 
     def holding(self, so_far: Equations, x: np.ndarray, accuracy: float) -> Equations:
         """The equations so far, and the later ones that seem to vanish at a point as well.
@@ -300,8 +300,8 @@ class _Stage:
             return [], counts
         return [f"a singular point of dimension {d} could not be made regular"], counts
 
-    def settled(
-        self, f: Polynomial, crossed: Crossing, deflate: bool
+    def superset(
+        self, f: Polynomial, crossed: HypersurfaceSection, deflate: bool
     ) -> tuple[Superset | None, PathCounts]:
         """The points of all dimensions after an intersection, without those of larger sets.
 
@@ -377,7 +377,7 @@ def witness_superset(
         before, after = (*ambient.known, *equations[:k]), tuple(equations[k + 1 :])
         stage = _Stage(before, after, found, ambient.nonzero, rng, tracker)
         best, mixing, spent = stage.best(f, mixing)
-        found = best.settled
+        found = best.superset
         equations[k] = best.polynomial
         notes += found.notes
         points += found.about_points + best.crossed.failed_to(0)

@@ -38,5 +38,5 @@ Errors
     Numbers of more than 53 bits are rounded where they meet doubles.
 
 Read `kernel`, then `functions`, `expressions` on `values` and `failures`, `operators` and
-`operations`, then `target`.
+`operations`, then `processor`.
 """

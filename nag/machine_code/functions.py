@@ -15,8 +15,8 @@ from typing import Any, get_type_hints
 from llvmlite import ir
 
 from nag.machine_code.expressions import Expressions
+from nag.machine_code.processor import ENTRY
 from nag.machine_code.records import INT, NONE, Record, Type, record
-from nag.machine_code.target import ENTRY
 from nag.machine_code.values import (
     BYTE,
     WORD,

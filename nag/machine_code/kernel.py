@@ -125,7 +125,7 @@ class Kernel:
                 self._load(code)
 
     def _load(self, code: bytes) -> None:
-        from nag.machine_code.target import Loaded
+        from nag.machine_code.processor import Loaded
 
         self._loaded = Loaded(code)
         count = self.function.__code__.co_argcount
@@ -134,14 +134,14 @@ class Kernel:
 
     def _compile(self) -> bytes:
         from nag.machine_code.functions import Module
-        from nag.machine_code.target import object_code
+        from nag.machine_code.processor import object_code
 
         packages = (f"nag.{self.package}",) if self.package else ()
         return object_code(str(Module(self.function, self.modules, packages).ir))
 
     @property
     def _origin(self) -> bytes:
-        from nag.machine_code.target import compiler, processor
+        from nag.machine_code.processor import compiler, processor
 
         digest = blake2b(_sources(self.package), digest_size=DIGEST)
         digest.update(repr((compiler(), processor(), sys.version)).encode())
@@ -149,7 +149,7 @@ class Kernel:
 
     @property
     def _file(self) -> str:
-        from nag.machine_code.target import processor
+        from nag.machine_code.processor import processor
 
         kind = blake2b(repr(processor()).encode(), digest_size=4).hexdigest()
         name = ".".join([self.function.__name__, *(m.__name__ for m in self.modules.values())])

@@ -67,7 +67,7 @@ def compared(distances: np.ndarray, errors: np.ndarray | float) -> tuple[np.ndar
     return same, ~same & (distances < np.maximum(MISS, BEYOND * errors))
 
 
-def meeting(points: np.ndarray, radii: np.ndarray) -> np.ndarray:
+def overlapping(points: np.ndarray, radii: np.ndarray) -> np.ndarray:
     """Pairs ``i < j`` of points one of which lies in the ball of the other, shape ``(pairs, 2)``.
 
     Args:
@@ -99,7 +99,7 @@ def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
             i = label[i]
         return i
 
-    for a, b in meeting(points, reach(points, accuracy)).tolist():
+    for a, b in overlapping(points, reach(points, accuracy)).tolist():
         first, second = sorted((root(a), root(b)))
         label[second] = first
     if (label == np.arange(count)).all():

@@ -15,7 +15,7 @@ from nag.solving.start.target import Start
 from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import Ball, Paths, PathStatus
-from nag.tracking.projective import meeting
+from nag.tracking.projective import coinciding
 from nag.tracking.track import merged
 
 
@@ -42,7 +42,7 @@ def _alone(begin: Start, paths: Paths) -> np.ndarray:
     twice = _joined(_chosen(paths, regular), _conjugates(paths, regular))
     paired = np.zeros(count, dtype=bool)
     groups = begin.homotopy.groups
-    for i, j in meeting(groups, twice.points, twice.accuracy).tolist():
+    for i, j in coinciding(groups, twice.points, twice.accuracy).tolist():
         if i < count <= j and twice.same(begin.homotopy, i, j):
             paired[j - count] = True
     return regular[~paired]

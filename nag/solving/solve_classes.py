@@ -16,7 +16,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import SymmetricFamily
-from nag.numerics.coincidence import meeting
+from nag.numerics.coincidence import overlapping
 from nag.numerics.zero_values import NONZERO
 from nag.solving.kantorovich import Confirmation, Confirmed
 from nag.solving.parameter_line import ParameterLine, parameter_line
@@ -147,7 +147,7 @@ def _joined(
     points = [each.ends.points[i] / x for each, i in zip((found, other), both, strict=True)]
     radii = [each.ends.radii[i] / np.abs(x) for each, i in zip((found, other), both, strict=True)]
     balls = invariants(symmetric, np.concatenate(points), goal / p, np.concatenate(radii))
-    repeated = meeting(*balls)[:, 1] - len(both[0])
+    repeated = overlapping(*balls)[:, 1] - len(both[0])
     new = both[1][np.setdiff1d(np.arange(len(both[1])), repeated)]
     # Lost paths give their places first.
     free = np.flatnonzero(~found.arrived)
@@ -240,7 +240,7 @@ def _repeated(
     places = np.flatnonzero(ends.regular)
     points, radii = ends.points[places] / scale, ends.radii[places] / np.abs(scale)
     balls = invariants(symmetric, points, values, radii)
-    repeated[places[meeting(*balls).ravel()]] = True
+    repeated[places[overlapping(*balls).ravel()]] = True
     return repeated
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from nag.numerics.coincidence import neighbours
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths
-from nag.tracking.projective import meeting
+from nag.tracking.projective import coinciding
 
 # Leading coefficients of branches that differ by less are the same.
 ALIKE = 1e-9
@@ -31,7 +31,7 @@ def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
     if len(chosen) < 2 or not paths.simple.any():
         return chosen[:0]
     found: set[int] = set()
-    for a, b in meeting(homotopy.groups, paths.points[chosen], paths.accuracy[chosen]).tolist():
+    for a, b in coinciding(homotopy.groups, paths.points[chosen], paths.accuracy[chosen]).tolist():
         i, j = chosen[[a, b]].tolist()
         if (paths.simple[i] or paths.simple[j]) and paths.same(homotopy, i, j):
             found |= {i, j}

@@ -16,7 +16,7 @@ import numpy as np
 
 from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenized, unit
 from nag.tracking.homotopy import Homotopy, straight_line
-from nag.tracking.projective import meeting
+from nag.tracking.projective import coinciding
 from nag.tracking.settings import named
 from nag.tracking.track import track_regular
 
@@ -96,7 +96,7 @@ class DistinctPoints:
 
 def equal_pairs(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
     """Pairs ``i < j`` of projective points of unit norm that are one, shape ``(pairs, 2)``."""
-    return meeting((range(points.shape[1]),), points, errors)
+    return coinciding((range(points.shape[1]),), points, errors)
 
 
 def by_monodromy(
