@@ -73,6 +73,8 @@ def test_changed_sources_or_another_compiler_are_compiled_anew(
     cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
 
+    from nag.machine_code import processor
+
     _run()
     with monkeypatch.context() as patch:
         patch.setattr(kernel, "_sources", lambda package: b"other sources")
