@@ -27,6 +27,8 @@ from nag.witness.witness import Decomposition, Status, WitnessSet
 # A witness point satisfies generators if it does so to this relative residual; they are told
 # apart from the other components' by orders of magnitude.
 RESIDUAL = 1e-8
+# Values in doubles vanish to sixteen digits at most.
+ROUNDING = 1e-16
 
 Decompose = Callable[[Any], Decomposition]
 
@@ -102,7 +104,7 @@ def residual(part: Ideal, points: np.ndarray) -> float:
 
 def digits(value: float) -> int:
     """Decimal digits to which something vanishes, at most 16."""
-    return 16 if value <= 1e-16 else floor(-log10(value))
+    return 16 if value <= ROUNDING else floor(-log10(value))
 
 
 def numerical(compared: Compared) -> Verdict:

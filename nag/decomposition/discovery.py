@@ -34,6 +34,8 @@ STARTS = 100
 ROUNDED = 1e-15
 # Residuals to which points of non-reduced components are brought before they are deflated.
 DEEP = 1e-14
+# Relative error of those points then: about a root of rounding.
+MULTIPLE = 1e-7
 # Points that no deflation made regular, after which no more are tried: each costs seconds.
 MOST_REFUSALS = 3
 
@@ -136,7 +138,7 @@ class _Search:
             return None
         s = np.linalg.svd(evaluator.balanced_jacobian(near), compute_uv=False)
         rank = int(np.sum(s > NEARLY_SINGULAR * max(1.0, s.max(initial=0.0))))
-        return self._brought(Start(near, 1e-7, range(len(near) - rank - 1, -1, -1), True))
+        return self._brought(Start(near, MULTIPLE, range(len(near) - rank - 1, -1, -1), True))
 
     def _brought(self, start: Start) -> tuple[int, int] | None:
         self.slices, place, spent = self.slices.with_start(start, self.rng, self.tracker)

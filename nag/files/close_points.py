@@ -10,6 +10,9 @@ import numpy as np
 from nag.files.json_values import as_count, as_double, as_list, as_table, entry, real_or_null, wrong
 from nag.witness.close_points import WORDS, Fine
 
+# Relative difference of a point's coordinates from the same in more digits.
+ROUNDED = 1e-12
+
 
 def close_document(fine: Mapping[int, Fine]) -> list[dict[str, Any]]:
     """The points of a fibre that are close to others, by their indices in it."""
@@ -39,7 +42,7 @@ def close_points(value: Any, points: np.ndarray, place: str) -> dict[int, Fine]:
         words = _words(entry(table, "coordinates", here), points.shape[1], f"{here}.coordinates")
         curvature = as_double(entry(table, "curvature", here), f"{here}.curvature")
         found[i] = Fine(words, curvature if np.isfinite(curvature) else np.inf)
-        if not np.allclose(found[i].rounded, points[i], rtol=1e-12, atol=1e-300):
+        if not np.allclose(found[i].rounded, points[i], rtol=ROUNDED, atol=1e-300):
             raise wrong(f"{here}.coordinates", "those of the point in more digits")
     return found
 

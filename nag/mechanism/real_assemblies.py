@@ -22,6 +22,8 @@ from nag.mechanism.linkage import LinkageModel
 from nag.witness.gauss_newton import Zero, descend, polish
 
 STARTS = 24
+# Values, beside their terms, of what must not vanish at an assembly, at a zero known to rounding.
+NONZERO = 1e-8
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,11 @@ def real_assemblies(parts: AssemblyModel, seed: int = 0) -> Iterator[Zero]:
         if near is None:
             continue
         zero = polish(evaluator, near)
-        if zero.converged and zero.corank and (nonzero.residuals(zero.x[None] + 0j) > 1e-8).all():
+        if (
+            zero.converged
+            and zero.corank
+            and (nonzero.residuals(zero.x[None] + 0j) > NONZERO).all()
+        ):
             yield zero
 
 

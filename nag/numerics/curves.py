@@ -36,6 +36,8 @@ ROUND_NUMBERS = 20
 PATIENCE = 0.05
 # How many digits less than it has a zero on a hyperplane is known to.
 CLOSE = 5.0
+# Zeros of truncated series so many times as far as the hyperplane are none of the system's.
+OFF = 1e3
 # Binary logarithms of distances at which hyperplanes pass a singular point.
 DISTANCES = (5, 9, 13, 17, 21)
 
@@ -192,7 +194,7 @@ def _followed(
             if u is None
             else scaled.newton(u / (plane @ u), plane)
         )
-        if u is None or np.abs(u).max() > 1e3:
+        if u is None or np.abs(u).max() > OFF:
             return 0
         along = [flint.acb(complex(c)) / 2**k for c in u]
         start = [middle(flint.acb(evaluate(f, series.ring, along))) for f in series.images]

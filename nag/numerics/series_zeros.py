@@ -15,6 +15,13 @@ from nag.numerics.sharpening import ZERO
 STEPS = 60
 # Singular values beside the largest one that are those of a regular zero.
 REGULAR = 1e-5
+# Singular values beside the largest one that Newton's method does not divide by.
+RANK = 1e-12
+# Steps beside the point that lead nowhere, and those that are rounding errors.
+ASTRAY, ARRIVED = 1e3, 1e-14
+# Last step, and values beside the point's square, where Newton's method has come near to a zero,
+# perhaps a multiple one: more than that is seen in all digits.
+SLOW, VANISHING = 1e-2, 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,13 +105,13 @@ class ScaledSeries:
                     jacobian = np.vstack([jacobian, plane])
                 if not (np.isfinite(values).all() and np.isfinite(jacobian).all()):
                     return None
-                delta, *_ = np.linalg.lstsq(jacobian, values, rcond=1e-12)
+                delta, *_ = np.linalg.lstsq(jacobian, values, rcond=RANK)
             u = u - delta
             step = float(np.abs(delta).max(initial=0.0))
-            if step > 1e3 * (1 + np.abs(u).max(initial=0.0)):
+            if step > ASTRAY * (1 + np.abs(u).max(initial=0.0)):
                 return None
-            if step < 1e-14 * (1 + np.abs(u).max(initial=0.0)):
+            if step < ARRIVED * (1 + np.abs(u).max(initial=0.0)):
                 break
         values, _ = self._values(u)
-        small = 1e-6 * max(1.0, float(np.abs(u).max(initial=0.0))) ** 2
-        return u if step < 1e-2 and np.abs(values).max(initial=0.0) < small else None
+        small = VANISHING * max(1.0, float(np.abs(u).max(initial=0.0))) ** 2
+        return u if step < SLOW and np.abs(values).max(initial=0.0) < small else None

@@ -31,6 +31,9 @@ SMALL, PROMISING = 1e-12, 1e-3
 # Second derivatives in the ball are at most so many times those at its centre, if its radius is
 # below a percent and degrees below 30.
 NEARBY = 1.5
+# Largest step, relative to the coordinates, for which that ball is small enough with room to spare;
+# and the inverse of the largest radius in which a zero is said to be the only one.
+SHORT, WIDEST = 1e-3, 1e2
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,13 +179,13 @@ class Confirmation:
         K = NEARBY * (size @ (second * factor)[:, :, None])[:, :, 0].max(axis=1)
         condition = np.linalg.norm(inverse, axis=(1, 2)) * np.linalg.norm(matrix, axis=(1, 2))
         finite = finite & np.isfinite(condition)
-        regular = finite & (2 * beta * K <= 1) & (beta < 1e-3)
+        regular = finite & (2 * beta * K <= 1) & (beta < SHORT)
         return Confirmed(
             points,
             regular,
             lengths,
             np.where(regular, np.maximum(2 * beta, EPS), np.inf),
-            np.where(regular, 1 / np.maximum(K, 1e2), 0.0),
+            np.where(regular, 1 / np.maximum(K, WIDEST), 0.0),
             np.where(finite, condition, np.inf),
             np.full(len(points), 16 if exact is None else DIGITS),
         )

@@ -18,6 +18,8 @@ from nag.tracking.projective import coinciding
 ALIKE = 1e-9
 # Their next coefficients, over the sum of their sizes.
 BENT = 1e-4
+# Combinations of leading coefficients of branches that are compared at all.
+NEIGHBOURS = 1e-6
 
 
 def collisions(homotopy: Homotopy, paths: Paths) -> np.ndarray:
@@ -52,7 +54,7 @@ def alike(paths: Paths) -> np.ndarray:
         logs = np.array([paths.branches[path].logs for path in members])
         bends = np.array([paths.branches[path].bends for path in members])
         key = (logs.real + np.cos(logs.imag)) @ np.cos(np.arange(logs.shape[1]) ** 2)
-        for i, j in neighbours(key, np.full(len(key), 1e-6)):
+        for i, j in neighbours(key, np.full(len(key), NEIGHBOURS)):
             difference = logs[i] - logs[j]
             turns = np.abs(np.exp(1j * difference.imag) - 1)
             same = np.maximum(np.abs(difference.real), turns).max(axis=1) < ALIKE

@@ -43,6 +43,12 @@ T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH = range(8)
 PATIENCE = 24
 # Corrections that do not contract any more are rounding errors if they are less than this.
 ROUNDING = 1e-9
+# Least error of a point that is believed.
+LEAST = 1e-15
+# Steps, relative to t, at which a path is left to others.
+SHORTEST = 1e-10
+# Corrections as large as this lead nowhere; their squares are still numbers.
+OVERFLOW = 1e100
 
 
 def _correct(s, w, norms, k):
@@ -188,7 +194,7 @@ def _judged(w, lane, b):
     stepping = c[8 * STATE + lane] == STEPPING
     first = math.sqrt(w.norms[lane])
     second = math.sqrt(w.norms[8 + lane])
-    if not first < 1e100 or not second < 1e100:
+    if not first < OVERFLOW or not second < OVERFLOW:
         return REJECTED
     theta = second / first if first > 0.0 else 0.0
     if stepping:
@@ -210,7 +216,7 @@ def _judged(w, lane, b):
     left = min(theta, 1.0) * second
     idle = rounds >= 1 and theta > 0.3
     if left <= newton or ((rounds >= 3 or idle) and second <= b.floor):
-        f[8 * ACCURACY + lane] = left if left > 1e-15 else 1e-15
+        f[8 * ACCURACY + lane] = left if left > LEAST else LEAST
         if rounds >= 1 and left > newton:
             f[8 * ACCURACY + lane] = second
         return ACCEPTED
@@ -237,7 +243,7 @@ def _failed(w, lane, b):
     """Try a shorter step; the reason why there is none, or 0."""
     f, c = w.scalars, w.counters
     first = math.sqrt(w.norms[lane])
-    finite = first < 1e100
+    finite = first < OVERFLOW
     if c[8 * STATE + lane] == STARTING:
         return START
     shrink = 0.5
@@ -247,7 +253,7 @@ def _failed(w, lane, b):
     c[8 * FAILURES + lane] += 1
     f[8 * H + lane] = f[8 * H_USED + lane] * shrink
     c[8 * STATE + lane] = STEPPING
-    if f[8 * H + lane] > 1e-10 * f[8 * T + lane]:
+    if f[8 * H + lane] > SHORTEST * f[8 * T + lane]:
         return ARRIVED
     return STEP_SIZE if finite else NOT_FINITE
 

@@ -35,10 +35,10 @@ MOST_DEFLATIONS = 4
 FLAT = 1e-4
 # Newton's method from the end point of a path must arrive within this many steps.
 NEWTON_STEPS = 12
-# Steps that are rounding errors, and residuals at points that are known.
-ROUNDING, VANISHING = 1e-14, 1e-11
-# Relative rounding errors of values, and the change that they may make of the smallest singular
-# value for it to be a regular zero's.
+# Steps that are rounding errors, as are singular values so small beside the largest; last steps at
+# points that are known, well or badly conditioned; and residuals there.
+ROUNDING, SHARP, ROUGH, VANISHING = 1e-14, 1e-10, 1e-8, 1e-11
+# Rounding errors of values, and what they may change a regular zero's least singular value by.
 ROUNDED, CHANGED = 1e-15, 0.1
 # Sizes are very unequal if they, and 1, differ by more than two to this power.
 UNEQUAL = 10
@@ -140,7 +140,7 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
     they do near a regular zero and nowhere else.
     """
     a = padded(rows, 1 + len(z))
-    step, slow, floor = np.inf, 0, 1e-10
+    step, slow, floor = np.inf, 0, SHARP
     for _ in range(NEWTON_STEPS):
         values = evaluator.values(z[None])[0]
         jacobian = evaluator.jacobian(z)
@@ -150,10 +150,10 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
             # Powers of the coordinates leave the range of doubles.
             return Sharpened(z, np.inf, False)
         weights = 1 / np.maximum(np.linalg.norm(matrix, axis=1), _floors(evaluator, z, len(a)))
-        delta, _, _, s = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=1e-14)
+        delta, _, _, s = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=ROUNDING)
         z = z - delta
         if len(s) and s[-1] > 0:
-            floor = min(max(1e-10, 1e2 * np.finfo(float).eps * s[0] / s[-1]), 1e-8)
+            floor = min(max(SHARP, 1e2 * np.finfo(float).eps * s[0] / s[-1]), ROUGH)
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
         # Rounding alone keeps the steps at a badly conditioned point from shrinking further.
         if step < ROUNDING or (step < floor and step > 0.25 * last):

@@ -33,6 +33,8 @@ DOUBLE_DOUBLE = 30
 # Error of a step that is solved in doubles, in roundings times the condition, and of residuals in
 # double-double.
 STEP, RESIDUAL = 16.0, 1e-31
+# Last step in doubles of a method that converges.
+ARRIVED = 1e-6
 # Digits beyond those asked for in which Newton's method computes: residuals lose some.
 SPARE = 25
 # Bits beyond the digits that are asked for.
@@ -134,7 +136,7 @@ def _errors(found: Refined) -> np.ndarray:
     eps = np.finfo(float).eps
     length = np.linalg.norm(found.further, axis=1)
     error = found.condition * (STEP * eps * length + RESIDUAL)
-    return np.where(np.isfinite(error) & (found.error < 1e-6), error, np.inf)
+    return np.where(np.isfinite(error) & (found.error < ARRIVED), error, np.inf)
 
 
 def _remainder(a: np.ndarray, q: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -22,6 +22,13 @@ ZERO = 1e-13
 SHARP = 1e-10
 # Singular values below this, relative to the largest, may belong to the kernel on the zero set.
 SMALL = 1e-3
+# Damping, beside the squared residual: where it begins, the least, and that from which on steps are
+# too short to lead anywhere.
+FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING = 1e-2, 1e-8, 1e8
+# Part of what a linear equation would gain that makes a step worth taking.
+GAIN = 1e-3
+# Steps that are rounding errors; and that may be, where they do not shrink any more.
+ARRIVED, NEARLY = 1e-14, 1e-11
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +61,7 @@ def descend(evaluator: Evaluator, x: np.ndarray, close: float = CLOSE) -> np.nda
 
     Real starting points lead to real points.
     """
-    damping = 1e-2
+    damping = FIRST_DAMPING
     values, jacobian = _balanced(evaluator, x)
     for _ in range(MOST_STEPS):
         size = float(np.linalg.norm(values))
@@ -62,14 +69,14 @@ def descend(evaluator: Evaluator, x: np.ndarray, close: float = CLOSE) -> np.nda
             return x
         u, s, vh = np.linalg.svd(jacobian, full_matrices=False)
         right = u.conj().T @ values
-        while damping < 1e8:
+        while damping < MOST_DAMPING:
             step = vh.conj().T @ (s / (s**2 + damping * size**2) * right)
             trial = x - step
             new_values, new_jacobian = _balanced(evaluator, trial)
             gain = size - float(np.linalg.norm(new_values))
-            if np.isfinite(gain) and gain > 1e-3 * size * min(1.0, 1 / (1 + damping)):
+            if np.isfinite(gain) and gain > GAIN * size * min(1.0, 1 / (1 + damping)):
                 x, values, jacobian = trial, new_values, new_jacobian
-                damping = max(damping / 5, 1e-8)
+                damping = max(damping / 5, LEAST_DAMPING)
                 break
             damping *= 4
         else:
@@ -93,7 +100,7 @@ def polish(evaluator: Evaluator, x: np.ndarray, corank: int | None = None) -> Ze
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(x)))
         if not np.isfinite(step) or step > 1:
             return Zero(x, corank, np.inf, False)
-        if step < 1e-14 or (step < 1e-11 and step >= last):
+        if step < ARRIVED or (step < NEARLY and step >= last):
             break
     residual = float(evaluator.residuals(x[None]).max(initial=0.0))
     return Zero(x, corank, step, step < SHARP and residual < ZERO)

@@ -28,6 +28,9 @@ SPREAD = 0.5
 # the last one where rounding keeps them from becoming shorter.
 MOST_STEPS = 60
 STATIONARY, ALMOST = 1e-10, 1e-5
+# Part of such a step that is the last one tried; and directions along the component, beside the
+# longest, in which the variables do not change.
+SHORTEST, STILL = 1e-6, 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,7 +147,7 @@ def _nearest(
         _, _, vh = np.linalg.svd(cut.evaluator.balanced_jacobian(z).real)
         tangent = vh[len(z) - d :].T
         # The distance is measured in the variables, and unknowns that deflation added follow.
-        step = tangent[: cut.n] @ np.linalg.lstsq(tangent[: cut.n], near - x, rcond=1e-10)[0]
+        step = tangent[: cut.n] @ np.linalg.lstsq(tangent[: cut.n], near - x, rcond=STILL)[0]
         pull = float(np.linalg.norm(step)) / (1 + float(np.linalg.norm(near)))
         if pull < STATIONARY:
             break
@@ -152,7 +155,7 @@ def _nearest(
         gain = np.inf if trial is None else np.linalg.norm(trial[: cut.n] - near)
         if gain < np.linalg.norm(x - near):
             z, reach = trial, min(1.0, 2 * reach)
-        elif reach < 1e-6:
+        elif reach < SHORTEST:
             break
         else:
             reach /= 4

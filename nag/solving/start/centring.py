@@ -26,6 +26,9 @@ MOST_WORK = 1_000_000
 MOST_SWEEPS = 60
 # Change of the logarithms of the radii in the last sweep.
 CONVERGED = 0.05
+# Coefficients that depend on others of their group, beside the largest; and radii, and their
+# inverses, that no sweep leads to where there is a balance.
+DEPENDENT, FARTHEST = 1e-14, 1e9
 
 
 def centres(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
@@ -103,7 +106,7 @@ def _balanced(
     for _ in range(MOST_SWEEPS):
         for indices in alike:
             orthogonal, lower = np.linalg.qr(matrix[indices].T)
-            if not np.abs(np.diag(lower)).min() > 1e-14 * np.abs(np.diag(lower)).max():
+            if not np.abs(np.diag(lower)).min() > DEPENDENT * np.abs(np.diag(lower)).max():
                 return None, centre
             matrix[indices] = orthogonal.T
         change = 0.0
@@ -116,7 +119,7 @@ def _balanced(
             matrix[:, low] += b * slope
             rest = np.delete(matrix, high, axis=1)
             a = (float((rest**2).sum()) / size) ** 0.5
-            if not 1e-9 < a < 1e9:
+            if not 1 / FARTHEST < a < FARTHEST:
                 return None, centre
             matrix[:, high] *= a
             centre[i] += radius[i] * b

@@ -39,6 +39,8 @@ MOST_LOOPS = 120
 # Random points and Newton steps that are tried for a first solution; and how much larger the
 # largest singular value of its Jacobian may be than the smallest.
 SEEDS, NEWTON_STEPS, WORST = 200, 60, 1e5
+# A step that is rounding alone, relative to the point, and values there that are, to their terms.
+ARRIVED, VANISHING = 1e-14, 1e-13
 # A loop that loses a path finds it again later, so that nothing is tracked twice. Points that are
 # sharper than for other paths save more steps than they cost, and more paths arrive.
 SHARP = 1e-9
@@ -85,9 +87,9 @@ def first_solution(family: Family, rng: np.random.Generator) -> tuple[np.ndarray
         for _ in range(NEWTON_STEPS):
             step = np.linalg.lstsq(evaluator.jacobian(z), evaluator.values(z[None])[0])[0]
             z = z - step
-            if not np.linalg.norm(step) > 1e-14 * np.linalg.norm(z):
+            if not np.linalg.norm(step) > ARRIVED * np.linalg.norm(z):
                 break
-        if not np.isfinite(z).all() or evaluator.residuals(z[None]).max() > 1e-13:
+        if not np.isfinite(z).all() or evaluator.residuals(z[None]).max() > VANISHING:
             continue
         singular = np.linalg.svd(evaluator.jacobian(z)[:, :n], compute_uv=False)
         if singular[0] <= WORST * singular[-1]:

@@ -30,6 +30,9 @@ MOST_STEPS = 3_000_000
 MOST_CELLS = 200_000
 # Cells that wait to be followed.
 DEPTH = 1024
+# Edges have whole coordinates: shares and rates are fractions with the cell's volume below, and the
+# product of the pivots is that volume. What lies nearer to 0, or to 1, than this is rounding.
+SHARE, ZERO = 1e-8, 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +107,7 @@ def _factorize(n, matrix, pivots):
         for i in range(k + 1, n):
             if abs(matrix[n * i + k]) > abs(matrix[n * pivot + k]):
                 pivot = i
-        if abs(matrix[n * pivot + k]) < 1e-9:
+        if abs(matrix[n * pivot + k]) < ZERO:
             return False
         pivots[k] = pivot
         if pivot != k:
@@ -187,7 +190,7 @@ def _times(s, w, block, a, now):
         d = load(w.wide, top + j) - splat(s.points[n * a + j])
         value = value + d * splat(w.right[2 * j])
         rate = rate + d * splat(w.right[2 * j + 1])
-    time = select_less(rate, splat(-1e-9), (splat(0.0) - value) / rate, never)
+    time = select_less(rate, splat(-ZERO), (splat(0.0) - value) / rate, never)
     return select_less(splat(now), time, time, never)
 
 
@@ -266,18 +269,18 @@ def follow_cells(s: Lifted, w: Followed) -> None:
                     break
                 share = _share(s, w, which, enters)
                 now = following
-                if share > 1.0 + 1e-8:
+                if share > 1.0 + SHARE:
                     # Two cells become one here; the one whose new point comes later goes on.
                     if enters < cell[2 * which]:
                         break
                     cell[2 * which + 1] = enters
-                elif share < -1e-8:
+                elif share < -SHARE:
                     if enters < cell[2 * which + 1]:
                         break
                     cell[2 * which] = enters
-                elif share < 1e-8:
+                elif share < SHARE:
                     cell[2 * which] = enters
-                elif share > 1.0 - 1e-8:
+                elif share > 1.0 - SHARE:
                     cell[2 * which + 1] = enters
                 else:
                     if size == w.depth:

@@ -28,6 +28,8 @@ FLOOR, DOUBLES = 1e-9, 1e-13
 MOST_CORRECTIONS = 12
 # Corrections of so many rounding errors may be nothing else.
 STAGNANT = 1e2
+# A second correction of so many says how large Newton's constant is at most, not what it is.
+NOISY = 1e2
 
 
 def lay_floors(s, r, f):
@@ -136,7 +138,7 @@ def _judged(r, f, lane, k):
     if k == 1:
         # A second correction that is half rounding errors says how large it is at most.
         curvature = theta / f[8 * FIRST + lane]
-        if excess <= 1e2:
+        if excess <= NOISY:
             curvature = min(curvature, f[8 * CURVATURE + lane])
         f[8 * CURVATURE + lane] = curvature
     if noise:

@@ -62,6 +62,12 @@ from nag.tracking.numbers import double_double as number
 OPEN, REGULAR, LIMIT, LOST, TOO_LONG = range(5)
 # Largest product of the rounding error of a point and Newton's constant that is not lost.
 LOSING = 1e-3
+# Size of the next terms of a series at t = 0 from which on Newton's method is tried there, in parts
+# of those of the last trial.
+TRIAL, SMALLER = 1e-2, 0.1
+# Steps, in the logarithm of t, that get a path nowhere; so often in a row they were shortened; and
+# where t leaves the range of doubles.
+SHORTEST, MOST_REJECTED, LAST_T = 1e-7, 25.0, 1e-280
 
 
 class Batch(NamedTuple):
@@ -130,7 +136,7 @@ def _fill(s, r, f, lane, path, b):
     for k in range(21):
         f[8 * k + lane] = 0.0
     f[8 * PATH + lane] = path
-    f[8 * TRIED + lane] = 1e-2
+    f[8 * TRIED + lane] = TRIAL
     f[8 * CURVATURE + lane] = b.curvature[path]
     for j in range(s.N):
         r.met[8 * j + lane] = b.met[s.N * path + j]
@@ -212,7 +218,7 @@ def _rejected(s, r, f, lane, b):
     else:
         f[8 * H + lane] *= 0.4
         f[8 * REJECTED + lane] += 1.0
-        if f[8 * H + lane] < 1e-7 or f[8 * REJECTED + lane] > 25.0:
+        if f[8 * H + lane] < SHORTEST or f[8 * REJECTED + lane] > MOST_REJECTED:
             _close(s, r, f, lane, b, LOST, r.base)
             return
     f[8 * WANTED + lane] = 1.0
@@ -243,7 +249,7 @@ def _advance(s, r, f, lane, b, best, winding):
     if f[8 * WINDING + lane] != winding:
         f[8 * WAITED + lane] = min(f[8 * WAITED + lane], 1.0)
     f[8 * WINDING + lane] = winding
-    if f[8 * TAKEN + lane] >= b.max_steps[path] or f[8 * T + lane] < 1e-280:
+    if f[8 * TAKEN + lane] >= b.max_steps[path] or f[8 * T + lane] < LAST_T:
         _close(s, r, f, lane, b, TOO_LONG, r.base)
         return
     steep = max(curvature, steepest(f, lane)) if b.close > 0 else curvature
@@ -255,7 +261,7 @@ def _advance(s, r, f, lane, b, best, winding):
     f[8 * H + lane] = min(h, f[8 * H + lane]) if rejected > 0.5 else h
     # Tails that are rounding errors, as of paths that stay where they are, say nothing new.
     end = max(tail_at_end(s, r, b.order, lane), number.EPSILON)
-    near = 0.1 * f[8 * TRIED + lane]
+    near = SMALLER * f[8 * TRIED + lane]
     if b.close > 0:
         near = min(near, b.contraction / steep)
     if end <= near and b.straight[path] != 0:

@@ -23,6 +23,8 @@ DIGITS = {2: 32, 4: 64, 8: 120}
 # Residual of a limit over that of the last one, further out: more says that rounding decides, if
 # the forms nearly vanish.
 GAINED, NEARLY = 0.1, 1e-6
+# Rounding errors over the residual that is asked for, from which on they decide as well.
+NOISE = 1e-3
 # A coordinate is known if it exceeds its rounding error so many times.
 KNOWN = 1e3
 # Relative error of a finite end, as a point of affine space, that more digits need not better.
@@ -333,7 +335,7 @@ def _limit(
     residual = np.inf if limit is None else limit.residual
     if limit is not None:
         states.last[path] = limit
-    stuck = noise > 1e-3 * need or GAINED * further < residual < NEARLY
+    stuck = noise > NOISE * need or GAINED * further < residual < NEARLY
     if stuck and limits.words == 2:
         # Rounding errors do not say how far in a limit is to be looked for.
         return end_run.LOST

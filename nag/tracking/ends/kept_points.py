@@ -5,6 +5,7 @@ from __future__ import annotations
 from nag.machine_code.lanes import load, select_less, splat, store
 from nag.tracking.ends.branch import keep_series
 from nag.tracking.ends.lane_scalars import CURVATURE, EXCESS, KNOWN, SAVED
+from nag.tracking.ends.linear_algebra import RESOLVED
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
 
@@ -51,7 +52,7 @@ def _keep_safe(s, r, f):
     accepted = load(r.accepted, 0)
     lost = splat(0.0)
     for j in range(s.N):
-        error, met = splat(1e3) * load(r.base_errors, j), load(r.met, j)
+        error, met = splat(RESOLVED) * load(r.base_errors, j), load(r.met, j)
         known = select_less(error, load(r.base_sizes, j), splat(1.0), splat(0.0))
         lost = z.largest(lost, met - known)
         store(r.met, j, select_less(half, accepted, z.largest(met, known), met))

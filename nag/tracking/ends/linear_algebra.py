@@ -14,6 +14,10 @@ PHASE = 1.9416
 GONE = 1e-6
 # Largest coordinate of a point from doubles that may be nothing but their rounding errors.
 ROUGHEST = 1e-6
+# A coordinate that exceeds its rounding error so many times is not zero.
+RESOLVED = 1e3
+# Values whose inverses, and products with others, stay in the range of doubles.
+LEAST, LARGEST = 1e-290, 1e290
 
 
 def _power_near_inverse(r, value):
@@ -21,7 +25,7 @@ def _power_near_inverse(r, value):
     store(r.measures, 0, value)
     for lane in range(8):
         size = r.measures[lane]
-        finite = size > 1e-290 and size < 1e290
+        finite = size > LEAST and size < LARGEST
         r.measures[lane] = power_near_inverse(size) if finite else 1.0
     return load(r.measures, 0)
 
@@ -170,7 +174,7 @@ def newton_correction(s, r, rough):
     substitute(s, r, r.noise)
     zero = splat(0.0)
     half = splat(0.5)
-    thousand = splat(1e3)
+    thousand = splat(RESOLVED)
     eta = zero
     excess = zero
     known = zero
@@ -205,7 +209,7 @@ def newton_correction(s, r, rough):
             if s.group_of[j] == g:
                 error = load(r.errors, j)
                 total = fma(error, error, total)
-        lost = select_less(splat(1e-3), square_root(total), splat(1.0), zero)
+        lost = select_less(splat(1.0 / RESOLVED), square_root(total), splat(1.0), zero)
         unknown = z.largest(unknown, lost)
     # What is not a number is not less than anything.
     huge = splat(1e300)
