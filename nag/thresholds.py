@@ -2,11 +2,20 @@
 
 Where a threshold is safe on one side only, it stands on that side: what does not pass is followed
 in more digits, or left undecided, not dismissed. ``python tests/measure_thresholds.py`` measures
-how far what they judge lies from those with a star, ``--decompose`` for decompositions.
+how far what they judge lies from those with a star, ``--decompose`` for decompositions. What a
+caller may choose stands beside its argument, or in `nag.tracking.settings.Settings`.
 
 ==========================================  ======  ================================================
 name                                        value   what it decides, and why there
 ==========================================  ======  ================================================
+algebra.high_precision.VANISHES            1e-80   Distance, beside their size, of zeros of 100
+                                                    digits that are one; Newton's last step.
+algebra.high_precision.SHARP               1e-85   Errors of zeros; larger ones get more digits.
+algebra.high_precision.NEAR                1e-9    What Newton's method may move such a zero by.
+algebra.generic_multiplicity.INDEPENDENT   1e-6    Singular value of gradients of length one that
+                                                    surely are independent; else no bound is given.
+algebra.generic_multiplicity.NOT_ZERO      1e-7    Derivatives, beside their terms, that are surely
+                                                    not zero.
 numerics.zero_values.ON *                  1e-9    Values in doubles, beside their terms, at
                                                     sharpened points that may be zero: zeros lie
                                                     below 2.5e-13, others above 2e-6 in all systems
@@ -54,6 +63,10 @@ numerics.local_dimension.ROUNDED            1e-8    Relative error of a point of
                                                     is not told.
 numerics.local_structure.FURTHEST           -1.3    Decimal logarithm of the largest distance in
                                                     which a zero is looked for.
+numerics.local_structure.NOTHING           -90     The same of entries of the dual space's matrices
+                                                    that are zero, of 150 digits.
+numerics.local_structure.SOMETHING         -45     The same of such as are not; what falls between
+                                                    is undecided.
 numerics.local_structure.REPEATED           20      Digits, of a hundred, in which two points may
                                                     differ that are one.
 numerics.null_space.WELL                    1e-8    Pivots, over the largest, of a block that
@@ -61,6 +74,8 @@ numerics.null_space.WELL                    1e-8    Pivots, over the largest, of
                                                     digits.
 numerics.pivots.CLEAR                       0.5     Decimal logarithm of a pivot over its error that
                                                     makes it no zero.
+numerics.curves.OFF                        1e3     Zeros of truncated series over their scale,
+                                                    beyond which they are none of the system's.
 numerics.rational_relations.CLEAR           1e-9    Singular values of columns of length one at
                                                     most, in doubles, that are no rounding: smaller
                                                     ones are looked at in all digits.
@@ -74,6 +89,10 @@ numerics.scaling.DEPENDENT                  1e-12   Singular values of rows, ove
                                                     are not made orthogonal.
 numerics.series_zeros.REGULAR               1e-5    Singular values beside the largest one that are
                                                     those of a regular zero.
+numerics.series_zeros.SLOW                 1e-2    Newton's last step that has come near to a zero,
+                                                    perhaps a multiple one, of truncated series;
+                                                    what there is shows in all digits.
+numerics.series_zeros.VANISHING            1e-6    Values there, beside the point's square.
 numerics.sharpening.ZERO                    -100    Decimal logarithm of what vanishes at a singular
                                                     point, of 150 digits.
 numerics.sharpening.ARRIVED                 -125    The same of Newton's last step.
@@ -127,6 +146,7 @@ tracking.ends.at_infinity.ZERO              1e-150  Coordinates of size one that
                                                     digits, and Newton's last step.
 tracking.ends.follow.KNOWN *                1e3     A coordinate over its rounding error that is not
                                                     zero.
+tracking.ends.linear_algebra.RESOLVED      1e3     The same in the kernels.
 tracking.ends.follow.SHARP                  1e-15   The same part in more digits.
 tracking.ends.initial_forms.ZERO            -100    Decimal logarithm of forms that are zero at a
                                                     limit at infinity, of 120 digits.
@@ -148,6 +168,8 @@ tracking.ends.follow.GAINED                 0.1     Residual of a limit over tha
                                                     further out: more is rounding, if it is below
                                                     NEARLY, and asks for more digits.
 tracking.ends.follow.NEARLY                 1e-6    See there.
+tracking.ends.follow.NOISE                 1e-3    Rounding over the wanted residual that asks for
+                                                    more digits as well.
 tracking.ends.limits.MOST_EVIDENCE        58      More cannot be asked of 64 digits, and 120 are
                                                     for paths that these lose.
 tracking.ends.limits.BEYOND                 30      Error of a limit in last terms of its series.
@@ -202,12 +224,18 @@ solving.branch_solutions.NEAR               1e-7    Relative distance of solutio
 solving.kantorovich.NEARBY                  1.5     Second derivatives in a ball over those at its
                                                     centre: a bound that holds for radii below a
                                                     percent and degrees below 30.
+solving.kantorovich.SHORT                  1e-3    Newton's step, beside the coordinates, at a
+                                                    proved zero: its ball is within that percent.
 solving.solution_classes.CLEAR              1e-3    Errors of a class's invariants from which on it
                                                     is not told from others: its path is lost.
 solving.solve_classes.FEW                   0.1     Part of the classes that chance may lose; more,
                                                     and the parameters are special.
 solving.start.family_monodromy.WORST        1e5     Condition of a first solution that is not begun
                                                     from.
+solving.start.family_monodromy.VANISHING   1e-13   Values at a first solution.
+solving.start.mixed_cells.SHARE            1e-8    Distance from 0 and 1 of fractions with volumes
+                                                    of cells below: less is rounding.
+solving.start.mixed_cells.ZERO             1e-9    The same of pivots, and of rates from 0.
 solving.start.pencil.CLEAR                  1e-6    Sum of second differences over the points'
                                                     motion that is none of rounding.
 solving.start.pencil.FINE_ROUNDING          1e-50   What of it is rounding in 64 digits.
@@ -252,8 +280,12 @@ witness.cutting.CHANGED                     0.1     Part of the smallest singula
                                                     of the values say: more may be a double zero's,
                                                     which is looked for in more digits.
 witness.cutting.VANISHING                   1e-11   Values at a point where Newton's method arrived.
+witness.cutting.SHARP                      1e-10   Newton's last step there.
+witness.cutting.ROUGH                      1e-8    The same where the point is badly conditioned.
 witness.exact_points.RESIDUAL               1e-31   Error of residuals in double-double: a bound, no
                                                     decision.
+witness.exact_points.ARRIVED               1e-6    Newton's last step in doubles; after a larger
+                                                    one points are found in balls.
 witness.gauss_newton.ZERO                   1e-13   Values at a zero that Newton's method found from
                                                     a random point.
 witness.gauss_newton.SHARP                  1e-10   Its last step.
@@ -307,42 +339,54 @@ decomposition.singular_parameters.ROUNDING  1e-8    Distance of a number in doub
                                                     fraction that it is read as.
 interpolation.point_cloud.SMALL             1e-5    Singular values of tangents, over the largest,
                                                     of directions that the projection loses.
+mechanism.assembly.REAL                    1e-8    Imaginary parts of real assemblies, beside the
+                                                    point's size.
+mechanism.real_assemblies.NONZERO          1e-8    Values at an assembly that must not vanish.
+mechanism.bonds.UNCLEAR                    0.03    How far orders of bonds may be from fractions.
+check.four_way.RESIDUAL                    1e-8    Values at witness points of exact components.
+cli.local.MOST_ROUNDED                     1e-8    Values, beside their terms, at rounded points.
 ==========================================  ======  ================================================
 
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
 rounding, digits that are taken, where random numbers come from.
 
-numerics.certified_points: FLAT; numerics.close_zeros: ROUNDING, REST, DEEP, LEAST;
-numerics.curves: CLOSE, CLOSER, PATIENCE; numerics.deflated_system:
-MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK; numerics.digits:
-LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING, FIRST,
-LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function: ROUNDING;
-numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
+algebra.evaluation: HUGE; algebra.number: LARGEST_ANGLE; numerics.certified_points: FLAT, LEAST;
+numerics.close_zeros: ROUNDING, REST, DEEP, LEAST; numerics.curves: CLOSE, CLOSER, PATIENCE;
+numerics.deflated_system: MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK;
+numerics.digits: LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION,
+ROUNDING, FIRST, LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function:
+ROUNDING; numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
 REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
 numerics.rounds_in_doubles: APART; numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
 numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP; numerics.zero_values: LEAST;
-tracking.certified_paths: ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE,
-ENDGAME; tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE;
-tracking.ends.branch: LONGEST; tracking.ends.corrector:
-DOUBLES; tracking.ends.inclusion: TINY; tracking.ends.initial_forms: GAIN;
-tracking.ends.kept_points: RESIDUAL, SECOND;
-tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
-tracking.ends.linear_algebra: PHASE; tracking.ends.runs: ACCURACY, CONTRACTION;
-tracking.linear_algebra: PIVOT; tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER;
-tracking.numbers.double_double: EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL;
-tracking.numbers.quad_double: EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT;
-tracking.projective: ROUNDING; tracking.track: LEAST, BASIN; solving.certified_paths: FURTHER;
-solving.kantorovich: EPS, SMALL, PROMISING; solving.isolated_zero: ROUNDING;
-solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR; solving.solution_classes: STEP;
-solving.start.centring: FAR, CONVERGED; solving.start.choice: WORK; solving.start.family_monodromy:
-SHARP; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
+numerics.series_zeros: RANK, ASTRAY, ARRIVED; tracking.certified_paths: ERROR, ALONG, ACROSS,
+LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST; tracking.close_paths: STEEP;
+tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch: LONGEST; tracking.ends.corrector:
+DOUBLES, NOISY; tracking.ends.inclusion: TINY; tracking.ends.initial_forms: GAIN;
+tracking.ends.kept_points: RESIDUAL, SECOND; tracking.ends.lane_scalars: IDLE, STEP, FINISH;
+tracking.ends.limits: LOG_2; tracking.ends.linear_algebra: PHASE, LEAST, LARGEST;
+tracking.ends.runs: ACCURACY, CONTRACTION; tracking.linear_algebra: PIVOT;
+tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.numbers.double_double:
+EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL; tracking.numbers.quad_double:
+EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT, TINY, FAR; tracking.projective: ROUNDING;
+tracking.track: LEAST, BASIN, FINEST; tracking.ends.end_run: TRIAL, SMALLER, SHORTEST,
+MOST_REJECTED, LAST_T; tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps: NEIGHBOURS;
+tracking.settings: TIGHTER, SHARPER; tracking.straight_run: LEAST, SHORTEST, OVERFLOW;
+solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING, WIDEST, TINY;
+solving.isolated_zero: ROUNDING; solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR;
+solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED, DEPENDENT, FARTHEST;
+solving.start.choice: WORK; solving.start.family_monodromy: SHARP, ARRIVED;
+solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
 solving.start.target: HALF_UNIT; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT,
-INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED;
-witness.cutting: FLAT, ROUNDED, ROUNDING;
-witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP, BITS_PER_DIGIT;
-witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE;
-witness.real_points: SPREAD; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR,
-OUTSIDE, SHRINK; decomposition.discovery: ROUNDED, DEEP; decomposition.given_points: ROUGH;
-decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
-decomposition.excluded: ROUNDED; decomposition.superset: REGULAR.
+INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED; witness.cutting: FLAT,
+ROUNDED, ROUNDING, LOSS, NOTHING; witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP,
+BITS_PER_DIGIT, SPLITTER; witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE,
+FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, ARRIVED, NEARLY; witness.real_points: SPREAD,
+SHORTEST, STILL; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE,
+SHRINK, LEAST_RADIUS; decomposition.discovery: ROUNDED, DEEP, MULTIPLE; decomposition.given_points:
+ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
+decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; interpolation.precise_samples:
+ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE; mechanism.parts_decomposition: ROUNDED;
+files.close_points: ROUNDED; check.four_way: ROUNDING; report.singular: NOTHING; cli.bench:
+PATIENCE; cli.bench_decompose: PATIENCE; cli.running: INTERVAL.
 """

@@ -13,8 +13,21 @@ import pytest
 
 from nag import thresholds
 
-PACKAGES = ("numerics", "tracking", "solving", "witness", "decomposition", "interpolation")
 ROOT = Path(thresholds.__file__).parent
+# What is measured, and drawn, for comparisons with other programs: no answer depends on it.
+DECIDES_NOTHING = ("bench",)
+PACKAGES = tuple(
+    sorted(
+        path.parent.name
+        for path in ROOT.glob("*/__init__.py")
+        if path.parent.name not in DECIDES_NOTHING
+    )
+)
+# Sizes up to which a number is more than a share, and from which on it is more than a count.
+SMALL, LARGE = 0.1, 10.0
+# They keep quotients, and logarithms, finite: no value of a computation lies between them and 0, or
+# infinity, but for what has lost its digits to the range of doubles.
+GUARDS = (1e-300, 1e300)
 ROW = re.compile(r"^([a-z_.]+\.[A-Z_0-9]+)(?: \*)? +(\S+) +\S", re.MULTILINE)
 STEERING = re.compile(r"([a-z_.]+\.[a-z_.]+):\s+((?:[A-Z_0-9]+[,;.]\s*)+)")
 
@@ -32,22 +45,60 @@ def steering() -> set[str]:
     }
 
 
+def files() -> list[Path]:
+    return [path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))]
+
+
 def named_floats() -> set[str]:
     found = set()
-    for package in PACKAGES:
-        for path in sorted((ROOT / package).rglob("*.py")):
-            module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
-            for node in ast.parse(path.read_text()).body:
-                if not isinstance(node, ast.Assign):
+    for path in files():
+        module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+        for node in ast.parse(path.read_text()).body:
+            if not isinstance(node, ast.Assign | ast.AnnAssign):
+                continue
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            for name in [n for target in targets for n in ast.walk(target)]:
+                if not isinstance(name, ast.Name) or not name.id.isupper():
                     continue
-                (target,) = node.targets
-                names = target.elts if isinstance(target, ast.Tuple) else [target]
-                for name in names:
-                    value = getattr(import_module(f"nag.{module}"), name.id)
-                    several = value if isinstance(value, tuple) else (value,)
-                    if any(isinstance(v, float) for v in several):
-                        found.add(f"{module}.{name.id}")
+                value = getattr(import_module(f"nag.{module}"), name.id)
+                several = value if isinstance(value, tuple) else (value,)
+                if any(isinstance(v, float) for v in several):
+                    found.add(f"{module}.{name.id}")
     return found
+
+
+def literals(node: ast.AST) -> set[float]:
+    """Sizes of floats that stand in a statement or an expression, those of powers among them.
+
+    Default values of arguments are left out: they are told to whoever calls the function.
+    """
+    match node:
+        case ast.Constant(value=float(value)):
+            return {abs(value)}
+        case ast.BinOp(left=left, op=ast.Pow(), right=right):
+            try:
+                value = ast.literal_eval(left) ** ast.literal_eval(right)
+            except ValueError:
+                pass
+            else:
+                return {abs(value)} if isinstance(value, float) else set()
+        case ast.FunctionDef(body=body):
+            return set().union(*map(literals, body))
+        case ast.Lambda(body=body):
+            return literals(body)
+    return set().union(*map(literals, ast.iter_child_nodes(node)))
+
+
+def nameless(source: str) -> set[float]:
+    """Floats in functions, and in calls, so small, or so large, that they decide something."""
+    tree = ast.parse(source)
+    places: list[ast.AST] = [n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)]
+    # What has a name of its own as an argument need not have another one.
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call):
+            places += node.value.args
+    found = set().union(*map(literals, places))
+    return {v for v in found if v not in GUARDS and (0 < v < SMALL or v > LARGE)}
 
 
 @pytest.mark.parametrize(("name", "value"), rows().items())
@@ -61,6 +112,27 @@ def test_every_named_number_is_in_the_table_or_decides_nothing() -> None:
     assert not decides & steers
     assert named <= decides | steers
     assert steers <= named
+
+
+@pytest.mark.parametrize("path", files(), ids=lambda path: str(path.relative_to(ROOT)))
+def test_no_number_that_decides_something_is_without_a_name(path: Path) -> None:
+    assert not nameless(path.read_text())
+
+
+@pytest.mark.parametrize(
+    ("body", "found"),
+    [
+        ("return x < 1e-8", {1e-8}),
+        ("return x > -1e3 * y", {1e3}),
+        ("return x < max(y, 10**-12)", {1e-12}),
+        ("floor = 1e-10\n    return x < floor", {1e-10}),
+        ("return lstsq(x, rcond=1e-12)", {1e-12}),
+        ("return filter(lambda z: z < 1e-5, x)", {1e-5}),
+        ("return x < EPS and x > 0.0 and 0.5 * x < 1 / max(y, 1e-300)", set()),
+    ],
+)
+def test_numbers_without_a_name_are_seen(body: str, found: set[float]) -> None:
+    assert nameless(f"def f(x, y=1e-12):\n    {body}\n") == found
 
 
 @pytest.mark.parametrize(

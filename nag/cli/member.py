@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from nag.algebra.number import Number
 
 FORMAT = "nag-membership"
-# A point that satisfies the equations so well, relative to their terms, is taken for a rounded one.
-ROUNDED = 1e-9
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -52,6 +50,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if (options.point is None) == (options.at is None):
         raise UsageError("give either the name of a point of the case or --at, and not both")
     with compilation_notice(sys.stderr, options.quiet):
+        from nag.witness.at_prompt import EXACT, INEXACT, ROUNDED
         from nag.witness.membership import Membership, memberships
 
         found = given(options, lambda *known: _point(options, *known))
@@ -66,7 +65,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             answers = memberships(
                 found.decomposition,
                 at,
-                accuracy=1e-15 if exact else max(1e-12, 10 * residual),
+                accuracy=EXACT if exact else max(INEXACT, 10 * residual),
                 exact=point if exact else (),
                 **as_chosen(options),
             )
@@ -109,6 +108,7 @@ def _lines(
     answers: tuple[Any, ...],
 ) -> list[str]:
     from nag.text.table import align, magnitude, printable, sheet
+    from nag.witness.at_prompt import ROUNDED
     from nag.witness.membership import Membership
 
     components = found.decomposition.components

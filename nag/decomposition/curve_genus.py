@@ -34,6 +34,8 @@ from nag.witness.witness import WitnessSet
 CORNERS, NEAR = 8, 0.4
 # Distance of the base point, relative to that of the branch points.
 OUTSIDE = 2.0
+# Their distance from their middle, beside its size, that is taken at least.
+LEAST_RADIUS = 1e-3
 # Distance from a branch point at the end of a leg of the way there, beside that at its beginning.
 SHRINK = 1e-2
 
@@ -152,7 +154,7 @@ class _Cover:
     ) -> None:
         self.tracker = tracker
         self.centre = complex(np.mean(values)) if values else 0j
-        least = 1e-3 * (1 + abs(self.centre))
+        least = LEAST_RADIUS * (1 + abs(self.centre))
         radius = OUTSIDE * max([least, *(abs(v - self.centre) for v in values)])
         base = self.centre + radius * complex(unit_complex(rng))
         inwards = self.centre - base

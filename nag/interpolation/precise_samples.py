@@ -30,6 +30,8 @@ from nag.witness.witness import WitnessSet
 SPARE = 25
 # Each step of Newton's method with a Jacobian in doubles gains at least this many digits.
 GAIN = 4
+# Relative error of an exact point that is rounded to doubles.
+ROUNDED = 1e-15
 
 
 class SourceError(ValueError):
@@ -93,7 +95,7 @@ def source_at(
         raise SourceError("the point is isolated; there is nothing to eliminate from")
     x = np.array([complex(float(c)) for c in point])
     rows = rows_through(rng, dimension, x)
-    found = find_cut(Equations(system.polynomials, system.n), rows, x, 1e-15, rng, False)
+    found = find_cut(Equations(system.polynomials, system.n), rows, x, ROUNDED, rng, False)
     if found is None:
         raise SourceError("the point is too near to a singular one")
     cut, z = found

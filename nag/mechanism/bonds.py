@@ -37,6 +37,8 @@ from nag.witness.witness import WitnessSet
 
 # Distances from an end, relative to the coordinate's size, at which the joints' norms are compared.
 NEAR, NEARER = 1e-3, 1e-5
+# What is added to that size, which may be zero.
+LEAST_SIZE = 1e-3
 # Norms fall with a power of the distance that is a ratio of orders.
 LARGEST_ORDER, UNCLEAR = 6, 0.03
 
@@ -227,7 +229,7 @@ class _Ends:
 
     def _at(self, i: int, root: complex) -> list[_Kind]:
         """The joints whose norms vanish, for each end over a root."""
-        size, turn = abs(root) + 1e-3, complex(unit_complex(self.rng))
+        size, turn = abs(root) + LEAST_SIZE, complex(unit_complex(self.rng))
         result = []
         for fibre in self.fibres:
             gamma = complex(unit_complex(self.rng))

@@ -24,6 +24,9 @@ from nag.witness.fibres import Tracker
 from nag.witness.membership import Membership, component_fibres, is_member
 from nag.witness.witness import Decomposition, Status, WitnessSet
 
+# Relative error of a witness point's reflection.
+ROUNDED = 1e-12
+
 
 def decompose_parts(
     parts: AssemblyModel,
@@ -119,5 +122,5 @@ def _lies_on(
         others = [c for c in found.components if c.dimension == 0]
         return min(others, key=lambda c: np.linalg.norm(c.points[0] - point)) is component
     fibres, rows = component_fibres(found.system, component), component.slice.rows
-    answer, _ = is_member(point, 1e-12, fibres, rows, rng, tracker)
+    answer, _ = is_member(point, ROUNDED, fibres, rows, rng, tracker)
     return answer is Membership.MEMBER

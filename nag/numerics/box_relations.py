@@ -8,7 +8,7 @@ import flint
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
-from nag.numerics.discs import UP
+from nag.numerics.discs import UNIT, UP
 from nag.numerics.krawczyk import Boxes, FineBox
 
 
@@ -37,7 +37,7 @@ def _candidates(boxes: Boxes) -> Iterator[tuple[int, int]]:
     # Of size one, so that the sum over a box's radii, twice, bounds what the key may differ by.
     weights = np.exp(1j * np.arange(1, n + 1) ** 2)
     key = (centres @ weights).real
-    rounding = np.abs(centres).sum(axis=1) * (n + 8) * 2.0**-50
+    rounding = np.abs(centres).sum(axis=1) * (n + 8) * 8 * UNIT
     width = (4 * inner.sum(axis=1) + 2 * rounding) * UP
     for first, second in neighbours(key, width):
         distance = np.abs(centres[first] - centres[second]) / UP

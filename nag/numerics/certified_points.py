@@ -32,6 +32,8 @@ from nag.numerics.singular_point import Place, analyse
 
 # Zeros further from a point than its accuracy, times this, or this much, are not meant by it.
 SLACK, NEAR = 1e3, 1e-6
+# Least relative error of a point in doubles.
+LEAST = 1e-15
 # Gradients below this, relative to their terms, count as what they are.
 FLAT = 1e-8
 # Digits of a proved zero that is tested for being rational.
@@ -351,7 +353,7 @@ def _singular(
     rng = np.random.default_rng(0)
     boxes = result.boxes
     point = boxes.centres[i]
-    error = max(accuracy, 1e-15) if np.isfinite(accuracy) else NEAR
+    error = max(accuracy, LEAST) if np.isfinite(accuracy) else NEAR
     end = analyse(equations, point, error, rng, slices if len(slices) else None)
     if end.place is not Place.ISOLATED or not end.digits:
         return False

@@ -30,8 +30,10 @@ REACHES = (1.0, 0.0, 2.0, 3.5)
 # Nothing is looked for further away than this.
 FURTHEST = -1.3
 FIELDS = PrimeField(4611686018427387847), PrimeField(4611686018427387817)
-# What is zero and what is not in 150 digits, where errors have grown through some eliminations.
-NUMBERS = Digits(DIGITS, -90.0, -45.0)
+# Decimal logarithms of what is zero, and of what is not, in 150 digits, where errors have grown
+# through some eliminations.
+NOTHING, SOMETHING = -90.0, -45.0
+NUMBERS = Digits(DIGITS, NOTHING, SOMETHING)
 # Degrees of the dual space from which on curves through the point are looked for, if it has not
 # become smaller for two degrees, and the highest degree.
 SEARCHES = (6, 14, 30)
@@ -333,7 +335,7 @@ def _end(
         rounded,
         place,
         multiplicity,
-        2.0**-52,
+        float(np.finfo(float).eps),
         condition,
         reason,
         dimension,

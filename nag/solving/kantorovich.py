@@ -34,6 +34,8 @@ NEARBY = 1.5
 # Largest step, relative to the coordinates, for which that ball is small enough with room to spare;
 # and the inverse of the largest radius in which a zero is said to be the only one.
 SHORT, WIDEST = 1e-3, 1e2
+# Size of a coordinate that is zero.
+TINY = 1e-30
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,7 +223,7 @@ class Confirmation:
 
 def _sizes(points: np.ndarray) -> np.ndarray:
     """Sizes of the coordinates, none of them zero."""
-    return np.maximum(np.abs(points), 1e-30)
+    return np.maximum(np.abs(points), TINY)
 
 
 def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:

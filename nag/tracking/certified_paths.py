@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nag.numerics.discs import LEAST, UP, Discs, magnitude, rounding_of_sum
+from nag.numerics.discs import LEAST, UNIT, UP, Discs, magnitude, rounding_of_sum
 from nag.numerics.krawczyk import inverses
 from nag.tracking.moving_discs import MovingSystem, times
 
@@ -28,6 +28,8 @@ LENGTH, SLOPES = 5, 3
 ERROR, ALONG, ACROSS = 0.2, 0.3, 0.3
 # Changes of step and sides from one trial to the next; the first step; first sides over the point.
 LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE = 0.2, 2.0, 0.02, 1e-2
+# Least side of a tube beside its largest.
+FLATTEST = 1e-3
 # A path with shorter steps, relative to t, is given up; one that gets so near to t = 0 without
 # arriving there has ended.
 SHORTEST, ENDGAME = 1e-9, 1e-6
@@ -207,7 +209,7 @@ def _controlled(state: _State, active: np.ndarray, tube: _Tube, proved: np.ndarr
     error = tube.error / side
     old = state.sides[active]
     shape = np.where(np.isfinite(tube.image), tube.image, old)
-    shape = np.maximum(shape, 1e-3 * shape.max(axis=1, keepdims=True))
+    shape = np.maximum(shape, FLATTEST * shape.max(axis=1, keepdims=True))
     shape = np.sqrt(shape / shape.max(axis=1, keepdims=True) * old / old.max(axis=1, keepdims=True))
     step = np.minimum((ALONG / tube.along) ** 0.5, (ERROR / np.maximum(error, 1e-300)) ** 0.25)
     step = np.where(np.isnan(step), LEAST_FACTOR, step)
@@ -227,7 +229,7 @@ def _hermite(x: np.ndarray, y: np.ndarray, dx: np.ndarray, dy: np.ndarray) -> np
 def _end_of(curve: np.ndarray, inner: np.ndarray, radii: np.ndarray, s: int) -> Located:
     """The zero at an end of a tube, by boxes about a centre that is rounded."""
     point = curve[0] + s * curve[1] + curve[2] + s * curve[3]
-    rounding = magnitude(curve).sum(axis=0) * 2.0**-48
+    rounding = magnitude(curve).sum(axis=0) * 32 * UNIT
     return Located(point, (inner + rounding) * UP, (radii - rounding) / UP)
 
 

@@ -52,7 +52,7 @@ def series_product(a: Discs, b: Discs) -> Discs:
 def series_sum(a: Discs, b: Discs) -> Discs:
     """Series of the sums."""
     mid = a.mid + b.mid
-    return Discs(mid, (a.rad + b.rad + magnitude(mid) * 2.0**-51) * UP + LEAST)
+    return Discs(mid, (a.rad + b.rad + magnitude(mid) * 4 * UNIT) * UP + LEAST)
 
 
 def values_along(system: DiscPolynomials, x: Discs) -> Discs:

@@ -10,6 +10,10 @@ from nag.machine_code.lanes import fma, fnma, load, select_less, splat, store
 PREDICT, CORRECT = 0.0, 1.0
 # Rows of the lanes' scalars, see `nag.tracking.straight_run`.
 T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH = range(8)
+# Squares of coefficients that may have lost digits to the range of doubles.
+TINY = 1e-200
+# Radius of convergence, and step, of a series whose last coefficients vanish.
+FAR = 1e6
 
 
 def _coefficient(s, w, k, j):
@@ -26,7 +30,7 @@ def predict(s, w, order):
     h = load(w.zr, 0)
     m = load(w.mode, 0)
     limit = splat(0.5625)
-    tiny = splat(1e-200)
+    tiny = splat(TINY)
     for j in range(n):
         lr, li = _coefficient(s, w, order, j)
         ar, ai = _coefficient(s, w, order - 1, j)
@@ -59,10 +63,10 @@ def convergence_radius(norms, order, lane):
     """Radius of convergence from the squared norms of the last Taylor coefficients."""
     last = norms[8 * order + lane]
     if not last > 0.0:
-        return 1e6
+        return FAR
     second = norms[8 * (order - 1) + lane]
     third = norms[8 * (order - 2) + lane]
-    return min(1e6, max(math.sqrt(second / last), (third / last) ** 0.25))
+    return min(FAR, max(math.sqrt(second / last), (third / last) ** 0.25))
 
 
 def next_step(w, order, lane, aim, factor):
@@ -82,7 +86,7 @@ def next_step(w, order, lane, aim, factor):
         # The next term of the series is about the last one times h over the radius.
         h = (aim * radius / last) ** (1.0 / (order + 1))
     else:
-        h = 1e6
+        h = FAR
     f[8 * H + lane] = min(factor * radius, h)
 
 

@@ -46,6 +46,9 @@ class Settings:
     retries: int = 3
 
 
+# What is left of the tolerance for a path that jumped, and where its corrector stops at the latest.
+TIGHTER, SHARPER = 1e-2, 1e-10
+
 NAMED = {
     "fast": Settings(tolerance=1e-2, radius_factor=0.6),
     "default": Settings(),
@@ -72,8 +75,8 @@ def tighter(settings: Settings) -> Settings:
     """Settings for a path that jumped: shorter steps."""
     return replace(
         settings,
-        tolerance=settings.tolerance * 1e-2,
-        newton=min(settings.newton, 1e-10),
+        tolerance=settings.tolerance * TIGHTER,
+        newton=min(settings.newton, SHARPER),
         contraction=settings.contraction * 0.5,
         radius_factor=settings.radius_factor * 0.6,
         max_steps=settings.max_steps * 2,

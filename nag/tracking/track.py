@@ -30,6 +30,8 @@ SHARP, ROUGH = 1e-12, 1e-8
 AT_INFINITY = 1e-10
 # Least ratio of a singular value to a Newton step that proves a regular zero.
 PROOF = 1e5
+# Least error of a path's end that is believed.
+FINEST = 1e-15
 # Rounding errors of a homogenising coordinate that Newton's method found with residuals in
 # double-double, times the inverse of the smallest singular value; and the part of such a coordinate
 # that they may be at a finite end.
@@ -292,7 +294,7 @@ def _judged(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
     accuracy, condition = np.full(P, np.inf), np.full(P, np.inf)
     ended = np.flatnonzero(raw.reason == int(Reason.NONE))
     if len(ended):
-        error = np.maximum(raw.error[ended], 1e-15)
+        error = np.maximum(raw.error[ended], FINEST)
         sharp = refine(homotopy, None, points[ended])
         # Newton's method proves a regular zero where its steps are far smaller than the singular
         # values, which hardly change on the way.

@@ -24,10 +24,8 @@ from nag.witness.slices import padded
 
 # A rank is read where neighbouring singular values differ by this factor, and at a point that is
 # known to be singular, though perhaps not well, below this value.
-GAP = 1e3
-NEARLY_SINGULAR = 1e-5
-# Newton's method may correct an end by this much, relative to its size: estimates of the error of
-# a singular end are themselves uncertain.
+GAP, NEARLY_SINGULAR = 1e3, 1e-5
+# Newton's method may correct an end by this part of its size: errors of singular ones are unsure.
 NEAR = 1e-7
 # A deflation of more steps that add unknowns has not been met in the literature's examples.
 MOST_DEFLATIONS = 4
@@ -38,6 +36,8 @@ NEWTON_STEPS = 12
 # Steps that are rounding errors, as are singular values so small beside the largest; last steps at
 # points that are known, well or badly conditioned; and residuals there.
 ROUNDING, SHARP, ROUGH, VANISHING = 1e-14, 1e-10, 1e-8, 1e-11
+# Roundings in such a step, times the condition; and a singular value, beside the largest, of zero.
+LOSS, NOTHING = 1e2, 1e-17
 # Rounding errors of values, and what they may change a regular zero's least singular value by.
 ROUNDED, CHANGED = 1e-15, 0.1
 # Sizes are very unequal if they, and 1, differ by more than two to this power.
@@ -153,7 +153,7 @@ def sharpen(evaluator: Evaluator, rows: np.ndarray, z: np.ndarray) -> Sharpened:
         delta, _, _, s = np.linalg.lstsq(matrix * weights[:, None], right * weights, rcond=ROUNDING)
         z = z - delta
         if len(s) and s[-1] > 0:
-            floor = min(max(SHARP, 1e2 * np.finfo(float).eps * s[0] / s[-1]), ROUGH)
+            floor = min(max(SHARP, LOSS * np.finfo(float).eps * s[0] / s[-1]), ROUGH)
         last, step = step, float(np.linalg.norm(delta) / (1 + np.linalg.norm(z)))
         # Rounding alone keeps the steps at a badly conditioned point from shrinking further.
         if step < ROUNDING or (step < floor and step > 0.25 * last):
@@ -184,7 +184,7 @@ def numerical_corank(singular: np.ndarray, columns: int, small: float) -> int:
     """
     s = np.zeros(columns)
     s[: len(singular)] = singular[:columns]
-    s = np.maximum(s / max(1.0, s.max(initial=0.0)), 1e-17)
+    s = np.maximum(s / max(1.0, s.max(initial=0.0)), NOTHING)
     above, best, corank = 1.0, GAP, 0
     for rank, value in enumerate(s):
         if value < small and above / value > best:

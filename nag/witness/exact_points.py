@@ -35,6 +35,8 @@ DOUBLE_DOUBLE = 30
 STEP, RESIDUAL = 16.0, 1e-31
 # Last step in doubles of a method that converges.
 ARRIVED = 1e-6
+# Splits a double into halves of 26 digits: 2^27 + 1.
+SPLITTER = 134217729.0
 # Digits beyond those asked for in which Newton's method computes: residuals lose some.
 SPARE = 25
 # Bits beyond the digits that are asked for.
@@ -160,7 +162,7 @@ def _remainder(a: np.ndarray, q: np.ndarray, b: np.ndarray) -> np.ndarray:
 def _exact_product(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """``x y`` rounded and the rounding error, by Veltkamp's and Dekker's splitting."""
     product = x * y
-    a, b = x * 134217729.0, y * 134217729.0
+    a, b = x * SPLITTER, y * SPLITTER
     x1, y1 = a - (a - x), b - (b - y)
     x2, y2 = x - x1, y - y1
     return product, ((x1 * y1 - product) + x1 * y2 + x2 * y1) + x2 * y2

@@ -25,6 +25,8 @@ DIGITS = {2: 32, 4: 64, 8: 120}
 GAINED, NEARLY = 0.1, 1e-6
 # Rounding errors over the residual that is asked for, from which on they decide as well.
 NOISE = 1e-3
+# Part of t at which a limit is looked for next, where nothing is known of it, and the least.
+FURTHER, FURTHEST = 1e-3, 1e-8
 # A coordinate is known if it exceeds its rounding error so many times.
 KNOWN = 1e3
 # Relative error of a finite end, as a point of affine space, that more digits need not better.
@@ -339,10 +341,10 @@ def _limit(
     if stuck and limits.words == 2:
         # Rounding errors do not say how far in a limit is to be looked for.
         return end_run.LOST
-    shrink = 1e-3
+    shrink = FURTHER
     if limit is not None:
         # The last term of the series is about the power of r of its order.
-        shrink = min(0.1, max(1e-8, (need / limit.residual) ** (w / limits.order)))
+        shrink = min(0.1, max(FURTHEST, (need / limit.residual) ** (w / limits.order)))
     states.latest[path] = t * shrink
     return end_run.OPEN
 
