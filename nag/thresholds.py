@@ -8,9 +8,10 @@ caller may choose stands beside its argument, or in `nag.tracking.settings.Setti
 ==========================================  ======  ================================================
 name                                        value   what it decides, and why there
 ==========================================  ======  ================================================
-algebra.high_precision.VANISHES            1e-80   Distance, beside their size, of zeros of 100
-                                                    digits that are one; Newton's last step.
-algebra.high_precision.SHARP               1e-85   Errors of zeros; larger ones get more digits.
+algebra.high_precision.VANISHES *          1e-80   Values, beside their terms, that are zero at
+                                                    zeros of 100 digits: all lay below 5e-87.
+algebra.high_precision.SHARP *             1e-85   Errors of zeros; larger ones get more digits:
+                                                    all lay below 5e-86.
 algebra.high_precision.NEAR                1e-9    What Newton's method may move such a zero by.
 algebra.generic_multiplicity.INDEPENDENT   1e-6    Singular value of gradients of length one that
                                                     surely are independent; else no bound is given.
@@ -63,10 +64,11 @@ numerics.local_dimension.ROUNDED            1e-8    Relative error of a point of
                                                     is not told.
 numerics.local_structure.FURTHEST           -1.3    Decimal logarithm of the largest distance in
                                                     which a zero is looked for.
-numerics.local_structure.NOTHING           -90     The same of entries of the dual space's matrices
-                                                    that are zero, of 150 digits.
-numerics.local_structure.SOMETHING         -45     The same of such as are not; what falls between
-                                                    is undecided.
+numerics.local_structure.NOTHING *         -90     The same of entries of the dual space's matrices
+                                                    that are zero, of 150 digits: these lay below
+                                                    -149.
+numerics.local_structure.SOMETHING *       -45     The same of such as are not: above -1. What
+                                                    falls between is undecided.
 numerics.local_structure.REPEATED           20      Digits, of a hundred, in which two points may
                                                     differ that are one.
 numerics.null_space.WELL                    1e-8    Pivots, over the largest, of a block that
@@ -126,8 +128,9 @@ tracking.track.SHARE                        1e-14   Part of it that this may be,
                                                     accurate after division. Others get 32 digits.
 tracking.track.STRAYED                      1e3     Errors by which Newton's method may move an end
                                                     in doubles; what moves further gets 32 digits.
-tracking.track.SHARP                        1e-12   Newton's last step at a regular end in doubles;
-                                                    larger ones get 32 digits.
+tracking.track.SHARP *                     1e-12   Newton's last step at a regular end in doubles,
+                                                    2800 of which lay below 1.1e-15; larger ones, as
+                                                    one of 5e-11, get 32 digits.
 tracking.track.ROUGH                        1e-8    The same at zeros of generic systems, which are
                                                     tracked in doubles alone.
 tracking.track.AT_INFINITY                  1e-10   Homogenising coordinates of finite zeros of such
@@ -279,8 +282,9 @@ witness.cutting.CHANGED                     0.1     Part of the smallest singula
                                                     may change as far from a zero as rounding errors
                                                     of the values say: more may be a double zero's,
                                                     which is looked for in more digits.
-witness.cutting.VANISHING                   1e-11   Values at a point where Newton's method arrived.
-witness.cutting.SHARP                      1e-10   Newton's last step there.
+witness.cutting.VANISHING *                1e-11   Values at a point where Newton's method arrived:
+                                                    all lay below 2e-16.
+witness.cutting.SHARP *                    1e-10   Newton's last step there: all below 7e-14.
 witness.cutting.ROUGH                      1e-8    The same where the point is badly conditioned.
 witness.exact_points.RESIDUAL               1e-31   Error of residuals in double-double: a bound, no
                                                     decision.
@@ -311,12 +315,14 @@ witness.at_prompt.ROUNDED                   1e-9    Values, beside their terms, 
 decomposition.monodromy.ROUGH               1e-8    Errors that ends of loops may have, whatever the
                                                     tracker thinks: a jump to a close point must not
                                                     join components.
-decomposition.monodromy.NEARER              1e-3    Distance of an end from its point over that from
-                                                    the next; else the loop says nothing.
+decomposition.monodromy.NEARER *           1e-3    Distance of an end from its point over that from
+                                                    the next: below 1e-14, or above 0.01. What is
+                                                    not nearer says nothing.
 decomposition.monodromy.LEAST_SIZE          1e-8    Coordinates of a point, over its largest, that
                                                     slices of its sizes take for larger ones.
-decomposition.trace.EVIDENCE                18      Digits to which a trace must be linear beside
-                                                    the points' motion.
+decomposition.trace.EVIDENCE *             18      Digits to which a trace must be linear beside
+                                                    the points' motion: such as were had 9 more,
+                                                    others 15 less.
 decomposition.trace.ROUND_NUMBERS           6       Digits of coefficients that ask for no more;
                                                     each further asks for one more: what is nearly
                                                     reducible has long ones. Points get 28 to 240

@@ -22,12 +22,21 @@ from unittest.mock import patch
 import numpy as np
 
 import nag
+from nag.algebra import high_precision
 from nag.algebra.evaluation import Evaluator
-from nag.decomposition import components, discovery, intersection, splitting  # noqa: F401
+from nag.decomposition import (  # noqa: F401
+    components,
+    discovery,
+    intersection,
+    monodromy,
+    splitting,
+    trace,
+)
 from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.files.problem import system_of
-from nag.numerics import coincidence, zero_values
+from nag.numerics import coincidence, local_structure, zero_values
+from nag.numerics.null_space import Digits
 from nag.solving import isolated_zero, judged_ends
 from nag.solving import solve as solving
 from nag.tracking import jumps, projective
@@ -117,6 +126,7 @@ def watched(measured: Measured) -> ExitStack:
     def refined(sharp: Any, homotopy: Any, *_: Any) -> None:
         close = sharp.error < 1e-12
         ratio = sharp.smallest / sharp.error
+        measured.add("SHARP (of track)", tracking.SHARP, sharp.error)
         measured.add("PROOF", tracking.PROOF, ratio[close])
         proved = close & (ratio > tracking.PROOF)
         sizes = np.abs(sharp.points[:, list(homotopy.infinity)]).min(axis=1, initial=np.inf)
@@ -170,7 +180,33 @@ def watched(measured: Measured) -> ExitStack:
         (jumps, "coinciding", met),
     ]:
         stack.enter_context(patch.object(owner, name, around(getattr(owner, name), note)))
+    watch_digits(measured, stack)
     return stack
+
+
+def watch_digits(measured: Measured, stack: ExitStack) -> None:
+    """Measure what is compared in many digits, by solving as by decomposing."""
+
+    def relative(found: Any, *_: Any) -> None:
+        measured.add("VANISHES", high_precision.VANISHES, float(found))
+
+    def zeros(found: Any, *given: Any) -> None:
+        if found is not None and given[-1] == high_precision.DIGITS:
+            measured.add("SHARP (of zeros in digits)", high_precision.SHARP, found[1])
+
+    def negligible(numbers: Digits, size: float) -> bool:
+        # Also of what is not decided, and raises an error.
+        if numbers.zero == local_structure.NOTHING:
+            value = 10.0 ** min(size, 300.0)
+            measured.add("NOTHING", 10.0**local_structure.NOTHING, value)
+            measured.add("SOMETHING", 10.0**local_structure.SOMETHING, value)
+        return judge(numbers, size)
+
+    judge = Digits._negligible
+    own = around(high_precision._relative, relative)
+    stack.enter_context(patch.object(high_precision, "_relative", own))
+    stack.enter_context(patch.object(Digits, "_negligible", negligible))
+    everywhere(stack, high_precision.zero_near, zeros)
 
 
 def everywhere(stack: ExitStack, function: Callable[..., Any], note: Callable[..., None]) -> None:
@@ -215,6 +251,22 @@ def watched_decomposition(measured: Measured) -> ExitStack:
         gaps = np.concatenate([[1.0], values[:-1]]) / values
         measured.add("GAP", cutting.GAP, gaps[values < small])
 
+    def sharpened(found: Any, evaluator: Any, *_: Any) -> None:
+        if np.isfinite(found.step):
+            measured.add("SHARP (of cutting)", cutting.SHARP, found.step)
+            residuals = evaluator.residuals(found.z[None]).max(initial=0.0)
+            measured.add("VANISHING", cutting.VANISHING, residuals)
+
+    def straight(_: Any, own: Any, indices: Any) -> None:
+        motion = max(own.known[i].motion for i in indices)
+        bent = own._bend(indices) / motion if motion else np.inf
+        measured.add("EVIDENCE (bend over motion)", 1.0, bent * 10.0**own.evidence)
+
+    def nearest(found: Any, *_: Any) -> None:
+        _, closest, following = found
+        with np.errstate(invalid="ignore"):
+            measured.add("NEARER", monodromy.NEARER, closest / following)
+
     def loops(found: Any, *_: Any) -> None:
         measured.add("MOST_LOOPS", splitting.MOST_LOOPS, turns)
         turns[:] = [0.0]
@@ -228,8 +280,14 @@ def watched_decomposition(measured: Measured) -> ExitStack:
     everywhere(stack, coincidence.compared, compared)
     everywhere(stack, confirm.vanishing, vanishing)
     everywhere(stack, cutting.numerical_corank, corank)
+    everywhere(stack, cutting.sharpen, sharpened)
+    everywhere(stack, monodromy._two_nearest, nearest)
+    stack.enter_context(
+        patch.object(trace.Trace, "_decided", around(trace.Trace._decided, straight))
+    )
     everywhere(stack, splitting.split, loops)
     everywhere(stack, splitting._looped, turned)
+    watch_digits(measured, stack)
     return stack
 
 

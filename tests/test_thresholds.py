@@ -138,8 +138,11 @@ def test_numbers_without_a_name_are_seen(body: str, found: set[float]) -> None:
 @pytest.mark.parametrize(
     ("arguments", "measured"),
     [
-        (["--case", "cases/benchmarks/cyclic-5.toml"], ("PROOF", "SAFETY", "REAL")),
-        (["--decompose", "--case", "cases/rhombus-chain-2.toml"], ("ON", "HIT", "GAP")),
+        (["--case", "cases/benchmarks/cyclic-5.toml"], ("PROOF", "SAFETY", "REAL", "SHARP")),
+        (
+            ["--decompose", "--case", "cases/rhombus-chain-2.toml"],
+            ("ON", "HIT", "GAP", "EVIDENCE"),
+        ),
     ],
 )
 def test_the_script_measures_what_is_compared(

@@ -16,7 +16,7 @@ from nag.algebra.number import Number, to_mpf
 from nag.algebra.polynomial import Exponents, Polynomial
 
 DIGITS = 100
-# Two zeros nearer to each other than this, relative to their size, are taken for one.
+# Values of equations, beside their terms, that are zero at zeros of so many digits.
 VANISHES = 1e-80
 # Zeros with larger errors than this are computed to more digits before values there are judged.
 SHARP = 1e-85
