@@ -115,3 +115,17 @@ def test_a_rounded_point_is_not_on_a_sheet_further_off_than_its_error() -> None:
         c.contains((-1, -3, "21/2")) for c in answer.components
     ]
     assert sum(c.contains(point) for c in answer.components) == 1
+
+
+@pytest.mark.parametrize("digits", [9, 16, 40])
+def test_an_exact_point_is_the_isolated_zero_whose_equations_it_satisfies(digits: int) -> None:
+    answer = nag.decompose([f"(x^2 + y^2 - 5)*(x - 2 - y/10^{digits})", "(y - 1)*(x + y - 3)"])
+    assert answer.complete and len(answer.components) == 5
+    assert sum(c.contains((2, 1)) for c in answer.components) == 1
+
+
+@pytest.mark.parametrize("digits", [16, 40])
+def test_which_zero_of_the_same_equations_a_point_is_may_be_undecided(digits: int) -> None:
+    answer = nag.decompose([f"x*(x - 1/10^{digits})*(x - 1)", "y - x/3"])
+    found = memberships(answer, np.zeros(2, complex), accuracy=1e-15, exact=(Fraction(0),) * 2)
+    assert sorted(m.value for m in found) == ["foreign", "undecided", "undecided"]

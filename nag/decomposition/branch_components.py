@@ -130,7 +130,7 @@ def _part(
 def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Part:
     n = system.n
     evaluator, branch = Evaluator.of(system.polynomials, n), BranchEquations(system, graphs=False)
-    found = []
+    found, square = [], len(system.polynomials) == n
     for zero in zeros:
         x = zero.point
         if any(_vanishes_at(f, zero) for f in system.nonzero):
@@ -146,6 +146,9 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
             corank=_corank(evaluator, x),
             multidegree=np.array(1) if system.groups else None,
         )
+        if square and zero.multiplicity == 1:
+            fibre = Fibre(Cut(n, 0, system.polynomials), 0, x[None])
+            witness = replace(witness, fibres=(fibre,))
         found.append(BranchComponent(witness, branch, zero))
     return _Part(system, tuple(found), None)
 

@@ -271,16 +271,17 @@ def memberships(
         return (Membership.FOREIGN,) * len(decomposition.components)
     answers = []
     for component in decomposition.components:
-        if component.dimension == 0 and _far(component, point, accuracy):
+        # Equations that would be found anew may be those of another set beside it.
+        if exact and not all(_may_be_on(fibre.cut, exact) for fibre in component.fibres):
             answers.append(Membership.FOREIGN)
+            continue
+        if component.dimension == 0:
+            answers.append(_at_isolated(system, component, point, accuracy))
             continue
         try:
             fibres = component_fibres(system, component)
         except ValueError:
             answers.append(Membership.UNDECIDED)
-            continue
-        if exact and not all(_may_be_on(fibre.cut, exact) for fibre in fibres):
-            answers.append(Membership.FOREIGN)
             continue
         rows = component.slice.rows
         answer, _ = is_member(point, accuracy, fibres, rows, rng, tracker, bounded=True)
@@ -294,10 +295,30 @@ def _may_be_on(cut: Cut, point: Sequence[Number]) -> bool:
     return all(is_zero(f((*point, *[Fraction(0)] * cut.aux))) for f in plain)
 
 
-def _far(isolated: WitnessSet, point: np.ndarray, accuracy: float) -> bool:
-    """Whether a point is none of some isolated ones, which no slice has to move for."""
-    distances = np.linalg.norm(isolated.points - point, axis=1) / (1 + np.linalg.norm(point))
-    return not np.any(compared(distances, max(accuracy, isolated.accuracy)))
+def _at_isolated(
+    system: PolynomialSystem, isolated: WitnessSet, point: np.ndarray, accuracy: float
+) -> Membership:
+    """Whether a point is one of some isolated ones, which no slice has to move for.
+
+    Undecided where the next zero is no further away than the errors can make out.
+    """
+    distances = np.linalg.norm(isolated.points - point, axis=1)
+    size = 1 + float(np.linalg.norm(point))
+    errors = accuracy * size + np.linalg.norm(isolated.radii, axis=1)
+    if (distances > SPREAD * errors).all():
+        return Membership.FOREIGN
+    try:
+        fibres = component_fibres(system, isolated)
+    except ValueError:
+        return Membership.UNDECIDED
+    rows = isolated.slice.rows
+    for fibre in fibres:
+        polynomials = fibre.cut.polynomials
+        zeros = [fibre.fine.get(i) or Fine.of_doubles(x) for i, x in enumerate(fibre.points)]
+        apart = min(size / rated(polynomials, rows, zero).curvature for zero in zeros)
+        if apart < SPREAD * float(errors.max()):
+            return Membership.UNDECIDED
+    return Membership.MEMBER
 
 
 class UndecidedError(ValueError):
