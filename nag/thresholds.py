@@ -335,13 +335,13 @@ decomposition.superset.IN_PASSING           0.02    Part of the usual work after
                                                     zero that lies on a larger set as far as doubles
                                                     can tell passes for a point of it; simple ones
                                                     are told in any case.
-decomposition.singular_locus.SURELY         10      Errors of a point that it may be off a linear
+decomposition.singular_points.SURELY        10      Errors of a point that it may be off a linear
                                                     equation, and be a point of the component.
 decomposition.excluded.FORBIDDEN            1e-8    Values, beside their terms, of polynomials that
                                                     must not vanish and may: looked at more closely.
 decomposition.branch_points.NOTHING         -90     Decimal logarithm of a pivot of the Loewner
                                                     matrix that is zero, of 200 digits.
-decomposition.singular_parameters.ROUNDING  1e-8    Distance of a number in doubles from the
+decomposition.singular_members.ROUNDING     1e-8    Distance of a number in doubles from the
                                                     fraction that it is read as.
 interpolation.point_cloud.SMALL             1e-5    Singular values of tangents, over the largest,
                                                     of directions that the projection loses.

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import importlib
 import os
+import pkgutil
 import re
 import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from types import ModuleType
 
 import jsonschema
 import pytest
 
 import nag
+import nag.decomposition
 from nag.cli import main
 from nag.files.export import FORMAT, VERSION
 from nag.files.json_values import schema
@@ -32,6 +35,31 @@ def test_public_names_are_there(name: str) -> None:
 def test_unknown_names_are_attribute_errors() -> None:
     with pytest.raises(AttributeError, match="frobnicate"):
         _ = nag.frobnicate
+
+
+@pytest.mark.parametrize("package", [nag, nag.decomposition], ids=lambda package: package.__name__)
+def test_no_public_name_is_that_of_a_module(package: ModuleType) -> None:
+    modules = {module.name for module in pkgutil.iter_modules(package.__path__)}
+    assert modules
+    assert not modules & set(package._HOME)
+
+
+ALL_NAMES = """
+from importlib import import_module
+import {package}
+for module in {package}._HOME.values():
+    import_module(module)
+for name, module in {package}._HOME.items():
+    found = {{}}
+    exec(f"from {package} import {{name}}", found)
+    assert found[name] is getattr(import_module(module), name), name
+"""
+
+
+@pytest.mark.parametrize("package", ["nag", "nag.decomposition"])
+def test_names_are_what_their_modules_define_after_these_are_loaded(package: str) -> None:
+    code = ALL_NAMES.format(package=package)
+    subprocess.run([sys.executable, "-c", code], timeout=60, check=True)
 
 
 @pytest.mark.parametrize(

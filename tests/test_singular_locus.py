@@ -21,7 +21,7 @@ from nag.bench.atlas.linkages import slider_crank
 from nag.cli import main
 from nag.decomposition.linear_hull import within_hull
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.singular_locus import SingularLocus, singular_locus
+from nag.decomposition.singular_points import SingularLocus, singular_locus
 from nag.files.json_values import schema
 from nag.numerics.tangent_cone import tangent_cone
 from nag.report.singular import set_lines

@@ -23,7 +23,7 @@ from nag.cli.witness_input import (
 )
 
 if TYPE_CHECKING:
-    from nag.decomposition.singular_locus import SingularLocus
+    from nag.decomposition.singular_points import SingularLocus
 
 FORMAT = "nag-singular"
 PARAMETERS_FORMAT = "nag-singular-parameters"
@@ -56,7 +56,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if options.free is not None:
         return _for_parameters(options)
     with compilation_notice(sys.stderr, options.quiet):
-        from nag.decomposition.singular_locus import singular_locus
+        from nag.decomposition.singular_points import singular_locus
 
         found = given(options)
         if options.component is not None:
@@ -128,7 +128,7 @@ def _for_parameters(options: argparse.Namespace) -> tuple[list[str], bool]:
     except OSError as error:
         raise UsageError(f"{options.case}: {error.strerror or error}") from None
     with compilation_notice(sys.stderr, options.quiet):
-        from nag.decomposition.singular_parameters import singular_parameters
+        from nag.decomposition.singular_members import singular_parameters
 
         try:
             found = singular_parameters(system, len(names), **as_chosen(options))

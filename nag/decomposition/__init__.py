@@ -8,8 +8,8 @@ Read in this order: `components` (the whole) on `reduction` (fewer variables);
 `discovery`, `given_points` and `intersection` (on `diagonal` and `factor`) begin elsewhere and end
 alike. `branch_components` with `branch_component` follows what exact factoring decides;
 `one_equation` and `rational_curve` on `roots` need no paths. `through` says which components a
-case's points are on, `singular_locus` (on `rank_drop` and `linear_hull`) where a component is
-singular, `singular_parameters` and `sweep` what parameters change, `curve_genus` by `branch_points`
+case's points are on, `singular_points` (on `rank_drop` and `linear_hull`) where a component is
+singular, `singular_members` and `sweep` what parameters change, `curve_genus` by `branch_points`
 the genus.
 
 What decides, beside the errors of points, stands in `nag.thresholds`.
@@ -57,8 +57,8 @@ _HOME = {
     "project": "nag.witness.projection",
     "real_points_near": "nag.witness.real_points",
     "sample": "nag.witness.sampling",
-    "singular_locus": "nag.decomposition.singular_locus",
-    "singular_parameters": "nag.decomposition.singular_parameters",
+    "singular_locus": "nag.decomposition.singular_points",
+    "singular_parameters": "nag.decomposition.singular_members",
     "witness_at": "nag.witness.moving",
 }
 

@@ -9,7 +9,7 @@ from nag.files.json_values import pairs
 from nag.numerics.tangent_cone import form_text
 
 if TYPE_CHECKING:
-    from nag.decomposition.singular_locus import SingularLocus, SingularSet
+    from nag.decomposition.singular_points import SingularLocus, SingularSet
     from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
     from nag.numerics.local_dimension import LocalDimension
 

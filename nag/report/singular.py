@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from nag.decomposition.singular_locus import SingularLocus, SingularSet
+    from nag.decomposition.singular_points import SingularLocus, SingularSet
     from nag.numerics.tangent_cone import TangentCone
     from nag.witness.witness import Decomposition
 

@@ -11,7 +11,7 @@ from nag.bench.atlas.points import Problem
 from nag.bench.reference import Reference, ReferenceError
 from nag.bench.verdicts import Answer, Components, answered
 from nag.decomposition.components import decompose
-from nag.decomposition.singular_locus import SingularSet, singular_locus
+from nag.decomposition.singular_points import SingularSet, singular_locus
 from nag.solving.parameter import solve_family, solve_generic
 from nag.witness.moving import SliceError, witness_at
 from nag.witness.witness import Decomposition
