@@ -42,6 +42,8 @@ class Evaluator:
             places = [index[e] for e in f.terms]
             coefficients[row, places] = [c / scale for c in values]
         exponents = np.array(monomials, dtype=np.int64).reshape(len(monomials), n)
+        for array in (coefficients, exponents):
+            array.setflags(write=False)
         return cls(n, exponents, coefficients)
 
     @cached_property

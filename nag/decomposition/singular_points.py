@@ -9,7 +9,7 @@ point exactly if its multiplicity is 1.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import comb
@@ -24,6 +24,7 @@ from nag.decomposition.linear_hull import simple_in, within_hull
 from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
+from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
 from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
@@ -54,9 +55,13 @@ class SingularSet:
     dimension: int
     degree: int
     points: np.ndarray
-    multiplicities: dict[int, int]
+    multiplicities: Mapping[int, int]
     local: LocalDimension
     cone: TangentCone | None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", fixed_array(self.points))
+        object.__setattr__(self, "multiplicities", fixed_mapping(self.multiplicities))
 
     @property
     def essential(self) -> tuple[int, ...]:

@@ -29,6 +29,7 @@ from nag.mechanism.axes import direction, dot
 from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
+from nag.numerics.read_only import fixed_mapping
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.membership import component_fibres
 from nag.witness.points import with_fine
@@ -85,6 +86,9 @@ class Bonds:
     joints: tuple[str, ...]
     bonds: tuple[Bond, ...]
     degrees: Mapping[str, int]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "degrees", fixed_mapping(self.degrees))
 
     @property
     def consistent(self) -> bool:

@@ -8,7 +8,7 @@ loop. Everything is relative to the reference configuration.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -38,6 +38,7 @@ from nag.mechanism.loop_product import (
 from nag.mechanism.loops import Loop, LoopStructure, loop_bases
 from nag.mechanism.path_estimates import intersection_number
 from nag.mechanism.quaternion import conjugate, multiply, norm_squared, scale
+from nag.numerics.read_only import fixed_mapping
 
 # An equation has at most as many terms as the product of its factors has.
 MOST_TERMS = 2**10
@@ -62,10 +63,13 @@ class HalfAngleModel:
     structure: LoopStructure
     closures: tuple[Closure, ...]
     charts: Charts
-    elements: dict[str, tuple[Element, ...]]
+    elements: Mapping[str, tuple[Element, ...]]
     system: PolynomialSystem
     reference: tuple[Number, ...]
     modes: Modes
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "elements", fixed_mapping(self.elements))
 
     def coordinates(self, point: Sequence[Any]) -> dict[str, tuple[tuple[Any, ...], ...]]:
         """For each joint, by name, homogeneous coordinates of its factors at a solution.

@@ -24,6 +24,7 @@ import numpy as np
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.from_python import coordinates
 from nag.algebra.number import Irrational, Number, is_zero
+from nag.numerics.read_only import fixed_array
 
 if TYPE_CHECKING:
     from nag.algebra.system import PolynomialSystem
@@ -64,6 +65,9 @@ class LocalDimension:
     arithmetic: str
     reason: str
     digits: tuple[tuple[str, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "point", fixed_array(self.point))
 
     @property
     def decided(self) -> bool:

@@ -10,7 +10,7 @@ Reference:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
@@ -27,6 +27,7 @@ from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import local_dimension
 from nag.numerics.located_zero import exact_zero
 from nag.numerics.power_series import Series, SeriesRing
+from nag.numerics.read_only import fixed_mapping
 from nag.numerics.sharpening import DIGITS
 
 # Orders beyond this are not looked at.
@@ -39,7 +40,7 @@ NOTHING = -90.0
 SHOWN = 8
 
 # Coefficients by exponents in all variables; complex if they are not all rational.
-Form = dict[tuple[int, ...], Fraction | complex]
+Form = Mapping[tuple[int, ...], Fraction | complex]
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +63,10 @@ class TangentCone:
     forms: tuple[Form, ...]
     linear: tuple[Form, ...]
     dimension: int | None
+
+    def __post_init__(self) -> None:
+        for name in ("forms", "linear"):
+            object.__setattr__(self, name, tuple(map(fixed_mapping, getattr(self, name))))
 
     def text(self, variables: Sequence[str]) -> str:
         """The forms, with the variables' names for their distances from the point."""

@@ -7,8 +7,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-
-COMPLEX = np.dtype(np.complex128)
+from nag.numerics.read_only import fixed_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,15 +37,9 @@ class Solution:
     radii: np.ndarray | None = None
 
     def __post_init__(self) -> None:
-        if getattr(self.point, "dtype", None) is COMPLEX and not self.point.flags.writeable:
-            return
-        point = np.asarray(self.point, dtype=np.complex128)
-        # What can be written to may be changed by others.
-        if point.flags.writeable:
-            point = point.copy()
-            point.setflags(write=False)
-        if point is not self.point:
-            object.__setattr__(self, "point", point)
+        object.__setattr__(self, "point", fixed_array(self.point, np.complex128))
+        if self.radii is not None:
+            object.__setattr__(self, "radii", fixed_array(self.radii))
 
     def __repr__(self) -> str:
         from nag.solving.shown import solution_line
@@ -113,6 +106,10 @@ class SolveResult:
     notes: tuple[str, ...] = ()
     excluded_solutions: tuple[Solution, ...] = ()
     pathless: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "on_components", fixed_array(self.on_components))
+        object.__setattr__(self, "undecided", fixed_array(self.undecided))
 
     @property
     def points(self) -> np.ndarray:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
+from nag.numerics.read_only import fixed_array
 from nag.witness.slices import padded
 
 if TYPE_CHECKING:
@@ -47,6 +48,9 @@ class Fine:
 
     words: np.ndarray
     curvature: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "words", fixed_array(self.words))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Fine):

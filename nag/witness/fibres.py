@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from nag.numerics.coincidence import coincident
+from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.zero_values import ON
 from nag.tracking.homotopy import Homotopy, norms
 from nag.tracking.paths import Ball, Paths, PathStatus
@@ -73,6 +74,14 @@ class Fibre:
 
     def __len__(self) -> int:
         return len(self.points)
+
+    @property
+    def fixed(self) -> Fibre:
+        """The same, read-only, as it stands in a result."""
+        points, fine = fixed_array(self.points), fixed_mapping(self.fine)
+        if points is self.points and fine is self.fine:
+            return self
+        return Fibre(self.cut, self.dimension, points, fine)
 
     def lifted(self, x: np.ndarray) -> np.ndarray:
         """A point with values of the added unknowns, to start Newton's method from.

@@ -18,6 +18,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.read_only import fixed_array
 
 # Deflated systems of more unknowns, or of more terms, cost more than they are worth.
 MOST_UNKNOWNS = 80
@@ -31,6 +32,10 @@ class Level:
     base: Evaluator
     q1: np.ndarray
     q2: np.ndarray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "q1", fixed_array(self.q1))
+        object.__setattr__(self, "q2", fixed_array(self.q2))
 
     def unknowns(self, z: np.ndarray) -> np.ndarray:
         """The values of ``L`` at ``z``, by least squares, flattened column by column."""

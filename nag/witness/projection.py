@@ -14,6 +14,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
+from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import SINGULAR
 from nag.witness.comparable import coordinate_sizes
 from nag.witness.cutting import numerical_corank
@@ -58,6 +59,9 @@ class Projection:
     slice: Slice
     points: np.ndarray
     accuracy: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", fixed_array(self.points))
 
     def __repr__(self) -> str:
         return (
@@ -127,10 +131,8 @@ def project(
     if len(degrees) > 1:
         raise ProjectionError("the numbers of points differ between two slices")
     (degree, fibre_degree), rows, there = found[0]
-    points = there.x
-    points.setflags(write=False)
     cut = to_slice(rows)
-    return Projection(chosen, r, degree, d - r, fibre_degree, cut, points, there.accuracy)
+    return Projection(chosen, r, degree, d - r, fibre_degree, cut, there.x, there.accuracy)
 
 
 def _pseudo_witness(

@@ -15,6 +15,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import coincident
+from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import descend, polish
@@ -52,6 +53,10 @@ class RealPoints:
     residual: float
     undecided: int = 0
     reason: str = ""
+
+    def __post_init__(self) -> None:
+        for name in ("points", "distances", "stationary"):
+            object.__setattr__(self, name, fixed_array(getattr(self, name)))
 
     def __len__(self) -> int:
         return len(self.points)

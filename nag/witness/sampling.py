@@ -9,6 +9,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import ON
 from nag.witness.comparable import coordinate_sizes
 from nag.witness.fibres import Fibre, Tracker
@@ -34,6 +35,9 @@ class Samples:
     points: np.ndarray
     residual: float
     accuracy: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", fixed_array(self.points))
 
 
 class SamplingError(ValueError):
@@ -95,5 +99,4 @@ def at_random(
 
 
 def _samples(evaluator: Evaluator, points: np.ndarray, accuracy: float) -> Samples:
-    points.setflags(write=False)
     return Samples(points, float(evaluator.residuals(points).max(initial=0.0)), accuracy)

@@ -11,16 +11,11 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.read_only import fixed_array
 
 if TYPE_CHECKING:
     from nag.witness.fibres import Fibre
     from nag.witness.projection import Projection
-
-
-def _read_only(array: np.ndarray, dtype: type) -> np.ndarray:
-    array = np.array(array, dtype=dtype)
-    array.setflags(write=False)
-    return array
 
 
 # Decimal digits of doubles.
@@ -54,8 +49,8 @@ class Slice:
     b: np.ndarray
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "A", _read_only(self.A, complex))
-        object.__setattr__(self, "b", _read_only(self.b, complex))
+        object.__setattr__(self, "A", fixed_array(self.A, complex))
+        object.__setattr__(self, "b", fixed_array(self.b, complex))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Slice):
@@ -118,9 +113,9 @@ class WitnessSet:
     system: PolynomialSystem | None = None
 
     def __post_init__(self) -> None:
-        points = _read_only(self.points, complex)
+        points = fixed_array(self.points, complex)
         object.__setattr__(self, "points", points)
-        radii, digits = _read_only(self.radii, float), _read_only(self.digits, int)
+        radii, digits = fixed_array(self.radii, float), fixed_array(self.digits, int)
         if radii.shape != points.shape or digits.shape != points.shape[:1]:
             raise ValueError(
                 f"radii have shape {radii.shape}, digits {digits.shape}, where the points have "
@@ -130,7 +125,8 @@ class WitnessSet:
         object.__setattr__(self, "digits", digits)
         object.__setattr__(self, "status", Status(self.status))
         if self.multidegree is not None:
-            object.__setattr__(self, "multidegree", _read_only(self.multidegree, int))
+            object.__setattr__(self, "multidegree", fixed_array(self.multidegree, int))
+        object.__setattr__(self, "fibres", tuple(fibre.fixed for fibre in self.fibres))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, WitnessSet):
