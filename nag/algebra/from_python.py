@@ -17,6 +17,7 @@ from typing import Any
 from nag.algebra.bounded import Budget, Value, representable
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.from_sympy import is_sympy, symbol_names, sympy_value
+from nag.algebra.given import check_listed, check_type, shown
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -105,6 +106,9 @@ def system(
       x - 1/2*y = 0
     """
     given, apart = _listed(equations, "equations"), _listed(nonzero, "nonzero")
+    advice = "a dict of values by name"
+    check_type({} if parameters is None else parameters, Mapping, "parameters", advice)
+    check_listed(groups, "groups", "a list of groups, each a list of variables")
     values = {
         str(name): exact_number(value, f"parameters[{str(name)!r}]")
         for name, value in (parameters or {}).items()
@@ -218,6 +222,12 @@ def variable_indices(
     Raises:
         ExpressionError: if one is unknown.
     """
+    if isinstance(chosen, str):
+        chosen = [chosen]
+    if not isinstance(chosen, Iterable):
+        raise ExpressionError(
+            f"{place}: {shown(chosen)} is given; give a list of variables, by name or index"
+        )
     indices = []
     for item in chosen:
         if isinstance(item, Integral) and not isinstance(item, bool):

@@ -50,18 +50,26 @@ class Polynomial:
 
     def __post_init__(self) -> None:
         kept, n = {}, self.n
-        for exponents, coefficient in self.terms.items():
-            if len(exponents) != n:
-                raise ValueError(f"exponents {exponents} do not belong to {n} variables")
-            if type(coefficient) is Fraction:
-                # To compare fractions takes five times as long.
-                if coefficient.numerator:
+        try:
+            for exponents, coefficient in self.terms.items():
+                if len(exponents) != n:
+                    raise ValueError(f"terms: exponents {exponents} do not belong to {n} variables")
+                if type(coefficient) is Fraction:
+                    # To compare fractions takes five times as long.
+                    if coefficient.numerator:
+                        kept[exponents] = coefficient
+                    continue
+                if isinstance(coefficient, int):
+                    coefficient = Fraction(coefficient)
+                elif isinstance(coefficient, str):
+                    raise TypeError
+                if not is_zero(coefficient):
                     kept[exponents] = coefficient
-                continue
-            if isinstance(coefficient, int):
-                coefficient = Fraction(coefficient)
-            if not is_zero(coefficient):
-                kept[exponents] = coefficient
+        except (AttributeError, TypeError):
+            raise ValueError(
+                "terms: give a dict from tuples of exponents to fractions; nag.system reads "
+                "polynomials as text"
+            ) from None
         object.__setattr__(self, "terms", MappingProxyType(kept))
 
     def __reduce__(self) -> tuple[Any, ...]:

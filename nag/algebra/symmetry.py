@@ -12,6 +12,7 @@ from fractions import Fraction
 from itertools import combinations_with_replacement
 from typing import Any
 
+from nag.algebra.given import check_listed, check_type
 from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -33,6 +34,8 @@ class SignedPermutation:
     signs: tuple[int, ...]
 
     def __post_init__(self) -> None:
+        for name in ("sources", "signs"):
+            check_listed(getattr(self, name), name, "a whole number for each variable")
         if sorted(self.sources) != list(range(len(self.sources))):
             raise SymmetryError("each variable must be the image of exactly one")
         if len(self.signs) != len(self.sources) or not set(self.signs) <= {1, -1}:
@@ -41,6 +44,7 @@ class SignedPermutation:
     @classmethod
     def of_signs(cls, signs: Sequence[int]) -> SignedPermutation:
         """The map that only changes signs."""
+        check_listed(signs, "signs", "1 or -1 for each variable")
         return cls(tuple(range(len(signs))), tuple(signs))
 
     @classmethod
@@ -50,6 +54,7 @@ class SignedPermutation:
         Raises:
             SymmetryError: if that is no signed permutation of ``variables``.
         """
+        check_type(images, Mapping, "images", "a dict like {'x': '-x'}")
         sources, signs = list(range(len(variables))), [1] * len(variables)
         for name, image in images.items():
             _check_variable(name, variables)
@@ -146,6 +151,7 @@ def check_symmetry(system: PolynomialSystem, g: SignedPermutation) -> None:
     Raises:
         SymmetryError: if that is not so, or cannot be shown in this way.
     """
+    check_type(g, SignedPermutation, "symmetries", "a list of nag.SignedPermutation")
     if g.n != system.n:
         raise SymmetryError(f"it moves {g.n} variables, the system has {system.n}")
     for i, f in enumerate(system.polynomials):

@@ -14,6 +14,7 @@ from math import prod
 
 import numpy as np
 
+from nag.algebra.given import check_listed, check_running
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
@@ -22,6 +23,7 @@ from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.rational_curve import decompose_rational_curve
 from nag.decomposition.reduction import Reduction
 from nag.witness.fibres import Progress, Tracker
+from nag.witness.given_component import check_system
 from nag.witness.witness import Decomposition, PathCounts
 
 # Products beyond this number, or with more witness points, are not worked out one by one.
@@ -66,7 +68,11 @@ def decompose(
 
     Raises:
         nag.algebra.symmetry.SymmetryError: if one of ``symmetries`` does not keep the equations.
+        ValueError: if another argument makes no sense; the message says which, and what would.
     """
+    check_system(system)
+    check_running(seed, threads, settings, progress)
+    check_listed(symmetries, "symmetries", "a list of nag.SignedPermutation")
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
     tracker = Tracker(settings, threads, progress)

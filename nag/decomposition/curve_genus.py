@@ -25,6 +25,7 @@ from nag.decomposition.factor import IntersectionError
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.rank_drop import rank_drop
 from nag.witness.fibres import Tracker, carried
+from nag.witness.given_component import check_component
 from nag.witness.membership import component_fibres
 from nag.witness.points import with_fine
 from nag.witness.slices import random_rows, unit_complex
@@ -83,6 +84,7 @@ def genus(
         GenusError: if paths fail, or the permutations do not multiply to the identity.
         ValueError: if the component is no reduced curve.
     """
+    check_component(system, component, seed, threads, settings)
     if component.dimension != 1:
         raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
     rng, tracker = np.random.default_rng([seed, 9, 0]), Tracker(settings, threads)

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from nag.algebra.given import check_listed, check_running, check_whole
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Assembly, Known, assembled
@@ -26,6 +27,7 @@ from nag.numerics.zero_values import LEAST
 from nag.witness.cutting import NEARLY_SINGULAR, Cut
 from nag.witness.fibres import Progress, Tracker
 from nag.witness.gauss_newton import CLOSE, descend, polish
+from nag.witness.given_component import check_system
 from nag.witness.slices import complex_normal
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
 
@@ -65,6 +67,10 @@ def discover(
     Raises:
         nag.algebra.symmetry.SymmetryError: if one of ``symmetries`` does not keep the equations.
     """
+    check_system(system)
+    check_running(seed, threads, settings, progress)
+    check_whole(starts, "starts")
+    check_listed(symmetries, "symmetries", "a list of nag.SignedPermutation")
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
     rng = np.random.default_rng([seed, 7])

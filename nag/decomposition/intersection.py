@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from nag.algebra.given import check_type, check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.diagonal import intersected
@@ -26,6 +27,7 @@ from nag.decomposition.superset import (
 from nag.numerics.zero_values import LEAST, ON
 from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
 from nag.witness.fibres import Fibre, Progress, Tracker, admit
+from nag.witness.given_component import check_component, check_system
 from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
@@ -97,6 +99,8 @@ def intersect_components(
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
     """
+    check_component(system, first, seed, threads, settings, "first")
+    check_type(second, WitnessSet, "second", "a component, as nag.decompose finds them")
     other = second.system or system
     _check_variables(system, other)
     factors = Factor.in_branch(system, first), Factor.in_branch(other, second)
@@ -144,6 +148,8 @@ def intersect_equations(
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
     """
+    check_component(system, component, seed, threads, settings)
+    check_system(equations, "equations")
     _check_variables(system, equations)
     system = component_system(system, component)
     factor = Factor.of(system, component)
@@ -273,7 +279,14 @@ def intersect_pair(
     decomposition: Decomposition, first: int, second: int, **options: object
 ) -> Intersection:
     """The intersection of two components of a decomposition, given by their indices."""
+    check_type(decomposition, Decomposition, "decomposition", "what nag.decompose returns")
     components = decomposition.components
+    for place, index in (("first", first), ("second", second)):
+        check_whole(index, place)
+        if index >= len(components):
+            raise ValueError(
+                f"{place}: {index} is no index; there are {len(components)} components, from 0 on"
+            )
     return intersect_components(
         decomposition.system, components[first], components[second], **options
     )

@@ -14,12 +14,14 @@ from math import gcd, lcm
 
 import numpy as np
 
+from nag.algebra.given import check_running, check_whole
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.rank_drop import new_names, product
 from nag.numerics.zero_values import NONZERO, ON, SINGULAR
 from nag.witness.frame import expanded
+from nag.witness.given_component import check_system
 from nag.witness.sampling import SamplingError, sample
 from nag.witness.witness import PathCounts
 
@@ -70,9 +72,14 @@ def singular_parameters(
     Raises:
         ValueError: if there are more equations than variables: no complete intersection.
     """
+    check_system(system)
+    check_whole(count, "count", 1)
+    check_running(seed, threads, settings)
     n, m = system.n - count, len(system.polynomials)
+    if n < 1:
+        raise ValueError(f"count: {count} is given; give fewer than the {system.n} variables")
     if not 0 < m <= n:
-        raise ValueError(f"{m} equations in {n} variables are no complete intersection")
+        raise ValueError(f"system: {m} equations in {n} variables are no complete intersection")
     whole = _null_space_system(system, n, np.random.default_rng([seed, 8]))
     found = decompose(whole, seed=seed, threads=threads, settings=settings)
     notes, images, conditions = list(found.notes), [], []

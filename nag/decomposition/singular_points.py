@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.given import check_listed, check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import Factor, IntersectionError
 from nag.decomposition.intersection import intersect_factors
@@ -28,6 +29,7 @@ from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
 from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
+from nag.witness.given_component import check_decomposition
 from nag.witness.membership import component_fibres, component_system
 from nag.witness.multiplicity import multiplicity_at
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
@@ -195,7 +197,9 @@ def singular_locus(
         only: indices of components of `nag.witness.frame.expanded`; singular points of these
             and their intersections with all others are looked for. All of them by default.
     """
+    check_decomposition(decomposition, seed, threads, settings)
     whole = expanded(decomposition)
+    check_indices(only, len(whole.components))
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
     own = _own_equations(whole, np.random.default_rng([seed, 8]), Tracker(settings, threads))
     search = _Search(whole, own, {"seed": seed, "threads": threads, "settings": settings})
@@ -215,6 +219,21 @@ def singular_locus(
     notes = tuple(dict.fromkeys(search.notes))
     examined, proved = tuple(search.examined), tuple(search.proved)
     return SingularLocus(sets, examined, search.counts, not notes, notes, proved)
+
+
+def check_indices(only: Sequence[int] | None, count: int) -> None:
+    """Make sure that indices of components are some.
+
+    Raises:
+        ValueError: if they are not.
+    """
+    if only is None:
+        return
+    check_listed(only, "only", "a list of indices of components")
+    for i in only:
+        check_whole(i, "only")
+        if i >= count:
+            raise ValueError(f"only: {i} is no index; there are {count} components, from 0 on")
 
 
 def _own_equations(

@@ -19,6 +19,7 @@ from typing import Any, NoReturn
 
 from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number
+from nag.algebra.given import check_type
 from nag.algebra.number import Number
 from nag.algebra.tokens import ExpressionError, is_name, names_in, nearest, quote
 
@@ -245,6 +246,7 @@ def read_parameters(table: Table, budget: Budget) -> Mapping[str, Number]:
 
 def with_values(table: Table, values: Mapping[str, str | Number]) -> Table:
     """The table of parameters with other values for some of them."""
+    check_type(values, Mapping, "values", "a dict of numbers or expressions by name")
     for name in values:
         if name not in table.values:
             known = (

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from nag.algebra.bounded import Budget
 from nag.algebra.expression import parse_number, parse_polynomial
 from nag.algebra.family import Family
+from nag.algebra.given import check_path
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
@@ -133,6 +134,7 @@ def read_case(
     >>> case.kind, case.system.n, [point.name for point in case.points]
     ('system', 6, ['singular, s1 = -1', 'singular, s1 = 1'])
     """
+    check_path(path)
     path = Path(path)
     top = Table(str(path), "", read_toml(path))
     for key in {"plate", "plates"} & top.values.keys():

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from nag.algebra.given import check_path, check_type
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
 from nag.files.close_points import close_document, close_points
@@ -184,6 +185,7 @@ def write_decomposition(
 
     Raises:
         nag.files.written_file.TargetError: if the file cannot be written.
+        ValueError: if something else is given.
 
     >>> import json, nag, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -192,6 +194,10 @@ def write_decomposition(
     ...         json.load(written)["format"]
     'nag-decomposition'
     """
+    check_type(decomposition, Decomposition, "decomposition", "what nag.decompose returns")
+    check_path(path)
+    if origin is not None:
+        check_type(origin, Origin, "origin", "a nag.files.export.Origin, or leave it out")
     write_target(path, export_text(decomposition, origin))
 
 

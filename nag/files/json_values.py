@@ -19,6 +19,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from nag.algebra.expression import parse_polynomial
+from nag.algebra.given import check_path
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 
@@ -205,6 +206,7 @@ def read_file(path: str | os.PathLike[str], convert: Callable[[Any], T]) -> T:
     Raises:
         ExportError: if the file cannot be read, or is not such a document.
     """
+    check_path(path)
     file = Path(path)
     try:
         if not file.is_file():

@@ -10,6 +10,7 @@ import os
 from dataclasses import dataclass, fields
 from typing import Any
 
+from nag.algebra.given import check_path, check_type
 from nag.files.json_values import (
     as_count,
     as_document,
@@ -102,6 +103,7 @@ def write_solutions(
 
     Raises:
         nag.files.written_file.TargetError: if the file cannot be written.
+        ValueError: if something else is given.
 
     >>> import json, nag, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -110,6 +112,11 @@ def write_solutions(
     ...         json.load(written)["format"]
     'nag-solutions'
     """
+    check_type(result, SolveResult, "result", "what nag.solve returns")
+    check_path(path)
+    for name, text in (("title", title), ("file", file)):
+        if text is not None:
+            check_type(text, str, name, "a text, or leave it out")
     write_target(path, export_text(result, title, file))
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
+from nag.algebra.given import check_running
 from nag.algebra.symmetry import SymmetryError
-from nag.interface.problem import check_running, problem_of, symmetries_in
+from nag.interface.problem import problem_of, symmetries_in
 
 if TYPE_CHECKING:
     from nag.witness.witness import Decomposition
@@ -57,7 +58,7 @@ def decompose(
     """
     problem = problem_of(system, variables)
     kept = symmetries_in(symmetries, problem)
-    check_running(seed, threads, settings)
+    check_running(seed, threads, settings, progress)
 
     from nag.decomposition.components import decompose as decompose_system
     from nag.mechanism.parts_decomposition import decompose_parts

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from numbers import Integral
 from typing import Any
 
 from nag.algebra.from_python import system as system_of_equations
+from nag.algebra.given import check_listed, is_a
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
-
-SETTINGS = ("fast", "default", "careful")
 
 
 @dataclass(frozen=True)
@@ -36,19 +33,19 @@ def problem_of(given: Any, variables: Any = None) -> Problem:
     """
     if isinstance(given, PolynomialSystem):
         problem = Problem(given)
-    elif _is(given, "nag.mechanism.graph", "Mechanism"):
+    elif is_a(given, "nag.mechanism.graph", "Mechanism"):
         from nag.mechanism.model import model
 
         problem = _of_model(model(given))
-    elif _is(given, "nag.mechanism.model", "Model"):
+    elif is_a(given, "nag.mechanism.model", "Model"):
         problem = _of_model(given)
-    elif _is(given, "nag.files.cases", "Case"):
+    elif is_a(given, "nag.files.cases", "Case"):
         problem = (
             problem_of(given.mechanism)
             if given.system is None
             else Problem(given.system, given.symmetries, given.assembly)
         )
-    elif _is(given, "networkx", "Graph"):
+    elif is_a(given, "networkx", "Graph"):
         raise ValueError(
             "system: a networkx graph is given; make it a mechanism first: "
             "nag.Mechanism.from_graph(graph, ground=...)"
@@ -65,12 +62,6 @@ def problem_of(given: Any, variables: Any = None) -> Problem:
     return problem
 
 
-def _is(value: object, module: str, name: str) -> bool:
-    """Whether a value is of a class whose module must have been loaded to make it."""
-    loaded = sys.modules.get(module)
-    return loaded is not None and isinstance(value, getattr(loaded, name))
-
-
 def _of_model(model: Any) -> Problem:
     return Problem(model.system, model.symmetries)
 
@@ -83,6 +74,7 @@ def symmetries_in(given: Iterable[Any] | None, problem: Problem) -> tuple[Signed
     """
     if given is None:
         return problem.symmetries
+    check_listed(given, "symmetries", "a list of them: [{'x': '-x'}, ...]")
     found = []
     for i, item in enumerate(given):
         try:
@@ -95,19 +87,6 @@ def symmetries_in(given: Iterable[Any] | None, problem: Problem) -> tuple[Signed
                 found.append(SignedPermutation.of_signs(tuple(int(sign) for sign in item)))
             else:
                 raise SymmetryError("give a dict like {'x': '-x'}, or a sign for each variable")
-        except (SymmetryError, TypeError) as error:
+        except (TypeError, ValueError) as error:
             raise SymmetryError(f"symmetries[{i}]: {error}") from None
     return tuple(found)
-
-
-def check_running(seed: Any, threads: Any, settings: Any) -> None:
-    """Make sure that the arguments of a run make sense.
-
-    Raises:
-        ValueError: if one does not.
-    """
-    for name, value, least in (("seed", seed, 0), ("threads", threads, 1)):
-        if isinstance(value, bool) or not isinstance(value, Integral) or value < least:
-            raise ValueError(f"{name}: {value!r} is given; give a whole number from {least} up")
-    if isinstance(settings, str) and settings not in SETTINGS:
-        raise ValueError(f"settings: {settings!r} is unknown; use {', '.join(SETTINGS)}")

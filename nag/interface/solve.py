@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from nag.interface.problem import check_running, problem_of
+from nag.algebra.given import check_running
+from nag.interface.problem import problem_of
 
 if TYPE_CHECKING:
     from nag.solving.solutions import SolveResult
@@ -52,7 +53,7 @@ def solve(
     [[-0.707107, -0.707107], [0.707107, 0.707107]]
     """
     problem = problem_of(system, variables)
-    check_running(seed, threads, settings)
+    check_running(seed, threads, settings, progress)
 
     from nag.solving.solve import solve as solve_system
 

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import exact_vector
+from nag.algebra.given import check_listed, check_type
 from nag.algebra.number import Number, is_zero, number_text
 from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS
 
@@ -85,7 +86,7 @@ class Joint:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "type", SYNONYMS.get(self.type, self.type))
-        object.__setattr__(self, "bodies", tuple(self.bodies))
+        object.__setattr__(self, "bodies", _listed(self.bodies, "bodies", joint=self.name))
         for field in ("point", "axis", "second_axis"):
             value = getattr(self, field)
             if value is not None:
@@ -133,8 +134,11 @@ class Mechanism:
     bodies: tuple[Body, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "joints", tuple(self.joints))
-        object.__setattr__(self, "bodies", tuple(self.bodies))
+        for key, kind in (("joints", Joint), ("bodies", Body)):
+            values = _listed(getattr(self, key), key)
+            for i, value in enumerate(values):
+                check_type(value, kind, f"{key}[{i}]", f"a nag.{kind.__name__}")
+            object.__setattr__(self, key, values)
         if not self.joints:
             raise MechanismError("a mechanism needs at least one joint")
         for joint in self.joints:
@@ -274,6 +278,14 @@ def _exact(values: Any, key: str, **owner: str) -> tuple[Number, ...]:
         return exact_vector(values, "coordinates")
     except ValueError as error:
         raise MechanismError(str(error), key=key, **owner) from None
+
+
+def _listed(values: Any, key: str, **owner: str) -> tuple[Any, ...]:
+    try:
+        check_listed(values, key, f"a list of {key}")
+    except ValueError as error:
+        raise MechanismError(str(error).partition(": ")[2], key=key, **owner) from None
+    return tuple(values)
 
 
 def _check_joint(joint: Joint) -> None:

@@ -15,6 +15,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from nag.mechanism.axes import space_of
+from nag.mechanism.given_mechanism import check_mechanism
 from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.joint_types import JOINT_FREEDOMS, freedoms_in
 
@@ -289,10 +290,14 @@ def gruebler_kutzbach(mechanism: Mechanism) -> int:
     A body has 6 freedoms in space and 3 in planar and spherical mechanisms. The count is wrong
     for overconstrained mechanisms: it knows nothing of the geometry (T25, section 7).
 
+    Raises:
+        MechanismError: if something else is given.
+
     >>> import nag
     >>> nag.gruebler_kutzbach(nag.read_case("cases/bennett.toml").mechanism)  # and yet it moves
     -2
     """
+    check_mechanism(mechanism)
     space = space_of(mechanism.joints)
     freedoms = 6 if space == "spatial" else 3
     moving = len(mechanism.body_names) - 1

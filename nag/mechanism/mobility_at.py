@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from nag.algebra.from_python import coordinates
+from nag.algebra.given import check_choice, check_running
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -19,6 +20,7 @@ from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.dh import DHModel
 from nag.mechanism.dh_euler import DHEulerModel
 from nag.mechanism.framework_model import FrameworkModel
+from nag.mechanism.given_mechanism import check_mechanism
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.joint_types import freedoms_in
 from nag.mechanism.linkage import LinkageModel
@@ -31,6 +33,8 @@ from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import local_dimension
 from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition, WitnessSet
+
+PARTS = FrameworkModel | LinkageModel | PinModel | DHModel | DHEulerModel
 
 
 class NoAssembly(ValueError):
@@ -110,11 +114,9 @@ class Subject:
             space, counted, what = "planar", turns.linkage.gruebler_kutzbach, "of a linkage"
             if turns.free:
                 free = ((len(turns.free), "the links that hang on one pin"),)
-        elif isinstance(parts, DHModel | DHEulerModel):
+        else:
             space, counted = "spatial", len(parts.loop.open) - 6
             what = f"formulation {parts.formulation} of the closed table"
-        else:
-            raise ValueError(f"parts of type {type(parts).__name__} are not known")
         reference = None if parts.reference is None else tuple(parts.reference)
         symmetries = tuple(parts.symmetries)
         return cls(parts.system, symmetries, reference, space, counted, what, free, parts)
@@ -150,7 +152,8 @@ def mobility(
         nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
         nag.numerics.local_dimension.NoSolution: if an exact point is no configuration.
         NoAssembly: if parts cannot be assembled.
-        ValueError: if parts are to be looked at without a decomposition where no assembly is known.
+        ValueError: if parts are to be looked at without a decomposition where no assembly is known,
+            or another argument makes no sense; the message says which, and what would.
 
     >>> import nag
     >>> print(nag.mobility(nag.read_case("cases/bennett.toml").mechanism))
@@ -160,6 +163,10 @@ def mobility(
     components  1 through the configuration: dimension 1, degree 2
     mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
     """
+    check_running(seed, threads, settings)
+    check_choice(detail, "detail", ("local", "components", "curves"))
+    if not isinstance(mechanism, PARTS):
+        check_mechanism(mechanism, "the parts of a case, case.assembly")
     if isinstance(mechanism, Mechanism):
         if not loop_structure(mechanism).loops:
             return _without_loops(mechanism)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, get_args
 
+from nag.algebra.given import check_choice, check_listed
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -25,6 +26,7 @@ from nag.mechanism.formulations import (
     joints_text,
     smallest,
 )
+from nag.mechanism.given_mechanism import check_mechanism
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
@@ -79,8 +81,11 @@ class Model:
 
         Exact for exact points; complex for complex ones, `mpmath` for those.
         """
+        check_listed(point, "point", f"{self.system.n} numbers")
         if len(point) != self.system.n:
-            raise ValueError(f"the point has {len(point)} coordinates, the model {self.system.n}")
+            raise ValueError(
+                f"point: it has {len(point)} coordinates, the model {self.system.n} variables"
+            )
         return self.form.lift(point)
 
     def project(self, configuration: Configuration) -> tuple[Any, ...]:
@@ -175,6 +180,7 @@ def model(
 
     Raises:
         ModelError: if the mechanism has no loop, or ``formulation`` does not cover it.
+        ValueError: if another argument makes no sense; the message says which, and what would.
 
     >>> import nag
     >>> model = nag.model(nag.read_case("cases/bennett.toml").mechanism)
@@ -183,6 +189,10 @@ def model(
     >>> sorted(model.lift(model.reference).euler) == sorted(model.mechanism.body_names)
     True
     """
+    check_mechanism(mechanism)
+    check_listed(modes, "modes", "pairs of a joint's name and its mode")
+    if space is not None:
+        check_choice(space, "space", get_args(Space))
     structure = with_loops(mechanism)
     if space is None:
         space = "spatial" if modes else space_of(structure.joints)

@@ -27,7 +27,7 @@ def mechanism_from_graph(graph: Any, ground: Any = None) -> Mechanism:
     if ground is None:
         ground = graph.graph.get("ground")
     if ground is None:
-        raise MechanismError("ground: is missing; name the fixed body, ground=...", key="ground")
+        raise MechanismError("is missing; name the fixed body, ground=...", key="ground")
     names = _body_names(graph)
     joints: list[Joint] = []
     for u, v, key, data in _edges(graph):

@@ -17,17 +17,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log10
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from nag.algebra.elimination import eliminate_linear
 from nag.algebra.from_python import coordinates
+from nag.algebra.given import check_error, check_type, check_whole
 from nag.algebra.number import Irrational, Number, is_zero
+from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import fixed_array
-
-if TYPE_CHECKING:
-    from nag.algebra.system import PolynomialSystem
 
 # Relative error that a point of doubles is taken to have.
 ROUNDED = 1e-8
@@ -106,7 +105,8 @@ def local_dimension(
         seed: of directions and hyperplanes.
 
     Raises:
-        ValueError: if the point has not one coordinate for each variable.
+        ValueError: if the point has not one coordinate for each variable, or another argument makes
+            no sense; the message says which, and what would.
         NoSolution: if an exact point does not satisfy the equations.
 
     >>> import nag
@@ -116,6 +116,9 @@ def local_dimension(
     """
     from nag.numerics.dimension_bounds import bounds, reduced_bounds
 
+    check_type(system, PolynomialSystem, "system", "a nag.PolynomialSystem: nag.system(equations)")
+    check_error(accuracy, "accuracy")
+    check_whole(seed, "seed")
     point = coordinates(point, system.variables)
     exact = exact_numbers(point)
     error: float | None = None

@@ -67,7 +67,7 @@ def named(settings: Settings | str) -> Settings:
     if isinstance(settings, Settings):
         return settings
     if settings not in NAMED:
-        raise ValueError(f"no settings {settings!r}; there are {', '.join(NAMED)}")
+        raise ValueError(f"settings: no settings {settings!r}; there are {', '.join(NAMED)}")
     return NAMED[settings]
 
 

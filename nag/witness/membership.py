@@ -11,6 +11,7 @@ import numpy as np
 
 from nag.algebra.branches import Branch, branches
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.given import check_error
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
@@ -19,6 +20,7 @@ from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
 from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres
+from nag.witness.given_component import check_decomposition, in_doubles
 from nag.witness.slices import padded, rows_through
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
@@ -263,10 +265,12 @@ def memberships(
             component on which an equation holds that does not hold there is told from the others
             however near it is.
     """
+    check_decomposition(decomposition, seed, threads, settings)
+    check_error(accuracy, "accuracy")
     rng = np.random.default_rng([seed, 1])
     tracker = Tracker(settings, threads)
-    point = np.asarray(point, dtype=complex)
     system = decomposition.system
+    point = in_doubles(point, system.variables)
     if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > NONZERO:
         return (Membership.FOREIGN,) * len(decomposition.components)
     answers = []

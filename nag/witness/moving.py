@@ -8,11 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import ON
 from nag.witness.comparable import move_together
 from nag.witness.exact_points import Sharp, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker
+from nag.witness.given_component import check_component
 from nag.witness.membership import component_fibres
 from nag.witness.slices import to_slice
 from nag.witness.witness import Slice, WitnessSet
@@ -113,10 +115,12 @@ def witness_at(
         SliceError: if the slice has a wrong number of equations, or meets the component at
             infinity or where the intersection is not transversal.
     """
+    check_component(system, component, seed, threads, settings)
+    check_type(target, Slice, "target", "a nag.Slice")
     if target.A.shape != component.slice.A.shape:
         raise SliceError(
-            f"the slice has {len(target.b)} equations in {target.A.shape[1]} variables; the "
-            f"component needs {component.dimension} in {system.n}"
+            f"target: the slice has {len(target.b)} equations in {target.A.shape[1]} variables; "
+            f"the component needs {component.dimension} in {system.n}"
         )
     rng = np.random.default_rng([seed, 2])
     rows, goal = component.slice.rows, orthonormal_rows(target.rows)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nag.algebra.from_python import variable_indices
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
 from nag.numerics.read_only import fixed_array
@@ -20,6 +21,7 @@ from nag.witness.comparable import coordinate_sizes
 from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.frame import EPS
+from nag.witness.given_component import check_component
 from nag.witness.membership import component_fibres
 from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows, to_slice
@@ -103,7 +105,7 @@ def _special_rows(
 def project(
     system: PolynomialSystem,
     component: WitnessSet,
-    coordinates: Sequence[int],
+    coordinates: Sequence[int | str],
     *,
     seed: int = 0,
     threads: int = 1,
@@ -118,9 +120,12 @@ def project(
         ProjectionError: if paths fail, or the numbers of points differ between slices.
         ValueError: if ``coordinates`` are no indices of variables, each once.
     """
-    chosen = tuple(int(i) for i in coordinates)
-    if not chosen or len(set(chosen)) < len(chosen) or not set(chosen) <= set(range(system.n)):
-        raise ValueError(f"coordinates {chosen} are not distinct indices below {system.n}")
+    check_component(system, component, seed, threads, settings)
+    chosen = variable_indices(coordinates, system.variables, "coordinates")
+    if not chosen or len(set(chosen)) < len(chosen):
+        raise ValueError(
+            f"coordinates: {list(chosen)} are given; give at least one variable, each once"
+        )
     rng = np.random.default_rng([seed, 4])
     fibres = component_fibres(system, component)
     d = component.dimension

@@ -9,16 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import coincident
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import LEAST, ON
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import descend, polish
+from nag.witness.given_component import check_component
 from nag.witness.membership import Membership, component_fibres, is_member
 from nag.witness.witness import WitnessSet
 
@@ -82,9 +85,11 @@ def real_points_near(
     Raises:
         ValueError: if ``near`` is not real and of shape ``(n,)``, or witness points are none.
     """
-    near = np.asarray(near, dtype=float)
+    check_component(system, component, seed, threads, settings)
+    check_whole(starts, "starts", 1)
+    near = _real_vector(near)
     if near.shape != (system.n,) or not np.isfinite(near).all():
-        raise ValueError(f"the point must be {system.n} finite real numbers")
+        raise ValueError(f"near: the point must be {system.n} finite real numbers")
     rng = np.random.default_rng([seed, 8])
     tracker = Tracker(settings, threads)
     fibres = component_fibres(system, component)
@@ -117,6 +122,14 @@ def real_points_near(
         undecided,
         reason,
     )
+
+
+def _real_vector(near: Any) -> np.ndarray:
+    """The point as an array; of no length where it is none."""
+    try:
+        return np.asarray(near, dtype=float)
+    except (TypeError, ValueError):
+        return np.zeros(0)
 
 
 def _starts(near: np.ndarray, count: int, rng: np.random.Generator) -> Iterator[np.ndarray]:

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import ON
 from nag.witness.comparable import coordinate_sizes
 from nag.witness.fibres import Fibre, Tracker
+from nag.witness.given_component import check_component
 from nag.witness.membership import component_fibres
 from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows
@@ -69,6 +71,8 @@ def sample(
     Raises:
         SamplingError: if a path fails.
     """
+    check_component(system, component, seed, threads, settings)
+    check_whole(count, "count")
     rng = np.random.default_rng([seed, 3])
     fibres = component_fibres(system, component)
     tracker = Tracker(settings, threads)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from nag.algebra.given import check_error, check_listed, check_running, check_type
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import fixed_array
@@ -51,6 +52,11 @@ class Slice:
     def __post_init__(self) -> None:
         object.__setattr__(self, "A", fixed_array(self.A, complex))
         object.__setattr__(self, "b", fixed_array(self.b, complex))
+        if self.A.ndim != 2 or self.b.shape != self.A.shape[:1]:
+            raise ValueError(
+                f"A, b: arrays of shapes {self.A.shape} and {self.b.shape} are given; give (d, n) "
+                "and (d,)"
+            )
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Slice):
@@ -113,6 +119,7 @@ class WitnessSet:
     system: PolynomialSystem | None = None
 
     def __post_init__(self) -> None:
+        check_type(self.slice, Slice, "slice", "a nag.Slice")
         points = fixed_array(self.points, complex)
         object.__setattr__(self, "points", points)
         radii, digits = fixed_array(self.radii, float), fixed_array(self.digits, int)
@@ -228,6 +235,7 @@ class WitnessSet:
         """
         from nag.witness.at_prompt import sampled
 
+        check_running(0, threads, settings)
         return sampled(self._known_system(), self, rng, count, threads, settings)
 
     def contains(
@@ -264,6 +272,8 @@ class WitnessSet:
         """
         from nag.witness.at_prompt import contains
 
+        check_error(accuracy, "accuracy")
+        check_running(seed, threads, settings)
         return contains(
             self._known_system(),
             self,
@@ -297,12 +307,10 @@ class WitnessSet:
         >>> image.dimension, image.degree, image.fibre_degree
         (1, 3, 1)
         """
-        from nag.algebra.from_python import variable_indices
         from nag.witness.projection import project
 
-        system = self._known_system()
-        chosen = variable_indices(coordinates, system.variables, "coordinates")
-        return project(system, self, chosen, seed=seed, threads=threads, settings=settings)
+        system, options = self._known_system(), {"threads": threads, "settings": settings}
+        return project(system, self, coordinates, seed=seed, **options)
 
 
 @dataclass(frozen=True)
@@ -353,6 +361,8 @@ class Decomposition:
     notes: tuple[str, ...] = field(default=())
 
     def __post_init__(self) -> None:
+        check_type(self.system, PolynomialSystem, "system", "a nag.PolynomialSystem")
+        check_listed(self.components, "components", "a list of nag.WitnessSet")
         known = tuple(
             c if c.system is self.system else replace(c, system=self.system)
             for c in self.components

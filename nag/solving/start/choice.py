@@ -32,7 +32,7 @@ def check_kind(kind: str) -> None:
         ValueError: if there is none.
     """
     if kind not in KINDS:
-        raise ValueError(f"no start system {kind!r}; there are {', '.join(KINDS)}")
+        raise ValueError(f"start: no start system {kind!r}; there are {', '.join(KINDS)}")
 
 
 def choose(

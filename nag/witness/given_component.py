@@ -1,0 +1,64 @@
+"""A component, or a decomposition, that is given with what a run needs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from nag.algebra.from_python import coordinates
+from nag.algebra.given import check_running, check_type
+from nag.algebra.number import Irrational
+from nag.algebra.system import PolynomialSystem
+from nag.witness.witness import Decomposition, WitnessSet
+
+
+def check_system(system: Any, place: str = "system") -> None:
+    """Make sure that a system is one.
+
+    Raises:
+        ValueError: if it is not.
+    """
+    check_type(system, PolynomialSystem, place, "a nag.PolynomialSystem: nag.system(equations)")
+
+
+def check_component(
+    system: Any, component: Any, seed: Any, threads: Any, settings: Any, place: str = "component"
+) -> None:
+    """Make sure that a component of a system, and how to run, are given.
+
+    Raises:
+        ValueError: if something else is, or the component has another number of variables.
+    """
+    check_system(system)
+    check_type(component, WitnessSet, place, "one of the components of a nag.Decomposition")
+    if component.points.shape[1] != system.n:
+        raise ValueError(
+            f"{place}: it has {component.points.shape[1]} coordinates, and system has "
+            f"{system.n} variables; give the system that it is a component of"
+        )
+    check_running(seed, threads, settings)
+
+
+def check_decomposition(decomposition: Any, seed: Any, threads: Any, settings: Any) -> None:
+    """Make sure that a decomposition, and how to run, are given.
+
+    Raises:
+        ValueError: if something else is.
+    """
+    advice = "what nag.decompose returns"
+    check_type(decomposition, Decomposition, "decomposition", advice)
+    check_running(seed, threads, settings)
+
+
+def in_doubles(point: Any, variables: Sequence[str]) -> np.ndarray:
+    """A point as complex doubles, shape ``(n,)``.
+
+    Raises:
+        ValueError: if there are more or fewer than variables, or one is no finite number.
+    """
+    entries = coordinates(point, variables)
+    return np.array(
+        [complex(float(x)) if isinstance(x, Irrational) else complex(x) for x in entries]
+    )
