@@ -8,28 +8,26 @@ caller may choose stands beside its argument, or in `nag.tracking.settings.Setti
 ==========================================  ======  ================================================
 name                                        value   what it decides, and why there
 ==========================================  ======  ================================================
-algebra.high_precision.VANISHES *          1e-80   Values, beside their terms, that are zero at
+algebra.high_precision.VANISHES *           1e-80   Values, beside their terms, that are zero at
                                                     zeros of 100 digits: all lay below 5e-87.
-algebra.high_precision.SHARP *             1e-85   Errors of zeros; larger ones get more digits:
+algebra.high_precision.SHARP *              1e-85   Errors of zeros; larger ones get more digits:
                                                     all lay below 5e-86.
-algebra.high_precision.NEAR                1e-9    What Newton's method may move such a zero by.
-algebra.generic_multiplicity.INDEPENDENT   1e-6    Singular value of gradients of length one that
+algebra.high_precision.NEAR                 1e-9    What Newton's method may move such a zero by.
+algebra.generic_multiplicity.INDEPENDENT    1e-6    Singular value of gradients of length one that
                                                     surely are independent; else no bound is given.
-algebra.generic_multiplicity.NOT_ZERO      1e-7    Derivatives, beside their terms, that are surely
-                                                    not zero.
-numerics.zero_values.ON *                  1e-9    Values in doubles, beside their terms, at
+algebra.generic_multiplicity.NOT_ZERO       1e-7    Derivatives beside their terms, surely not zero.
+numerics.zero_values.ON *                   1e-9    Values in doubles, beside their terms, at
                                                     sharpened points that may be zero: zeros lie
                                                     below 2.5e-13, others above 2e-6 in all systems
-                                                    measured. What depends on it is confirmed in
-                                                    more digits.
-numerics.zero_values.NONZERO               1e-6    The same at other points that are certainly not
+                                                    measured. What depends on it is confirmed.
+numerics.zero_values.NONZERO                1e-6    The same at other points that are certainly not
                                                     zero; smaller ones are computed to 100 digits,
                                                     or leave the answer to another way.
-numerics.zero_values.SINGULAR              1e-9    Singular values of a balanced Jacobian at a
+numerics.zero_values.SINGULAR               1e-9    Singular values of a balanced Jacobian at a
                                                     point of a component below which the gap is
                                                     looked for where a rank is read
                                                     (witness.cutting.GAP).
-numerics.zero_values.SLACK                 1e3     Errors of a point that its estimate may be too
+numerics.zero_values.SLACK                  1e3     Errors of a point that its estimate may be too
                                                     small by: a bound for exact tests, no decision.
 numerics.coincidence.SAFETY                 100     Estimated errors that two points may be apart
                                                     and be one: what the balls are wider by.
@@ -45,45 +43,39 @@ numerics.coincidence.MISS *                 1e-5    Such as had not: all lay bey
 numerics.coincidence.BEYOND                 1e4     The same in errors of the end.
 numerics.certified_points.SLACK             1e3     Errors of a point within which a zero must lie
                                                     to be the one that is meant, at least.
-numerics.certified_points.NEAR              1e-6    The same as a distance, where the error is
-                                                    unknown.
+numerics.certified_points.NEAR              1e-6    The same as a distance, if errors are unknown.
 numerics.certified_points.EVIDENCE          60      Digits to which equations vanish that a proof
                                                     did not need: said to be evidence, not proof.
 numerics.clusters.ALIKE                     1e-5    Starts nearer to each other, beside the
                                                     cluster's size, are followed once; their ends
                                                     are compared in all digits.
-numerics.curves.VANISHING                   0.75    Share of the digits from which on a value is
-                                                    zero.
+numerics.curves.VANISHING                   0.75    Share of the digits that make a value zero.
 numerics.deflated_system.ZERO               -50     Decimal logarithm of entries that are zero, of
                                                     150 digits; others lie far above.
 numerics.far_along.FAR                      5       Scaled distance from a singular point at which
                                                     it is seen whether equations vanish along a set:
                                                     no power of it is small.
 numerics.far_along.AT_MOST                  100     The same in variables that the set determines.
-numerics.local_dimension.ROUNDED            1e-8    Relative error of a point of doubles whose error
-                                                    is not told.
+numerics.local_dimension.ROUNDED            1e-8    Relative error of a point where none is told.
 numerics.local_structure.FURTHEST           -1.3    Decimal logarithm of the largest distance in
                                                     which a zero is looked for.
-numerics.local_structure.NOTHING *         -90     The same of entries of the dual space's matrices
-                                                    that are zero, of 150 digits: these lay below
-                                                    -149.
-numerics.local_structure.SOMETHING *       -45     The same of such as are not: above -1. What
+numerics.local_structure.NOTHING *          -90     The same of entries of the dual space's matrices
+                                                    that are zero, of 150 digits: all below -149.
+numerics.local_structure.SOMETHING *        -45     The same of such as are not: above -1. What
                                                     falls between is undecided.
 numerics.local_structure.REPEATED           20      Digits, of a hundred, in which two points may
                                                     differ that are one.
 numerics.null_space.WELL                    1e-8    Pivots, over the largest, of a block that
-                                                    doubles solve for; the rest is judged in all
-                                                    digits.
+                                                    doubles solve for; the rest is for all digits.
 numerics.pivots.CLEAR                       0.5     Decimal logarithm of a pivot over its error that
                                                     makes it no zero.
-numerics.curves.OFF                        1e3     Zeros of truncated series over their scale,
+numerics.curves.OFF                         1e3     Zeros of truncated series over their scale,
                                                     beyond which they are none of the system's.
 numerics.rational_relations.CLEAR           1e-9    Singular values of columns of length one at
                                                     most, in doubles, that are no rounding: smaller
                                                     ones are looked at in all digits.
 numerics.rational_relations.SHARP           0.4     Share of the digits to which a relation must
-                                                    hold to be one; the others show in further
-                                                    points.
+                                                    hold to be one; others show in more points.
 numerics.deflation.SPARE                    20      Digits that rounding may have taken from
                                                     coefficients beside those that each degree
                                                     loses: smaller ones are zero.
@@ -91,10 +83,10 @@ numerics.scaling.DEPENDENT                  1e-12   Singular values of rows, ove
                                                     are not made orthogonal.
 numerics.series_zeros.REGULAR               1e-5    Singular values beside the largest one that are
                                                     those of a regular zero.
-numerics.series_zeros.SLOW                 1e-2    Newton's last step that has come near to a zero,
+numerics.series_zeros.SLOW                  1e-2    Newton's last step that has come near to a zero,
                                                     perhaps a multiple one, of truncated series;
                                                     what there is shows in all digits.
-numerics.series_zeros.VANISHING            1e-6    Values there, beside the point's square.
+numerics.series_zeros.VANISHING             1e-6    Values there, beside the point's square.
 numerics.sharpening.ZERO                    -100    Decimal logarithm of what vanishes at a singular
                                                     point, of 150 digits.
 numerics.sharpening.ARRIVED                 -125    The same of Newton's last step.
@@ -105,8 +97,7 @@ numerics.tangent_cone.NOTHING               -90     Decimal logarithm of coeffic
 numerics.zero_values.ALIKE                  1e-6    Relative difference of the coordinates of zeros
                                                     that a point of doubles may stand for, where it
                                                     is near several.
-numerics.zero_values.NOTHING                1e-60   Coordinates beside the largest that count as
-                                                    zero in this.
+numerics.zero_values.NOTHING                1e-60   Coordinates beside the largest that are none.
 numerics.zero_values.WRITTEN                1e-90   Relative error of a zero that is known by its
                                                     written digits, of a hundred.
 tracking.projective.SAFETY *                1e3     Errors that two ends of paths may be apart, of
@@ -122,13 +113,13 @@ tracking.track.PROOF *                      1e5     Smallest singular value over
                                                     theorem asks for a few times the second
                                                     derivatives; what fails gets 32 digits.
 tracking.track.RESIDUAL *                   1e-29   A homogenising coordinate of a regular end in
-                                                    doubles, residuals in double-double, is known
-                                                    to this over the smallest singular value.
+                                                    doubles, residuals in double-double, is known to
+                                                    this over the smallest singular value.
 tracking.track.SHARE                        1e-14   Part of it that this may be, as points are as
                                                     accurate after division. Others get 32 digits.
 tracking.track.STRAYED                      1e3     Errors by which Newton's method may move an end
                                                     in doubles; what moves further gets 32 digits.
-tracking.track.SHARP *                     1e-12   Newton's last step at a regular end in doubles,
+tracking.track.SHARP *                      1e-12   Newton's last step at a regular end in doubles,
                                                     2800 of which lay below 1.1e-15; larger ones, as
                                                     one of 5e-11, get 32 digits.
 tracking.track.ROUGH                        1e-8    The same at zeros of generic systems, which are
@@ -147,9 +138,8 @@ tracking.certified_paths.SHORTEST           1e-9    Steps, relative to t, at whi
                                                     without a proof.
 tracking.ends.at_infinity.ZERO              1e-150  Coordinates of size one that are zero in 154
                                                     digits, and Newton's last step.
-tracking.ends.follow.KNOWN *                1e3     A coordinate over its rounding error that is not
-                                                    zero.
-tracking.ends.linear_algebra.RESOLVED      1e3     The same in the kernels.
+tracking.ends.follow.KNOWN *                1e3     A coordinate, over its error, that is not zero.
+tracking.ends.linear_algebra.RESOLVED       1e3     The same in the kernels.
 tracking.ends.follow.SHARP                  1e-15   The same part in more digits.
 tracking.ends.initial_forms.ZERO            -100    Decimal logarithm of forms that are zero at a
                                                     limit at infinity, of 120 digits.
@@ -160,20 +150,20 @@ tracking.ends.initial_forms.AWAY            1e4     How far away that is, in err
 tracking.ends.initial_forms.CLOSE           1e-10   The least that this is.
 tracking.ends.initial_forms.RANK            1e-6    Singular values of their Jacobian that are none,
                                                     beside the largest.
-tracking.ends.limits.LEAST_EVIDENCE *     14      Digits to which the exact equations' terms of
+tracking.ends.limits.LEAST_EVIDENCE *       14      Digits to which the exact equations' terms of
                                                     least order must cancel at a limit, so that
                                                     coefficients that doubles rounded would show. No
                                                     gap: a limit that does not pass is looked for
                                                     further in.
-tracking.ends.limits.ROUND_NUMBERS        6       Digits of coefficients that ask for no more;
+tracking.ends.limits.ROUND_NUMBERS          6       Digits of coefficients that ask for no more;
                                                     each further asks for one more.
 tracking.ends.follow.GAINED                 0.1     Residual of a limit over that of the last one,
                                                     further out: more is rounding, if it is below
                                                     NEARLY, and asks for more digits.
 tracking.ends.follow.NEARLY                 1e-6    See there.
-tracking.ends.follow.NOISE                 1e-3    Rounding over the wanted residual that asks for
+tracking.ends.follow.NOISE                  1e-3    Rounding over the wanted residual that asks for
                                                     more digits as well.
-tracking.ends.limits.MOST_EVIDENCE        58      More cannot be asked of 64 digits, and 120 are
+tracking.ends.limits.MOST_EVIDENCE          58      More cannot be asked of 64 digits, and 120 are
                                                     for paths that these lose.
 tracking.ends.limits.BEYOND                 30      Error of a limit in last terms of its series.
 tracking.ends.runs.TAIL                     1e-11   Last terms of a path's power series that is
@@ -188,8 +178,7 @@ tracking.ends.inclusion.STEPS               16      Newton's steps in that radiu
                                                     need not be larger where these are small.
 tracking.ends.corrector.STAGNANT            100     Rounding errors in a correction that need not
                                                     contract any more.
-tracking.ends.corrector.FLOOR               1e-9    Coordinates that a start in doubles does not
-                                                    know.
+tracking.ends.corrector.FLOOR               1e-9    Coordinates not known at a start in doubles.
 tracking.ends.end_run.LOSING                1e-3    Rounding error times Newton's constant at which
                                                     an arithmetic gives up.
 tracking.ends.kept_points.SAFE              1e-6    The same at which a point is kept for the next
@@ -201,8 +190,7 @@ tracking.ends.linear_algebra.ROUGHEST       1e-6    Coordinate of a point from d
                                                     lead away from the path.
 solving.solve.INFINITE                      2e-12   Homogenising coordinates of ends at infinity,
                                                     beside what is proved of them.
-solving.solve.ROUGHLY_INFINITE              1e-7    The same of ends that are not known to more
-                                                    digits.
+solving.solve.ROUGHLY_INFINITE              1e-7    The same of ends in few digits.
 solving.isolated_zero.TWO                   1e-80   Distance, beside their size, of zeros in 100
                                                     digits that are two: those that the ends at one
                                                     place stand for.
@@ -227,18 +215,17 @@ solving.branch_solutions.NEAR               1e-7    Relative distance of solutio
 solving.kantorovich.NEARBY                  1.5     Second derivatives in a ball over those at its
                                                     centre: a bound that holds for radii below a
                                                     percent and degrees below 30.
-solving.kantorovich.SHORT                  1e-3    Newton's step, beside the coordinates, at a
+solving.kantorovich.SHORT                   1e-3    Newton's step, beside the coordinates, at a
                                                     proved zero: its ball is within that percent.
 solving.solution_classes.CLEAR              1e-3    Errors of a class's invariants from which on it
                                                     is not told from others: its path is lost.
 solving.solve_classes.FEW                   0.1     Part of the classes that chance may lose; more,
                                                     and the parameters are special.
-solving.start.family_monodromy.WORST        1e5     Condition of a first solution that is not begun
-                                                    from.
-solving.start.family_monodromy.VANISHING   1e-13   Values at a first solution.
-solving.start.mixed_cells.SHARE            1e-8    Distance from 0 and 1 of fractions with volumes
+solving.start.family_monodromy.WORST        1e5     Condition of a first solution that is left out.
+solving.start.family_monodromy.VANISHING    1e-13   Values at a first solution.
+solving.start.mixed_cells.SHARE             1e-8    Distance from 0 and 1 of fractions with volumes
                                                     of cells below: less is rounding.
-solving.start.mixed_cells.ZERO             1e-9    The same of pivots, and of rates from 0.
+solving.start.mixed_cells.ZERO              1e-9    The same of pivots, and of rates from 0.
 solving.start.pencil.CLEAR                  1e-6    Sum of second differences over the points'
                                                     motion that is none of rounding.
 solving.start.pencil.FINE_ROUNDING          1e-50   What of it is rounding in 64 digits.
@@ -282,16 +269,14 @@ witness.cutting.CHANGED                     0.1     Part of the smallest singula
                                                     may change as far from a zero as rounding errors
                                                     of the values say: more may be a double zero's,
                                                     which is looked for in more digits.
-witness.cutting.VANISHING *                1e-11   Values at a point where Newton's method arrived:
+witness.cutting.VANISHING *                 1e-11   Values at a point where Newton's method arrived:
                                                     all lay below 2e-16.
-witness.cutting.SHARP *                    1e-10   Newton's last step there: all below 7e-14.
-witness.cutting.ROUGH                      1e-8    The same where the point is badly conditioned.
-witness.exact_points.RESIDUAL               1e-31   Error of residuals in double-double: a bound, no
-                                                    decision.
-witness.exact_points.ARRIVED               1e-6    Newton's last step in doubles; after a larger
+witness.cutting.SHARP *                     1e-10   Newton's last step there: all below 7e-14.
+witness.cutting.ROUGH                       1e-8    The same where the point is badly conditioned.
+witness.exact_points.RESIDUAL               1e-31   Error of residuals in double-double: a bound.
+witness.exact_points.ARRIVED                1e-6    Newton's last step in doubles; after a larger
                                                     one points are found in balls.
-witness.gauss_newton.ZERO                   1e-13   Values at a zero that Newton's method found from
-                                                    a random point.
+witness.gauss_newton.ZERO                   1e-13   Values at a zero found from a random point.
 witness.gauss_newton.SHARP                  1e-10   Its last step.
 witness.gauss_newton.SMALL                  1e-3    Singular values, over the largest, that may
                                                     belong to the kernel; the gap decides.
@@ -304,8 +289,7 @@ witness.multiplicity.ACCURACY               1e-11   Error of points that a badly
 witness.multiplicity.MULTIPLE               1e-7    Relative error of singular ends, about a root of
                                                     rounding.
 witness.projection.SHARP                    1e-8    Newton's last step at points that are counted.
-witness.sampling.SHARP                      1e-10   Newton's last step at a sample; a larger one is
-                                                    no sample.
+witness.sampling.SHARP                      1e-10   Newton's last step at a sample; others are none.
 witness.real_points.STATIONARY              1e-10   Part of the distance that can still be gained,
                                                     at a nearest point.
 witness.real_points.ALMOST                  1e-5    The same at a point that may be a nearest one,
@@ -315,12 +299,12 @@ witness.at_prompt.ROUNDED                   1e-9    Values, beside their terms, 
 decomposition.monodromy.ROUGH               1e-8    Errors that ends of loops may have, whatever the
                                                     tracker thinks: a jump to a close point must not
                                                     join components.
-decomposition.monodromy.NEARER *           1e-3    Distance of an end from its point over that from
+decomposition.monodromy.NEARER *            1e-3    Distance of an end from its point over that from
                                                     the next: below 1e-14, or above 0.01. What is
                                                     not nearer says nothing.
 decomposition.monodromy.LEAST_SIZE          1e-8    Coordinates of a point, over its largest, that
                                                     slices of its sizes take for larger ones.
-decomposition.trace.EVIDENCE *             18      Digits to which a trace must be linear beside
+decomposition.trace.EVIDENCE *              18      Digits to which a trace must be linear beside
                                                     the points' motion: such as were had 9 more,
                                                     others 15 less.
 decomposition.trace.ROUND_NUMBERS           6       Digits of coefficients that ask for no more;
@@ -345,12 +329,11 @@ decomposition.singular_members.ROUNDING     1e-8    Distance of a number in doub
                                                     fraction that it is read as.
 interpolation.point_cloud.SMALL             1e-5    Singular values of tangents, over the largest,
                                                     of directions that the projection loses.
-mechanism.assembly.REAL                    1e-8    Imaginary parts of real assemblies, beside the
-                                                    point's size.
-mechanism.real_assemblies.NONZERO          1e-8    Values at an assembly that must not vanish.
-mechanism.bonds.UNCLEAR                    0.03    How far orders of bonds may be from fractions.
-check.four_way.RESIDUAL                    1e-8    Values at witness points of exact components.
-cli.local.MOST_ROUNDED                     1e-8    Values, beside their terms, at rounded points.
+mechanism.assembly.REAL                     1e-8    Imaginary parts of real assemblies, relative.
+mechanism.real_assemblies.NONZERO           1e-8    Values at an assembly that must not vanish.
+mechanism.bonds.UNCLEAR                     0.03    How far orders of bonds may be from fractions.
+check.four_way.RESIDUAL                     1e-8    Values at witness points of exact components.
+cli.local.MOST_ROUNDED                      1e-8    Values, beside their terms, at rounded points.
 ==========================================  ======  ================================================
 
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of
