@@ -89,7 +89,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
         lambda: D.decompose("x*y"),
         lambda: D.sample(None, line(), 2),
         lambda: D.project(answer(), line(), [0]),
-        lambda: D.by_sampling("x*y"),
+        lambda: D.discover("x*y"),
         lambda: D.genus(None, line()),
         lambda: D.singular_parameters(None, 1),
         lambda: D.singular_parameters(nag.system(["x + y", "x*y"], "x y a"), 2),
@@ -136,7 +136,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
         lambda: nag.decompose("x*y", symmetries=5),
         lambda: nag.decompose("x*y", symmetries={"x": "-x"}),
         lambda: D.decompose(system(), symmetries=4),
-        lambda: D.by_sampling(system(), symmetries=[3]),
+        lambda: D.discover(system(), symmetries=[3]),
     ],
     "symmetries[0]": [
         lambda: nag.decompose("x*y", symmetries=[5]),
@@ -218,7 +218,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
     ],
     "starts": [
         lambda: D.real_points_near(system(), line(), [1, 2], starts=0),
-        lambda: D.by_sampling(system(), starts="many"),
+        lambda: D.discover(system(), starts="many"),
     ],
     "count": [
         lambda: D.sample(system(), line(), 2.5),

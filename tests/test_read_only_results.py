@@ -14,7 +14,7 @@ import pytest
 
 import nag
 from nag.decomposition import (
-    by_sampling,
+    discover,
     genus,
     intersect_components,
     project,
@@ -54,7 +54,7 @@ def bennett() -> Any:
 RESULTS: dict[str, Callable[[], Any]] = {
     "decomposition": lines,
     "curve": curve,
-    "by sampling": lambda: by_sampling(nag.system("x^2 + y^2 = 1"), starts=3),
+    "by sampling": lambda: discover(nag.system("x^2 + y^2 = 1"), starts=3),
     "deflated": double_parabola,
     "close sheets": lambda: nag.decompose(CLOSE),
     "mechanism": lambda: nag.decompose(bennett().mechanism),
