@@ -7,14 +7,20 @@ from dataclasses import replace
 from html.parser import HTMLParser
 from typing import Any
 
+import numpy as np
 import pytest
 
 import nag
+from nag.decomposition import real_points_near, sample
 from nag.text.table import LINE, html_table
 
 
 def bennett() -> Any:
     return nag.read_case("cases/bennett.toml").mechanism
+
+
+def circle() -> Any:
+    return nag.decompose("x^2 + y^2 = 1").components[0]
 
 
 def crowd() -> Any:
@@ -31,6 +37,21 @@ SHOWN: dict[str, Callable[[], Any]] = {
     "decomposition": lambda: nag.decompose(bennett()),
     "no component": lambda: nag.decompose(["x*y - 1", "x"]),
     "solutions": lambda: nag.solve(["x^2 + y^2 - 1", "x - y"]),
+    "samples": lambda: sample(circle().system, circle(), 3),
+    "no samples": lambda: sample(circle().system, circle(), 0),
+    "projection": lambda: circle().project(["x"]),
+    "real points": lambda: real_points_near(circle().system, circle(), np.array([3.0, 0.0])),
+    "no real points": lambda: real_points_near(
+        (c := nag.decompose("x^2 + y^2 + 1 = 0").components[0]).system, c, np.zeros(2), starts=3
+    ),
+    "local dimension": lambda: nag.local_dimension(nag.system("x^3 = y^2"), (0, 0)),
+    "isolated": lambda: nag.local_dimension(nag.system(["x^3 = y^2", "x*y"]), (0, 0)),
+    "no local dimension": lambda: nag.local_dimension(nag.system("x^3 = y^2"), (1.0, 2.0)),
+    "configuration": lambda: nag.model(bennett()).lift((0, 0)),
+    "configuration in doubles": lambda: nag.model(bennett()).lift((0.25, 0.125j)),
+    "larger configuration": lambda: (
+        model := nag.model(nag.read_case("cases/bricard-cube.toml").mechanism)
+    ).lift(model.reference),
     "no solution": lambda: nag.solve(["x*y - 1", "x"]),
 }
 
@@ -106,6 +127,29 @@ def test_a_notebook_shows_a_row_for_each_solution_joint_point_and_equation() -> 
     assert all(0 < float(row[-1]) < 1e-15 for row in points[1:])
     equations = Table(nag.system(["x = 1", "x*y = 2"])._repr_html_()).rows
     assert equations[1:] == [["0", "1", "x - 1"], ["1", "2", "x*y - 2"]]
+
+
+def test_a_notebook_shows_a_row_for_each_point_and_body() -> None:
+    one = circle()
+    points = Table(sample(one.system, one, 3)._repr_html_()).rows
+    assert [row[0] for row in points] == ["point", "0", "1", "2"]
+    near = Table(real_points_near(one.system, one, np.array([3.0, 0.0]))._repr_html_()).rows
+    assert near[0] == ["point", "x0", "x1", "distance", "stationary"]
+    assert near[1][3:] == ["2", "yes"]
+    image = Table(one.project(["x"])._repr_html_()).rows
+    assert len(image) == 1 + 2
+    bodies = Table(nag.model(bennett()).lift((0, 0))._repr_html_()).rows
+    assert [row[0] for row in bodies] == ["body", *bennett().body_names]
+
+
+def test_what_there_is_of_points_is_said() -> None:
+    one = circle()
+    text = repr(real_points_near(one.system, one, np.array([3.0, 0.0])))
+    assert text.startswith("RealPoints: ") and "nearest at distance 2\n" in text
+    assert "dimension 1, degree 1" in repr(one.project(["x"]))
+    assert "isolated, of multiplicity 5" in repr(SHOWN["isolated"]())
+    assert "undecided" in repr(SHOWN["no local dimension"]())
+    assert "no real zero" in repr(SHOWN["no real points"]())
 
 
 def test_what_is_shown_in_a_notebook_is_escaped() -> None:

@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     """
     case, model = read_problem(options)
     from nag.files.problem import system_of
-    from nag.report.local import local_rows
+    from nag.numerics.shown import local_rows
     from nag.text.table import labelled, printable
 
     system = system_of(case, model)

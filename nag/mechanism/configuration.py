@@ -34,6 +34,16 @@ class Configuration:
         object.__setattr__(self, "euler", MappingProxyType(dict(self.euler)))
         object.__setattr__(self, "position", MappingProxyType(dict(self.position)))
 
+    def __repr__(self) -> str:
+        from nag.mechanism.shown import configuration_text
+
+        return configuration_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.mechanism.shown import configuration_html
+
+        return configuration_html(self)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return Configuration, (dict(self.euler), dict(self.position))
 

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import fields
-from typing import TYPE_CHECKING
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
-from nag.algebra.number import Number, number_text
+from nag.algebra.number import Irrational, Number, number_text
 from nag.algebra.system import system_line
 from nag.mechanism.graph import Joint
 from nag.text.table import align, counted, html_table, lines_of, printable, shortened
+from nag.text.table import number_text as rounded_text
 
 if TYPE_CHECKING:
+    from nag.mechanism.configuration import Configuration
     from nag.mechanism.graph import Mechanism
     from nag.mechanism.model import Model
 
 # Of mechanisms with more joints the first are shown.
 MOST_LINES = 4
+# Longer exact coordinates of configurations are rounded.
+LONGEST = 8
 _VECTORS = tuple(f.name for f in fields(Joint) if f.name not in ("name", "type", "bodies"))
 
 
@@ -53,6 +59,41 @@ def mechanism_html(mechanism: Mechanism) -> str:
         vectors = [_vector(getattr(joint, n)) for n in used]
         rows.append([joint.name, joint.type, " - ".join(joint.bodies), *vectors])
     return html_table(_title(mechanism), rows)
+
+
+def _entry(value: Any) -> str:
+    """A coordinate: a short exact number as it is, others to six digits."""
+    if isinstance(value, int | Fraction | Irrational):
+        text = number_text(value)
+        return text if len(text) <= LONGEST else rounded_text(float(value))
+    return rounded_text(complex(value))
+
+
+def _entries(values: Sequence[Any]) -> str:
+    return f"({', '.join(map(_entry, values))})"
+
+
+def configuration_text(found: Configuration) -> str:
+    """A configuration in five lines: where its first bodies are."""
+    names = list(found.euler)
+    shown = len(names) if len(names) <= MOST_LINES else MOST_LINES - 1
+    rows = [
+        [f"  {name}", f"euler {_entries(found.euler[name])}, at {_entries(found.position[name])}"]
+        for name in names[:shown]
+    ]
+    lines = [f"Configuration of {counted(len(names), 'body', 'bodies')}", *align(rows, (0, 1))]
+    if shown < len(names):
+        left = counted(len(names) - shown, "more body", "more bodies")
+        lines.append(f"  and {left}")
+    return "\n".join(shortened(printable(line)) for line in lines)
+
+
+def configuration_html(found: Configuration) -> str:
+    """A configuration as a table, one row a body."""
+    rows = [["body", "euler", "position"]]
+    for name, euler in found.euler.items():
+        rows.append([name, _entries(euler), _entries(found.position[name])])
+    return html_table(f"Configuration of {counted(len(found.euler), 'body', 'bodies')}", rows)
 
 
 def model_text(model: Model) -> str:

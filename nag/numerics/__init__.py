@@ -8,7 +8,7 @@ made a regular one) by `descent` and `sharpening`, with `second_round` and `roun
 `dual_space` (the dimension of its local ring), `far_along`, `curves` and `clusters` on
 `series_zeros` (zeros beside it); `singular_point` on `local_structure` (all of it together);
 `local_dimension` on `located_zero` and `dimension_bounds` (the dimension at any point), and
-`tangent_cone`. Proofs: `krawczyk` on `discs` and `ball_polynomials` (boxes that hold one zero),
-`certified_points` with `deflated_system`, `rational_relations`, `box_relations` and `close_zeros`
-(those that doubles do not tell apart).
+`tangent_cone`; `shown` is what is seen at the prompt. Proofs: `krawczyk` on `discs` and
+`ball_polynomials` (boxes that hold one zero), `certified_points` with `deflated_system`,
+`rational_relations`, `box_relations` and `close_zeros` (those that doubles do not tell apart).
 """

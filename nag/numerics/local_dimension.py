@@ -68,6 +68,11 @@ class LocalDimension:
     def __post_init__(self) -> None:
         object.__setattr__(self, "point", fixed_array(self.point))
 
+    def __repr__(self) -> str:
+        from nag.numerics.shown import local_dimension_text
+
+        return local_dimension_text(self)
+
     @property
     def decided(self) -> bool:
         """Whether the bounds meet."""

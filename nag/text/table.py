@@ -29,6 +29,17 @@ def magnitude(value: float) -> str:
     return f"{value:.1e}" if math.isfinite(value) else "?"
 
 
+def number_text(value: complex) -> str:
+    """A number to six digits, its imaginary part if it has one."""
+    value = complex(value)
+    return f"{value.real:.6g}" + (f"{value.imag:+.6g}i" if value.imag else "")
+
+
+def point_text(point: Iterable[complex]) -> str:
+    """A point's coordinates to six digits."""
+    return f"({', '.join(map(number_text, point))})"
+
+
 def align(rows: Sequence[Sequence[str]], left: Iterable[int] = ()) -> list[str]:
     """Rows of cells as lines with aligned columns, right-aligned except those in ``left``."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]

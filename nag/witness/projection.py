@@ -66,11 +66,14 @@ class Projection:
         object.__setattr__(self, "points", fixed_array(self.points))
 
     def __repr__(self) -> str:
-        return (
-            f"Projection(coordinates={self.coordinates}, dimension={self.dimension}, "
-            f"degree={self.degree}, fibre_dimension={self.fibre_dimension}, "
-            f"fibre_degree={self.fibre_degree})"
-        )
+        from nag.witness.shown import projection_text
+
+        return projection_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.witness.shown import projection_html
+
+        return projection_html(self)
 
 
 def _image_dimension(fibre: Fibre, coordinates: Sequence[int]) -> int:

@@ -61,6 +61,16 @@ class RealPoints:
         for name in ("points", "distances", "stationary"):
             object.__setattr__(self, name, fixed_array(getattr(self, name)))
 
+    def __repr__(self) -> str:
+        from nag.witness.shown import real_points_text
+
+        return real_points_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.witness.shown import real_points_html
+
+        return real_points_html(self)
+
     def __len__(self) -> int:
         return len(self.points)
 

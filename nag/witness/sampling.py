@@ -41,6 +41,16 @@ class Samples:
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", fixed_array(self.points))
 
+    def __repr__(self) -> str:
+        from nag.witness.shown import samples_text
+
+        return samples_text(self)
+
+    def _repr_html_(self) -> str:
+        from nag.witness.shown import samples_html
+
+        return samples_html(self)
+
 
 class SamplingError(ValueError):
     """Points that could not be found, with the reason.

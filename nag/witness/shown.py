@@ -5,12 +5,27 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nag.algebra.system import system_line
-from nag.text.table import align, counted, html_table, lines_of, magnitude, printable
+from nag.text.table import (
+    align,
+    counted,
+    html_table,
+    lines_of,
+    magnitude,
+    number_text,
+    point_text,
+    printable,
+)
 from nag.witness.witness import Decomposition, PathCounts, Status, WitnessSet
+
+if TYPE_CHECKING:
+    from nag.witness.projection import Projection
+    from nag.witness.real_points import RealPoints
+    from nag.witness.sampling import Samples
 
 # Wider multidegrees are left to the JSON export.
 WIDEST_MULTIDEGREE = 32
@@ -215,9 +230,113 @@ def witness_set_html(component: WitnessSet) -> str:
     rows = [["point", *names, "error"]]
     errors = np.linalg.norm(component.radii, axis=1)
     for i, point in enumerate(component.points[:MOST_POINTS]):
-        numbers = (f"{z.real:.6g}{z.imag:+.6g}i" for z in point)
-        rows.append([str(i), *numbers, magnitude(float(errors[i]))])
+        rows.append([str(i), *map(number_text, point), magnitude(float(errors[i]))])
     hidden = component.degree - MOST_POINTS
     note = f"{component.status}; {_rests_on([component])}"
     more = f"; {counted(hidden, 'more point')}" if hidden > 0 else ""
     return html_table(f"Component of {_kind_text(component)}", rows, note + more)
+
+
+def _point_table(caption: str, points: np.ndarray, more: dict[str, list[str]], note: str) -> str:
+    """Points as a table, with more columns."""
+    rows = [["point", *(f"x{i}" for i in range(points.shape[1])), *more]]
+    for i, point in enumerate(points[:MOST_POINTS]):
+        rows.append([str(i), *map(number_text, point), *(column[i] for column in more.values())])
+    hidden = len(points) - MOST_POINTS
+    note += f"; {counted(hidden, 'more point')}" if hidden > 0 else ""
+    return html_table(caption, rows, note)
+
+
+def _first_point(points: np.ndarray) -> str:
+    if not len(points):
+        return "none"
+    more = f" and {len(points) - 1} more" if len(points) > 1 else ""
+    return f"{point_text(points[0])}{more}"
+
+
+def _samples_title(samples: Samples) -> str:
+    count, n = samples.points.shape
+    return f"Samples: {counted(count, 'point')} in {counted(n, 'coordinate')}"
+
+
+def _samples_rest(samples: Samples) -> str:
+    return f"residual {magnitude(samples.residual)}, accuracy {magnitude(samples.accuracy)}"
+
+
+def samples_text(samples: Samples) -> str:
+    """Points of a component in three lines."""
+    rows = [("points", _first_point(samples.points)), ("rests on", _samples_rest(samples))]
+    return lines_of(_samples_title(samples), rows)
+
+
+def samples_html(samples: Samples) -> str:
+    """Points of a component as a table."""
+    return _point_table(_samples_title(samples), samples.points, {}, _samples_rest(samples))
+
+
+def _real_points_title(found: RealPoints) -> str:
+    nearest = f", the nearest at distance {found.distances[0]:.6g}" if len(found) else ""
+    return f"RealPoints: {counted(len(found), 'point')}{nearest}"
+
+
+def _left_open(found: RealPoints) -> str:
+    zeros = f"{counted(found.undecided, 'more real zero')} may lie on the component"
+    return "; ".join([*([zeros] if found.undecided else []), *filter(None, [found.reason])])
+
+
+def real_points_text(found: RealPoints) -> str:
+    """Real points in at most five lines."""
+    rows = [("points", _first_point(found.points))]
+    if len(found):
+        stationary = int(found.stationary.sum())
+        rows.append(("distances", f"{_listed(found.distances)}; {stationary} stationary"))
+    rows.append(("rests on", f"residual {magnitude(found.residual)}"))
+    open_ = _left_open(found)
+    return lines_of(_real_points_title(found), [*rows, *([("open", open_)] if open_ else [])])
+
+
+def _listed(numbers: np.ndarray) -> str:
+    most = 6
+    shown = [f"{x:.6g}" for x in numbers[:most]]
+    return ", ".join([*shown, *(["..."] if len(numbers) > most else [])])
+
+
+def real_points_html(found: RealPoints) -> str:
+    """Real points as a table, the nearest first."""
+    more = {
+        "distance": [f"{x:.6g}" for x in found.distances],
+        "stationary": ["yes" if x else "no" for x in found.stationary],
+    }
+    open_ = _left_open(found)
+    note = f"residual {magnitude(found.residual)}{'; ' if open_ else ''}{open_}"
+    return _point_table(_real_points_title(found), found.points, more, note)
+
+
+def _projection_title(image: Projection) -> str:
+    coordinates = ", ".join(map(str, image.coordinates))
+    noun = "coordinate" if len(image.coordinates) == 1 else "coordinates"
+    return f"Projection to {noun} {coordinates}"
+
+
+def projection_text(image: Projection) -> str:
+    """A projection in five lines."""
+    equations = counted(image.slice.dimension, "linear equation")
+    return lines_of(
+        _projection_title(image),
+        [
+            ("image", f"dimension {image.dimension}, degree {image.degree}"),
+            ("fibre", f"dimension {image.fibre_dimension}, degree {image.fibre_degree}"),
+            ("points", f"{counted(len(image.points), 'point')} on a slice of {equations}"),
+            ("rests on", f"accuracy {magnitude(image.accuracy)}"),
+        ],
+    )
+
+
+def projection_html(image: Projection) -> str:
+    """The points of a projection's slice as a table."""
+    note = (
+        f"image of dimension {image.dimension}, degree {image.degree}; fibre of dimension "
+        f"{image.fibre_dimension}, degree {image.fibre_degree}; accuracy "
+        f"{magnitude(image.accuracy)}"
+    )
+    return _point_table(_projection_title(image), image.points, {}, note)

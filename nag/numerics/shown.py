@@ -1,8 +1,10 @@
-"""Local dimensions as text."""
+"""What local dimensions show at the prompt and in the commands."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+
+from nag.text.table import lines_of, point_text
 
 if TYPE_CHECKING:
     from nag.numerics.local_dimension import LocalDimension
@@ -47,3 +49,8 @@ def local_rows(found: LocalDimension) -> list[tuple[str, str]]:
         rows.append(("open", found.reason))
     matrices = matrices_text(found)
     return [*rows, ("matrices", matrices)] if matrices else rows
+
+
+def local_dimension_text(found: LocalDimension) -> str:
+    """A local dimension in at most five lines."""
+    return lines_of(f"LocalDimension at {point_text(found.point)}", local_rows(found))
