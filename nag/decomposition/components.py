@@ -69,6 +69,11 @@ def decompose(
     Raises:
         nag.algebra.symmetry.SymmetryError: if one of ``symmetries`` does not keep the equations.
         ValueError: if another argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> from nag.decomposition import decompose
+    >>> [(c.dimension, c.degree) for c in decompose(nag.system("x*(y - 1)")).components]
+    [(1, 1), (1, 1)]
     """
     check_system(system)
     check_running(seed, threads, settings, progress)

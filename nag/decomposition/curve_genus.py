@@ -77,12 +77,28 @@ def genus(
 ) -> Genus:
     """The genus of an irreducible, reduced curve.
 
+    By the permutations of its points round the branch points of a projection to a line (Bates,
+    Peterson, Sommese & Wampler 2011).
+
     Args:
         system: the equations that ``component`` was found from.
+        component: one of the components of a `nag.Decomposition`.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+
+    Returns:
+        The genus of the smooth model, and what it was found from.
 
     Raises:
         GenusError: if paths fail, or the permutations do not multiply to the identity.
-        ValueError: if the component is no reduced curve.
+        ValueError: if the component is no reduced curve, or another argument makes no sense.
+
+    >>> import nag
+    >>> from nag.decomposition import genus
+    >>> cubic = nag.decompose("y^2 = x^3 - x")
+    >>> genus(cubic.system, cubic.components[0]).genus
+    1
     """
     check_component(system, component, seed, threads, settings)
     if component.dimension != 1:

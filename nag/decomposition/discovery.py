@@ -54,18 +54,32 @@ def discover(
 ) -> Decomposition:
     """The irreducible components that Newton's method finds from ``starts`` random points.
 
-    Every component that is reported has passed the same checks as in a complete decomposition, but
-    others may be missing: ``complete`` is False, whatever was found.
+    Loops of slices complete them, and the trace test confirms each (Sommese, Verschelde & Wampler
+    2001, 2002). Every component that is reported has passed the same checks as in a complete
+    decomposition, but others may be missing: ``complete`` is False, whatever was found.
 
     Args:
         system: as for `nag.decomposition.decompose`.
         starts: number of starting points.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
         progress: called with a stage's name, the step reached and the number of steps.
         symmetries: as for `nag.decomposition.decompose`; what they carry a component to is found
             with it.
 
+    Returns:
+        The components that were found, by falling dimension.
+
     Raises:
         nag.algebra.symmetry.SymmetryError: if one of ``symmetries`` does not keep the equations.
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> from nag.decomposition import discover
+    >>> found = discover(nag.system("(x^2 + y^2 - z)*(x - y)"), starts=10)
+    >>> [(c.dimension, c.degree) for c in found.components], found.complete
+    ([(2, 1), (2, 2)], False)
     """
     check_system(system)
     check_running(seed, threads, settings, progress)

@@ -92,12 +92,27 @@ def intersect_components(
 ) -> Intersection:
     """The irreducible components of the intersection of two components, as sets.
 
+    They meet on the diagonal of their product (Sommese, Verschelde & Wampler 2004).
+
     Args:
         system: the equations that ``first`` was found from.
+        first: one of the components of a `nag.Decomposition`.
         second: one of the same system, or of one in the same variables that it knows.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        progress: called with a stage's name, the step reached and the number of steps.
 
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> from nag.decomposition import intersect_components
+    >>> surfaces = nag.decompose("(x^2 + y^2 - z)*(x - y)")
+    >>> parabola = intersect_components(surfaces.system, *surfaces.components)
+    >>> [(c.dimension, c.degree) for c in parabola.components]
+    [(1, 2)]
     """
     check_component(system, first, seed, threads, settings, "first")
     check_type(second, WitnessSet, "second", "a component, as nag.decompose finds them")
@@ -141,12 +156,29 @@ def intersect_equations(
 ) -> Intersection:
     """The irreducible components of the intersection of a component with a zero set.
 
+    The equations are met one by one, from the component's witness set (u-generation: Duff, Leykin
+    & Rodriguez 2022).
+
     Args:
         system: the equations that ``component`` was found from.
+        component: one of the components of a `nag.Decomposition`.
         equations: further equations in the same variables.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        progress: called with a stage's name, the step reached and the number of steps.
 
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> from nag.decomposition import intersect_equations
+    >>> bowl = nag.decompose("x^2 + y^2 = z")
+    >>> level = nag.system("z = 1", "x y z")
+    >>> circle = intersect_equations(bowl.system, bowl.components[0], level)
+    >>> [(c.dimension, c.degree) for c in circle.components]
+    [(1, 2)]
     """
     check_component(system, component, seed, threads, settings)
     check_system(equations, "equations")
@@ -278,7 +310,23 @@ def _with_cuts(
 def intersect_pair(
     decomposition: Decomposition, first: int, second: int, **options: object
 ) -> Intersection:
-    """The intersection of two components of a decomposition, given by their indices."""
+    """The intersection of two components of a decomposition, given by their indices.
+
+    Args:
+        decomposition: as `nag.decompose` returns it.
+        first, second: indices of its components.
+        options: seed, threads, settings and progress, as for `intersect_components`.
+
+    Raises:
+        IntersectionError: if witness points are none.
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> from nag.decomposition import intersect_pair
+    >>> crossing = intersect_pair(nag.decompose("x*(y - 1)"), 0, 1)
+    >>> [(c.dimension, c.degree) for c in crossing.components]
+    [(0, 1)]
+    """
     check_type(decomposition, Decomposition, "decomposition", "what nag.decompose returns")
     components = decomposition.components
     for place, index in (("first", first), ("second", second)):

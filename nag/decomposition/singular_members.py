@@ -66,20 +66,32 @@ def singular_parameters(
     threads: int = 1,
     settings: str = "default",
 ) -> SingularParameters:
-    """The parameters, the last ``count`` variables, for which the zero set in the others is
-    singular.
+    """For which parameters, the last ``count`` variables, the zero set in the others is singular.
+
+    There the transposed Jacobian has a null vector (the rank-deficiency set: Bates, Hauenstein,
+    Peterson & Sommese 2009); components of such points are projected to the parameters.
+
+    Args:
+        system: a complete intersection in its variables, for general parameters.
+        count: how many of the variables are parameters.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+
+    Returns:
+        For each irreducible set of parameters its equations of lowest degree.
 
     Raises:
-        ValueError: if there are more equations than variables: no complete intersection.
+        ValueError: if there are more equations than variables, no complete intersection, or
+            another argument makes no sense.
+
+    >>> import nag
+    >>> from nag.decomposition import singular_parameters
+    >>> singular_parameters(nag.system("x^2 + a*x + b", "x a b"), 2).texts()
+    ['a^2 - 4*b = 0']
     """
-    check_system(system)
-    check_whole(count, "count", 1)
     check_running(seed, threads, settings)
-    n, m = system.n - count, len(system.polynomials)
-    if n < 1:
-        raise ValueError(f"count: {count} is given; give fewer than the {system.n} variables")
-    if not 0 < m <= n:
-        raise ValueError(f"system: {m} equations in {n} variables are no complete intersection")
+    n = _variables(system, count)
     whole = _null_space_system(system, n, np.random.default_rng([seed, 8]))
     found = decompose(whole, seed=seed, threads=threads, settings=settings)
     notes, images, conditions = list(found.notes), [], []
@@ -103,6 +115,22 @@ def singular_parameters(
     return SingularParameters(
         names, tuple(unique), found.paths, found.complete and not notes, tuple(notes)
     )
+
+
+def _variables(system: PolynomialSystem, count: int) -> int:
+    """How many of the variables are no parameters.
+
+    Raises:
+        ValueError: if these are no whole number of them, or leave no complete intersection.
+    """
+    check_system(system)
+    check_whole(count, "count", 1)
+    n, m = system.n - count, len(system.polynomials)
+    if n < 1:
+        raise ValueError(f"count: {count} is given; give fewer than the {system.n} variables")
+    if not 0 < m <= n:
+        raise ValueError(f"system: {m} equations in {n} variables are no complete intersection")
+    return n
 
 
 def _null_space_system(

@@ -170,6 +170,18 @@ class _Search:
             self._factors[i] = Factor.in_branch(*self.own[i])
         return self._factors[i]
 
+    def of_pairs(self, chosen: Sequence[int]) -> None:
+        """The intersections of the chosen components with all others that are not seen yet."""
+        pairs = [
+            (i, j)
+            for i, j in combinations(range(len(self.whole.components)), 2)
+            if (i in chosen or j in chosen) and self.unseen(i, j)
+        ]
+        if len(pairs) > MOST_PAIRS:
+            self.notes.append(f"{len(pairs) - MOST_PAIRS} pairs of components were not intersected")
+        for pair in pairs[:MOST_PAIRS]:
+            self.of_pair(*pair)
+
     def unseen(self, i: int, j: int) -> bool:
         """Whether a pair's intersection may hold points where neither rank drops."""
         (system, first), (other, second) = self.own[i], self.own[j]
@@ -193,9 +205,29 @@ def singular_locus(
 ) -> SingularLocus:
     """The singular points of the components of a decomposition, and where components meet.
 
+    PT13, definition 7.2: essential singular points of each component, where the Jacobian's rank
+    drops, and intersection singular points.
+
     Args:
+        decomposition: as `nag.decompose` returns it.
         only: indices of components of `nag.witness.frame.expanded`; singular points of these
             and their intersections with all others are looked for. All of them by default.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+
+    Returns:
+        The sets of singular points by falling dimension, each with points of shape
+        ``(degree, n)``.
+
+    Raises:
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> from nag.decomposition import singular_locus
+    >>> (node,) = singular_locus(nag.decompose("y^2 = x^2*(x + 1)")).sets
+    >>> node.dimension, node.multiplicities, bool(abs(node.points).max() < 1e-12)
+    (0, {0: 2}, True)
     """
     check_decomposition(decomposition, seed, threads, settings)
     whole = expanded(decomposition)
@@ -205,15 +237,7 @@ def singular_locus(
     search = _Search(whole, own, {"seed": seed, "threads": threads, "settings": settings})
     for i in chosen:
         search.on_component(i)
-    pairs = [
-        (i, j)
-        for i, j in combinations(range(len(whole.components)), 2)
-        if (i in chosen or j in chosen) and search.unseen(i, j)
-    ]
-    if len(pairs) > MOST_PAIRS:
-        search.notes.append(f"{len(pairs) - MOST_PAIRS} pairs of components were not intersected")
-    for pair in pairs[:MOST_PAIRS]:
-        search.of_pair(*pair)
+    search.of_pairs(chosen)
     rng = np.random.default_rng([seed, 7])
     sets = _judged_sets(search, rng, Tracker(settings, threads))
     notes = tuple(dict.fromkeys(search.notes))

@@ -258,12 +258,27 @@ def memberships(
 ) -> tuple[Membership, ...]:
     """For each component, whether an affine point lies on it.
 
+    The slice moves through the point, which is on the component exactly if a path ends there
+    (Sommese, Verschelde & Wampler 2001).
+
     Args:
+        decomposition: as `nag.decompose` returns it.
         point: complex, shape ``(n,)``, in the system's variables.
         accuracy: bound of the relative error of the point.
         exact: the exact coordinates that ``point`` is rounded from, if they are known: then a
             component on which an equation holds that does not hold there is told from the others
             however near it is.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+
+    Raises:
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> from nag.decomposition import memberships
+    >>> [str(found.value) for found in memberships(nag.decompose("x*(y - 1)"), [0, 2])]
+    ['member', 'foreign']
     """
     check_decomposition(decomposition, seed, threads, settings)
     check_error(accuracy, "accuracy")
@@ -355,13 +370,25 @@ def components_through(
 ) -> list[int]:
     """Indices of the components that an affine point lies on, the highest dimension first.
 
+    As `memberships` says (Sommese, Verschelde & Wampler 2001).
+
     Args:
+        decomposition: as `nag.decompose` returns it.
         point: complex, shape ``(n,)``, in the system's variables.
         accuracy: bound of the relative error of the point.
         exact: the exact coordinates that ``point`` is rounded from, if they are known.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: for path tracking.
+        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
 
     Raises:
         UndecidedError: if the membership in a component could not be decided.
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> from nag.decomposition import components_through
+    >>> components_through(nag.decompose("x*(y - 1)"), [0, 1])
+    [0, 1]
     """
     answers = memberships(
         decomposition,

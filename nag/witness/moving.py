@@ -94,6 +94,15 @@ def arrival(
     return Arrival(found, infinite, irregular)
 
 
+def _check_slice(target: Slice, component: WitnessSet) -> None:
+    check_type(target, Slice, "target", "a nag.Slice")
+    if target.A.shape != component.slice.A.shape:
+        raise SliceError(
+            f"target: the slice has {len(target.b)} equations in {target.A.shape[1]} variables; "
+            f"the component needs {component.dimension} in {component.slice.A.shape[1]}"
+        )
+
+
 def witness_at(
     system: PolynomialSystem,
     component: WitnessSet,
@@ -105,23 +114,32 @@ def witness_at(
 ) -> WitnessSet:
     """The witness set of ``component`` at a given slice.
 
-    The slice is kept as a set; its equations are made orthonormal.
+    Its points follow the slice there (Sommese & Verschelde 2000). The slice is kept as a set; its
+    equations are made orthonormal.
 
     Args:
-        system: the equations that the component was found from.
-        target: as many equations as the component has dimensions.
+        system: the equations that ``component`` was found from.
+        component: one of the components of a `nag.Decomposition`.
+        target: as many equations as the component has dimensions, in the system's variables.
+        seed, threads, settings: of the run, as for `nag.decompose`.
+
+    Returns:
+        The component with other points, shape ``(degree, n)``.
 
     Raises:
         SliceError: if the slice has a wrong number of equations, or meets the component at
             infinity or where the intersection is not transversal.
+        ValueError: if an argument makes no sense; the message says which, and what would.
+
+    >>> import nag
+    >>> from nag.decomposition import witness_at
+    >>> circle = nag.decompose("x^2 + y^2 = 1")
+    >>> moved = witness_at(circle.system, circle.components[0], nag.Slice([[1, 0]], [0]))  # x = 0
+    >>> sorted(round(float(y), 6) for y in moved.points[:, 1].real)
+    [-1.0, 1.0]
     """
     check_component(system, component, seed, threads, settings)
-    check_type(target, Slice, "target", "a nag.Slice")
-    if target.A.shape != component.slice.A.shape:
-        raise SliceError(
-            f"target: the slice has {len(target.b)} equations in {target.A.shape[1]} variables; "
-            f"the component needs {component.dimension} in {system.n}"
-        )
+    _check_slice(target, component)
     rng = np.random.default_rng([seed, 2])
     rows, goal = component.slice.rows, orthonormal_rows(target.rows)
     fibres = component_fibres(system, component)

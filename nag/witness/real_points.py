@@ -87,21 +87,33 @@ def real_points_near(
 ) -> RealPoints:
     """Real points of ``component`` near a real point.
 
+    Newton's method leads to them from points around the given one; then they move to where their
+    distance is stationary (Seidenberg 1954). Nothing found is no proof that there is nothing.
+
     Args:
-        system: the equations that the component was found from.
+        system: the equations that ``component`` was found from.
+        component: one of the components of a `nag.Decomposition`.
         near: real, shape ``(n,)``.
         starts: number of starting points; the first is ``near`` itself.
+        seed, threads, settings: of the run, as for `nag.decompose`.
+
+    Returns:
+        The points, real of shape ``(count, n)``, the nearest first.
 
     Raises:
-        ValueError: if ``near`` is not real and of shape ``(n,)``, or witness points are none.
+        ValueError: if an argument makes no sense, or witness points are none.
+
+    >>> import nag
+    >>> from nag.decomposition import real_points_near
+    >>> circle = nag.decompose("x^2 + y^2 = 1")
+    >>> near = real_points_near(circle.system, circle.components[0], [3.0, 0.0])
+    >>> near.points[0].round(6).tolist(), round(float(near.distances[0]), 6)
+    ([1.0, 0.0], 2.0)
     """
     check_component(system, component, seed, threads, settings)
     check_whole(starts, "starts", 1)
-    near = _real_vector(near)
-    if near.shape != (system.n,) or not np.isfinite(near).all():
-        raise ValueError(f"near: the point must be {system.n} finite real numbers")
-    rng = np.random.default_rng([seed, 8])
-    tracker = Tracker(settings, threads)
+    near = _real_vector(near, system.n)
+    rng, tracker = np.random.default_rng([seed, 8]), Tracker(settings, threads)
     fibres = component_fibres(system, component)
     everything = Evaluator.of(system.polynomials, system.n)
     known = np.zeros((0, system.n))
@@ -117,29 +129,33 @@ def real_points_near(
             if answer is Membership.MEMBER:
                 known = np.vstack([known, x])
                 pulls.append(pull)
+    residual = float(everything.residuals(known + 0j).max(initial=0.0))
     distances = np.linalg.norm(known - near, axis=1)
-    order = np.argsort(distances, kind="stable")
-    reason = ""
-    if not len(known):
-        reason = f"no real zero of the equations was found from {starts} starting points"
-        if zeros:
-            reason = f"none of {zeros} real zeros that were found lies on the component"
-    return RealPoints(
-        known[order],
-        distances[order],
-        np.array(pulls, dtype=float)[order] < ALMOST,
-        float(everything.residuals(known + 0j).max(initial=0.0)),
-        undecided,
-        reason,
-    )
+    order, arrived = np.argsort(distances, kind="stable"), np.array(pulls, dtype=float) < ALMOST
+    reason = "" if len(known) else _why_none(zeros, starts)
+    known, distances, arrived = known[order], distances[order], arrived[order]
+    return RealPoints(known, distances, arrived, residual, undecided, reason)
 
 
-def _real_vector(near: Any) -> np.ndarray:
-    """The point as an array; of no length where it is none."""
+def _why_none(zeros: int, starts: int) -> str:
+    if zeros:
+        return f"none of {zeros} real zeros that were found lies on the component"
+    return f"no real zero of the equations was found from {starts} starting points"
+
+
+def _real_vector(near: Any, n: int) -> np.ndarray:
+    """The point as an array.
+
+    Raises:
+        ValueError: if it is none.
+    """
     try:
-        return np.asarray(near, dtype=float)
+        point = np.asarray(near, dtype=float)
     except (TypeError, ValueError):
-        return np.zeros(0)
+        point = np.zeros(0)
+    if point.shape != (n,) or not np.isfinite(point).all():
+        raise ValueError(f"near: the point must be {n} finite real numbers")
+    return point
 
 
 def _starts(near: np.ndarray, count: int, rng: np.random.Generator) -> Iterator[np.ndarray]:
