@@ -13,7 +13,7 @@ import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
-from nag.witness.membership import component_fibres
+from nag.witness.component_equations import component_fibres
 
 CASES = Path(__file__).parent.parent / "cases"
 # Names, decimal logarithms of the coordinates' sizes, and dimensions and degrees.

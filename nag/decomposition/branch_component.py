@@ -21,9 +21,9 @@ from nag.numerics.zero_values import (
     surely_differs,
     vanishes_at_all,
 )
+from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import vanishing
 from nag.witness.fibres import Fibre
-from nag.witness.membership import component_fibres
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.witness import WitnessSet
 

@@ -34,11 +34,12 @@ from nag.numerics.zero_values import (
     possible_zeros,
     widened,
 )
+from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut, numerical_corank
 from nag.witness.exact_points import framed, sharpened
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.frame import Frame
-from nag.witness.membership import Membership, component_fibres, is_member
+from nag.witness.membership import Membership, is_member
 from nag.witness.moving import witness_at
 from nag.witness.multiplicity import multiplicity
 from nag.witness.slices import padded, random_rows, to_slice

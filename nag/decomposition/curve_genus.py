@@ -24,9 +24,9 @@ from nag.decomposition.branch_points import BranchPointError, Sheets, branch_poi
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.rank_drop import rank_drop
+from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Tracker, carried
 from nag.witness.given_component import check_component
-from nag.witness.membership import component_fibres
 from nag.witness.points import with_fine
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import WitnessSet

@@ -9,9 +9,9 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
+from nag.witness.component_equations import component_system
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, Tracker, carried, cut_fibres
-from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts, WitnessSet

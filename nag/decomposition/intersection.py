@@ -25,10 +25,10 @@ from nag.decomposition.superset import (
     witness_superset,
 )
 from nag.numerics.zero_values import LEAST, ON
+from nag.witness.component_equations import component_system
 from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
 from nag.witness.fibres import Fibre, Progress, Tracker, admit
 from nag.witness.given_component import check_component, check_system
-from nag.witness.membership import component_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
 from nag.witness.slices import random_rows

@@ -33,7 +33,7 @@ from nag.decomposition.intersection import Intersection, intersect_equations
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import clusters
 from nag.numerics.local_dimension import local_dimension
-from nag.witness.membership import component_system
+from nag.witness.component_equations import component_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.projection import Projection, ProjectionError, project
 from nag.witness.witness import PathCounts, Slice, WitnessSet

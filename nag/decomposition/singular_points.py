@@ -27,10 +27,10 @@ from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
+from nag.witness.component_equations import component_fibres, component_system
 from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
 from nag.witness.given_component import check_decomposition
-from nag.witness.membership import component_fibres, component_system
 from nag.witness.multiplicity import multiplicity_at
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 

@@ -19,9 +19,9 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.zero_values import ON
+from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre, Tracker
-from nag.witness.membership import component_fibres
 from nag.witness.sampling import at_random
 from nag.witness.slices import padded, rows_through
 from nag.witness.witness import WitnessSet

@@ -30,8 +30,8 @@ from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
 from nag.numerics.read_only import fixed_mapping
+from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, Tracker, move
-from nag.witness.membership import component_fibres
 from nag.witness.points import with_fine
 from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import WitnessSet

@@ -20,8 +20,9 @@ from nag.decomposition.given_points import best_lifted, components_through_point
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.isotropic import conjugates
+from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Tracker
-from nag.witness.membership import Membership, component_fibres, is_member
+from nag.witness.membership import Membership, is_member
 from nag.witness.witness import Decomposition, Status, WitnessSet
 
 # Relative error of a witness point's reflection.

@@ -19,8 +19,8 @@ from nag.numerics.certified_points import NEAR
 from nag.numerics.discs import Terms
 from nag.tracking.certified_paths import Located, certified_paths, located
 from nag.tracking.moving_discs import MovingPart, MovingSystem
+from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre
-from nag.witness.membership import component_fibres
 from nag.witness.slices import padded, random_rows, unit_complex
 from nag.witness.witness import Decomposition, WitnessSet
 

@@ -9,17 +9,17 @@ from fractions import Fraction
 
 import numpy as np
 
-from nag.algebra.branches import Branch, branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_error
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
-from nag.numerics.zero_values import NONZERO, ON
+from nag.numerics.zero_values import NONZERO
 from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
 from nag.witness.comparable import coordinate_sizes, move_together
-from nag.witness.cutting import Cut, Equations
-from nag.witness.fibres import Fibre, Moved, Tracker, cut_fibres
+from nag.witness.component_equations import component_fibres
+from nag.witness.cutting import Cut
+from nag.witness.fibres import Fibre, Moved, Tracker
 from nag.witness.given_component import check_decomposition, in_doubles
 from nag.witness.slices import padded, rows_through
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
@@ -181,69 +181,6 @@ def _angle(cut: Cut, rows: np.ndarray, end: Fine) -> float:
             for i in range(slopes.nrows())
         ]
     return max(float(np.linalg.svd(np.array(unit), compute_uv=False)[-1]), 1e-300)
-
-
-def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fibre]:
-    """The points of a component with square systems that cut them.
-
-    They are found anew from the system where the component does not hold them.
-
-    Raises:
-        ValueError: if the points are not regular zeros of the system or of a deflation of it.
-    """
-    if component.fibres:
-        return list(component.fibres)
-    _, fibres = _cut(system, component, branches(system) or ())
-    if fibres is None:
-        raise ValueError("the witness points are no regular zeros of the system")
-    return fibres
-
-
-def component_system(system: PolynomialSystem, component: WitnessSet) -> PolynomialSystem:
-    """The branch of the system that a component is one of; the system itself if it has no branches.
-
-    A component may be multiple in the system and simple in its branch.
-    """
-    apart = branches(system)
-    if apart is None:
-        return system
-    found, _ = _cut(system, component, apart)
-    return system if found is None else found
-
-
-def _cut(
-    system: PolynomialSystem, component: WitnessSet, apart: Sequence[Branch]
-) -> tuple[PolynomialSystem | None, list[Fibre] | None]:
-    """A branch of a system, or the system, with square systems that cut a component's points.
-
-    A set that lies in several branches may be one in which these meet.
-    """
-    near = []
-    for branch in apart:
-        residuals = Evaluator.of(branch.polynomials, system.n).residuals(component.points)
-        if residuals.max(initial=0.0) < ON:
-            near.append((residuals.max(initial=0.0), branch.system(system)))
-    # Of branches that come near to each other the nearest one is meant.
-    parts = [part for _, part in sorted(near, key=lambda pair: pair[0])]
-    if len(parts) > 1:
-        together = dict.fromkeys(f for part in parts for f in part.polynomials)
-        parts.append(replace(system, polynomials=tuple(together)))
-    for part in (*parts, system):
-        equations = Equations(part.polynomials, part.n)
-        for deflate in dict.fromkeys((False, component.multiplicity != 1)):
-            if part is system and deflate != (component.multiplicity != 1):
-                continue
-            fibres = cut_fibres(
-                component.points,
-                component.accuracy,
-                equations,
-                component.slice.rows,
-                np.random.default_rng(0),
-                deflate,
-            )
-            if fibres is not None:
-                return part, fibres
-    return None, None
 
 
 def memberships(

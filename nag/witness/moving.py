@@ -12,10 +12,10 @@ from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import ON
 from nag.witness.comparable import move_together
+from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import Sharp, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.given_component import check_component
-from nag.witness.membership import component_fibres
 from nag.witness.slices import to_slice
 from nag.witness.witness import Slice, WitnessSet
 

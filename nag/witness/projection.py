@@ -18,11 +18,11 @@ from nag.numerics.coincidence import clusters
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import SINGULAR
 from nag.witness.comparable import coordinate_sizes
+from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
-from nag.witness.membership import component_fibres
 from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import Slice, WitnessSet

@@ -19,10 +19,11 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import coincident
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import LEAST, ON
+from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import descend, polish
 from nag.witness.given_component import check_component
-from nag.witness.membership import Membership, component_fibres, is_member
+from nag.witness.membership import Membership, is_member
 from nag.witness.witness import WitnessSet
 
 STARTS = 24

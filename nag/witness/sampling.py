@@ -13,9 +13,9 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import ON
 from nag.witness.comparable import coordinate_sizes
+from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.given_component import check_component
-from nag.witness.membership import component_fibres
 from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows
 from nag.witness.witness import WitnessSet
