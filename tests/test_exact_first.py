@@ -76,13 +76,17 @@ def test_isolated_solutions_are_the_components_of_dimension_zero(of, expected) -
 
 def test_sixteen_planes_are_sixteen_components() -> None:
     x, y, z = Polynomial.variables(3)
-    of = PolynomialSystem("xyz", (product_of(*(x + y * k - z * 3 + k * k for k in range(16))),))
+    of = PolynomialSystem(
+        tuple("xyz"), (product_of(*(x + y * k - z * 3 + k * k for k in range(16))),)
+    )
     assert kinds(decompose(of)) == {(2, 1, 1): 16}
 
 
 def test_wilkinsons_roots_are_found_with_their_powers() -> None:
     (x,) = Polynomial.variables(1)
-    of = PolynomialSystem("x", (product_of(*((x - k) ** (1 + k % 3) for k in range(1, 31))),))
+    of = PolynomialSystem(
+        tuple("x"), (product_of(*((x - k) ** (1 + k % 3) for k in range(1, 31))),)
+    )
     found = {round(s.point[0].real): s.multiplicity for s in solve(of).solutions}
     assert found == {k: 1 + k % 3 for k in range(1, 31)}
     assert kinds(decompose(of)) == {(0, 1, m): 10 for m in (1, 2, 3)}
@@ -97,7 +101,7 @@ def test_roots_that_doubles_cannot_tell_apart_are_separate_solutions() -> None:
 @pytest.mark.parametrize("power", [2, 50, 200])
 def test_powers_multiply_to_the_multiplicity(power: int) -> None:
     x, y = Polynomial.variables(2)
-    of = PolynomialSystem("xy", ((x - 1) ** power, (y - x * x) ** 200))
+    of = PolynomialSystem(tuple("xy"), ((x - 1) ** power, (y - x * x) ** 200))
     assert multiplicities(solve(of)) == {200 * power: 1}
 
 
@@ -110,7 +114,7 @@ def test_powers_multiply_where_gradients_depend_on_each_other() -> None:
 
 def test_a_power_of_a_sphere_has_the_powers_multiplicity() -> None:
     x, y, z = Polynomial.variables(3)
-    of = PolynomialSystem("xyz", ((x * x + y * y + z * z - 1) ** 9 * (x - y) ** 20,))
+    of = PolynomialSystem(tuple("xyz"), ((x * x + y * y + z * z - 1) ** 9 * (x - y) ** 20,))
     assert kinds(decompose(of)) == {(2, 2, 9): 1, (2, 1, 20): 1}
 
 
