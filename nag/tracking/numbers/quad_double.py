@@ -75,14 +75,20 @@ def add(a, b):
     return _normalized(s, t, u, v, e + f + h)
 
 
-def multiply(a, b):
-    """``a b``."""
+def _products(a, b):
+    """Products of the leading words, the largest first, and what rounding took from each."""
     p0, q0 = two_product(a[0], b[0])
     p1, q1 = two_product(a[0], b[1])
     p2, q2 = two_product(a[1], b[0])
     p3, q3 = two_product(a[0], b[2])
     p4, q4 = two_product(a[1], b[1])
     p5, q5 = two_product(a[2], b[0])
+    return p0, p1, p2, p3, p4, p5, q0, q1, q2, q3, q4, q5
+
+
+def multiply(a, b):
+    """``a b``."""
+    p0, p1, p2, p3, p4, p5, q0, q1, q2, q3, q4, q5 = _products(a, b)
     p1, p2, q0 = three_sum(p1, p2, q0)
     p2, q1, q2 = three_sum(p2, q1, q2)
     p3, p4, p5 = three_sum(p3, p4, p5)
@@ -97,12 +103,7 @@ def multiply(a, b):
 
 def gather(s, a, b):
     """``s + a b`` where the words of ``s`` and of the result may overlap."""
-    p0, q0 = two_product(a[0], b[0])
-    p1, q1 = two_product(a[0], b[1])
-    p2, q2 = two_product(a[1], b[0])
-    p3, q3 = two_product(a[0], b[2])
-    p4, q4 = two_product(a[1], b[1])
-    p5, q5 = two_product(a[2], b[0])
+    p0, p1, p2, p3, p4, p5, q0, q1, q2, q3, q4, q5 = _products(a, b)
     last = fma(a[0], b[3], fma(a[1], b[2], fma(a[2], b[1], fma(a[3], b[0], q3 + q4 + q5))))
     s0, e0 = two_sum(s[0], p0)
     s1, e1 = two_sum(s[1], p1)
