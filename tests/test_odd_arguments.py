@@ -270,6 +270,8 @@ ODD: dict[str, list[Callable[[], Any]]] = {
     "signs": [lambda: nag.SignedPermutation.of_signs(3)],
     "images": [lambda: nag.SignedPermutation.of_map(3, ("x",))],
     "A, b": [lambda: nag.Slice([[1, 2]], [1, 2]), lambda: nag.Slice([[1, 2]], 3)],
+    "A": [lambda: nag.Slice("a", [1]), lambda: nag.Slice([[1, 2], [3]], [1, 2])],
+    "b": [lambda: nag.Slice([[1, 2]], ["one"])],
     "slice": [
         lambda: nag.WitnessSet(
             3, line().points, 1, "irreducible", 0.0, line().radii, line().digits, 1

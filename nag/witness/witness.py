@@ -50,8 +50,11 @@ class Slice:
     b: np.ndarray
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "A", fixed_array(self.A, complex))
-        object.__setattr__(self, "b", fixed_array(self.b, complex))
+        for name in ("A", "b"):
+            try:
+                object.__setattr__(self, name, fixed_array(getattr(self, name), complex))
+            except (TypeError, ValueError):
+                raise ValueError(f"{name}: give an array of numbers") from None
         if self.A.ndim != 2 or self.b.shape != self.A.shape[:1]:
             raise ValueError(
                 f"A, b: arrays of shapes {self.A.shape} and {self.b.shape} are given; give (d, n) "
