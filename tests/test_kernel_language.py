@@ -7,25 +7,13 @@ import inspect
 import math
 import re
 from collections.abc import Callable
-from typing import NamedTuple
 
 import pytest
+from kernel_memory import Memory
 
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import any_less, load, store
-from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.machine_code.values import KernelError
-
-
-class Memory(NamedTuple):
-    """What the functions below read and write."""
-
-    n: int
-    x: float
-    flag: bool
-    wholes: Wholes
-    reals: Reals
-    complexes: Complexes
 
 
 def _rest(a, b):

@@ -6,30 +6,18 @@ import inspect
 import math
 import re
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from kernel_memory import Memory
 
 from nag.machine_code import plain
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.records import Complexes, Reals, Wholes
 
 NUMBERS = st.floats(-1e50, 1e50)
 FACTOR = 3
-
-
-class Memory(NamedTuple):
-    """What the functions below read and write."""
-
-    n: int
-    x: float
-    flag: bool
-    wholes: Wholes
-    reals: Reals
-    complexes: Complexes
 
 
 def _memory(n: int = 0, x: float = 0.0, flag: bool = False) -> Memory:

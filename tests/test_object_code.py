@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 import struct
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pytest
+from kernel_memory import Memory
 from llvmlite import binding
 
 from nag.machine_code import lanes
@@ -15,22 +16,10 @@ from nag.machine_code.functions import Module
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.operations import OPERATIONS
 from nag.machine_code.processor import ENTRY, Processor, object_code
-from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.solving.start.mixed_cells import _kernel as cells
 from nag.tracking.ends import end_run
 from nag.tracking.newton_kernel import newton_lanes
 from nag.tracking.straight_run import track_lanes
-
-
-class Memory(NamedTuple):
-    """What `language` reads and writes."""
-
-    n: int
-    x: float
-    flag: bool
-    wholes: Wholes
-    reals: Reals
-    complexes: Complexes
 
 
 def language(m: Memory) -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nag.algebra.given import check_type, check_whole
+from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.diagonal import intersected
@@ -28,7 +28,7 @@ from nag.numerics.zero_values import LEAST, ON
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
 from nag.witness.fibres import Fibre, Progress, Tracker, admit
-from nag.witness.given_component import check_component, check_system
+from nag.witness.given_component import check_component, check_index, check_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
@@ -330,11 +330,7 @@ def intersect_pair(
     check_type(decomposition, Decomposition, "decomposition", "what nag.decompose returns")
     components = decomposition.components
     for place, index in (("first", first), ("second", second)):
-        check_whole(index, place)
-        if index >= len(components):
-            raise ValueError(
-                f"{place}: {index} is no index; there are {len(components)} components, from 0 on"
-            )
+        check_index(index, place, len(components))
     return intersect_components(
         decomposition.system, components[first], components[second], **options
     )

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.given import check_listed, check_whole
+from nag.algebra.given import check_listed
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.factor import Factor, IntersectionError
 from nag.decomposition.intersection import intersect_factors
@@ -30,7 +30,7 @@ from nag.numerics.tangent_cone import TangentCone, tangent_cone
 from nag.witness.component_equations import component_fibres, component_system
 from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
-from nag.witness.given_component import check_decomposition
+from nag.witness.given_component import check_decomposition, check_index
 from nag.witness.multiplicity import multiplicity_at
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
@@ -255,9 +255,7 @@ def check_indices(only: Sequence[int] | None, count: int) -> None:
         return
     check_listed(only, "only", "a list of indices of components")
     for i in only:
-        check_whole(i, "only")
-        if i >= count:
-            raise ValueError(f"only: {i} is no index; there are {count} components, from 0 on")
+        check_index(i, "only", count)
 
 
 def _own_equations(

@@ -11,8 +11,10 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.from_python import coordinates
+from nag.algebra.given import check_whole
 from nag.algebra.number import Irrational, is_zero
 from nag.algebra.system import PolynomialSystem
+from nag.witness.given_component import rounded
 from nag.witness.membership import Membership, UndecidedError, memberships
 from nag.witness.sampling import sample
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
@@ -32,8 +34,7 @@ def sampled(
     settings: str,
 ) -> np.ndarray:
     """Points of a component, see `WitnessSet.sample`."""
-    if isinstance(count, bool) or not isinstance(count, numbers.Integral) or count < 0:
-        raise ValueError(f"count: {count!r} is given; give a whole number from 0 up")
+    check_whole(count, "count")
     if isinstance(rng, numbers.Integral) and not isinstance(rng, bool) and rng >= 0:
         seed = int(rng)
     elif isinstance(rng, np.random.Generator):
@@ -54,7 +55,7 @@ def contains(
     """Whether a point lies on a component, see `WitnessSet.contains`."""
     entries = coordinates(point, system.variables)
     exact = all(isinstance(e, Fraction | Irrational) for e in entries)
-    at = np.array([complex(float(e)) if isinstance(e, Irrational) else complex(e) for e in entries])
+    at = rounded(entries)
     if exact:
         if not all(is_zero(value) for value in system(entries)):
             return False

@@ -58,11 +58,11 @@ class Fine:
         return self.curvature == other.curvature and np.array_equal(self.words, other.words)
 
     @classmethod
-    def of_doubles(cls, x: np.ndarray) -> Fine:
+    def of_doubles(cls, x: np.ndarray, curvature: float = 1.0) -> Fine:
         """A point of which no more is known than complex doubles, shape ``(n,)``."""
         words = np.zeros((len(x), 2, WORDS))
         words[:, 0, 0], words[:, 1, 0] = x.real, x.imag
-        return cls(words, 1.0)
+        return cls(words, curvature)
 
     def first(self, count: int) -> Fine:
         """The first coordinates only."""

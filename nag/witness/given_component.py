@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.from_python import coordinates
-from nag.algebra.given import check_running, check_type
+from nag.algebra.given import check_running, check_type, check_whole
 from nag.algebra.number import Irrational
 from nag.algebra.system import PolynomialSystem
 from nag.witness.witness import Decomposition, WitnessSet
@@ -52,13 +52,28 @@ def check_decomposition(decomposition: Any, seed: Any, threads: Any, settings: A
     check_running(seed, threads, settings)
 
 
+def check_index(value: Any, place: str, count: int) -> None:
+    """Make sure that an argument is the index of one of so many components.
+
+    Raises:
+        ValueError: if it is not.
+    """
+    check_whole(value, place)
+    if value >= count:
+        raise ValueError(f"{place}: {value} is no index; there are {count} components, from 0 on")
+
+
 def in_doubles(point: Any, variables: Sequence[str]) -> np.ndarray:
     """A point as complex doubles, shape ``(n,)``.
 
     Raises:
         ValueError: if there are more or fewer than variables, or one is no finite number.
     """
-    entries = coordinates(point, variables)
+    return rounded(coordinates(point, variables))
+
+
+def rounded(entries: Sequence[Any]) -> np.ndarray:
+    """Exact or complex numbers as complex doubles, shape ``(n,)``."""
     return np.array(
         [complex(float(x)) if isinstance(x, Irrational) else complex(x) for x in entries]
     )

@@ -74,7 +74,7 @@ def is_member(
                 return Membership.MEMBER, counts
             unclear |= Membership.UNDECIDED in answers
             ends = ends.without(ends.fine)
-        distances = _distances(point, fibre, ends)[ends.finite]
+        distances = _distances(point, ends, coordinate_sizes(fibre)[1:])[ends.finite]
         if compared(distances, accuracy)[0].any():
             return Membership.MEMBER, counts
         errors = np.maximum(accuracy, ends.accuracy[ends.finite])
@@ -82,14 +82,13 @@ def is_member(
     return Membership.UNDECIDED if unclear else Membership.FOREIGN, counts
 
 
-def _distances(point: np.ndarray, fibre: Fibre, ends: Moved) -> np.ndarray:
+def _distances(point: np.ndarray, ends: Moved, sizes: np.ndarray) -> np.ndarray:
     """Of the ends from a point, relative to its size; infinite for those that are none.
 
-    In coordinates of comparable sizes, as paths are tracked and the slice is rounded in these.
+    Paths are tracked, and slices rounded, where the coordinates are divided by their ``sizes``.
     """
-    sizes = coordinate_sizes(fibre)[1:]
     distances = np.full(len(ends.points), np.inf)
-    off = (ends.points[ends.finite, : fibre.cut.n] - point) / sizes
+    off = (ends.points[ends.finite, : len(point)] - point) / sizes
     distances[ends.finite] = np.linalg.norm(off, axis=1) / (1 + np.linalg.norm(point / sizes))
     return distances
 
@@ -98,11 +97,9 @@ def _near_ones_rated(
     point: np.ndarray, accuracy: float, fibre: Fibre, ends: Moved, rows: np.ndarray
 ) -> Moved:
     """The ends with Newton's constant of those that are near to a point, and not at it."""
-    distances = _distances(point, fibre, ends)
-    same, doubtful = compared(distances, accuracy)
+    same, doubtful = compared(_distances(point, ends, coordinate_sizes(fibre)[1:]), accuracy)
     # Where sizes are unequal, what is little beside the largest may be much for the point.
-    off = np.linalg.norm(ends.points[:, : fibre.cut.n] - point, axis=1)
-    away = off > np.maximum(accuracy, ends.accuracy) * (1 + np.linalg.norm(point))
+    away = _distances(point, ends, np.ones(len(point))) > np.maximum(accuracy, ends.accuracy)
     near = ends.regular & (same | doubtful) & away
     fine = dict(ends.fine)
     for i in set(np.flatnonzero(near).tolist()) - fine.keys():

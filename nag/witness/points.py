@@ -10,7 +10,6 @@ import numpy as np
 
 from nag.witness.close_points import (
     DIGITS,
-    WORDS,
     Fine,
     chosen,
     close_pairs,
@@ -82,12 +81,10 @@ class Points:
         """More digits of a point in doubles that is so far from the next one."""
         import flint
 
-        words = np.zeros((len(self.z[i]), 2, WORDS))
-        words[:, 0, 0], words[:, 1, 0] = self.z[i].real, self.z[i].imag
         steep = STEEPER * self._size(i) / max(apart, 1e-300)
         with flint.ctx.workdps(2 * DIGITS):
             cut = self.cuts[self.which[i]]
-            found = zero_from(cut.polynomials, self.rows, Fine(words, steep), DIGITS)
+            found = zero_from(cut.polynomials, self.rows, Fine.of_doubles(self.z[i], steep), DIGITS)
             return None if found is None else in_words(found[0], steep)
 
     def __len__(self) -> int:
