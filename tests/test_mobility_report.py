@@ -6,12 +6,14 @@ import json
 from fractions import Fraction
 
 import jsonschema
+import numpy as np
 import pytest
-from linkages import CASES, case, four_bar, general_loop, loop, spherical_four_bar
+from linkages import CASES, case, exact, four_bar, general_loop, loop, spherical_four_bar
 from local_points import sarrus
 
 import nag
 from nag.cli import main
+from nag.decomposition import components_through
 from nag.files.json_values import schema
 from nag.mechanism.graph import Joint, Mechanism
 from nag.numerics.local_dimension import NoSolution
@@ -50,6 +52,27 @@ def test_what_a_mechanism_does_at_its_reference_configuration(name: str) -> None
     assert report.status == status, report
     assert report.components is not None and {d for d, _ in report.components} == dimensions
     assert len(str(report).splitlines()) == 5
+
+
+def legs(*feet: tuple[int, int]) -> Mechanism:
+    """A platform on parallel legs of equal lengths, with spherical joints at both ends."""
+    joints = []
+    for i, foot in enumerate(feet):
+        for below, above, height in (("base", f"leg{i}", 0), (f"leg{i}", "platform", 8)):
+            name = f"{below}{i}-{above}"
+            joints.append(Joint(name, "spherical", (below, above), exact(*foot, height)))
+    return Mechanism("base", tuple(joints))
+
+
+def test_all_motions_that_meet_at_a_reference_are_told_on_every_seed() -> None:
+    # Sheets touch there: a slice beside the point meets them in several points next to it.
+    made = nag.model(legs((5, 0), (4, 3), (0, 5), (-4, 3)))
+    answer = nag.decompose(made)
+    found = [(c.dimension, c.degree, c.multiplicity) for c in answer.components]
+    assert answer.complete and found == [(2, 2, 2), (2, 12, 1), (2, 12, 1)]
+    at = np.array(made.reference, dtype=complex)
+    for seed in range(6):
+        assert components_through(answer, at, exact=made.reference, seed=seed) == [0, 1, 2]
 
 
 def test_a_shaky_structure_has_its_multiplicity() -> None:

@@ -7,8 +7,12 @@ followed in double-double or quad-double from their starts on, in steps that the
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
+
 import numpy as np
 
+from nag.algebra.number import Number
 from nag.tracking.compiled import CompiledRows, Terms
 from nag.tracking.ends.follow import DIGITS, follow_whole
 from nag.tracking.homotopy import Homotopy
@@ -22,20 +26,41 @@ WORDS, STEEP = 4, 1e11
 
 
 def moving_rows(
-    rows: CompiledRows, source: np.ndarray, target: np.ndarray, gamma: complex
+    rows: CompiledRows,
+    source: np.ndarray,
+    target: np.ndarray,
+    gamma: complex,
+    through: Sequence[Number] = (),
 ) -> Homotopy:
     """``t gamma source + (1 - t) target`` beside fixed rows, in coefficients that nothing rounds.
 
     Args:
         rows: the fixed ones, of one group of coordinates.
         source, target: linear rows, shape ``(k, N)``.
+        through: the first affine coordinates of an exact point that the target passes through,
+            those that it does not depend on left out: its constants are worked out from them.
     """
-    parts = list(rows.parts)
-    for pair in zip(source, target, strict=True):
-        parts.append(tuple((1 + i, _linear(row)) for i, row in enumerate(pair)))
+    moving = []
+    for first, second in zip(source, target, strict=True):
+        ends = _through(second, through) if len(through) else (_linear(second),)
+        moving.append(tuple((1 + i, terms) for i, terms in enumerate((_linear(first), *ends))))
     degrees = np.vstack([rows.degrees, np.ones((len(source), 1), dtype=np.int64)])
-    whole = CompiledRows(rows.N, tuple(parts), rows.groups, rows.infinity, degrees)
-    return Homotopy(whole, factors=((1, 0), (0, gamma), (1, -1)))
+    parts = (*rows.parts, *moving)
+    whole = CompiledRows(rows.N, parts, rows.groups, rows.infinity, degrees)
+    factors = ((1, 0), (0, gamma), (1, -1), (1j, -1j))[: whole.part_count]
+    # The slice's own digits are random ones.
+    return Homotopy(whole, factors=factors, digits=rows.digits if len(through) else None)
+
+
+def _through(row: np.ndarray, point: Sequence[Number]) -> tuple[Terms, Terms]:
+    """The real and the imaginary part of a linear row with its constant such that it vanishes."""
+    units, parts = np.eye(len(row), dtype=int).tolist(), []
+    for values in (row.real.tolist(), row.imag.tolist()):
+        slopes = [Fraction(value) for value in values[1:]]
+        constant = -sum((a * x for a, x in zip(slopes, point, strict=False)), Fraction(0))
+        coefficients = zip(units, (constant, *slopes), strict=True)
+        parts.append({tuple(e): c for e, c in coefficients})
+    return parts[0], parts[1]
 
 
 def _linear(row: np.ndarray) -> Terms:

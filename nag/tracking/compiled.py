@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from nag.algebra.number import Number
+from nag.algebra.number import Number, decimal_digits
 from nag.algebra.polynomial import Exponents, Polynomial
 
 Terms = Mapping[Exponents, Number | complex]
@@ -79,6 +79,12 @@ class CompiledRows:
     def part_count(self) -> int:
         """Number of parts that the rows refer to."""
         return 1 + max((p for row in self.parts for p, _ in row), default=0)
+
+    @cached_property
+    def digits(self) -> int:
+        """The most decimal digits of a coefficient."""
+        every = (c for row in self.parts for _, terms in row for c in terms.values())
+        return max(map(decimal_digits, every), default=0)
 
     @cached_property
     def in_doubles(self) -> list[list[list[tuple[Exponents, complex]]]]:

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 
+from nag.algebra.number import Number
 from nag.witness.close_points import Fine
 from nag.witness.fibres import Fibre, Moved, Tracker, move
 from nag.witness.slices import evened, unit_complex
@@ -29,15 +31,19 @@ def move_together(
     rng: np.random.Generator,
     tracker: Tracker,
     endgame: bool = True,
+    through: Sequence[Number] = (),
 ) -> Iterator[tuple[Fibre, Moved]]:
     """Each fibre of a set, of which there are some, and where it is moved when it is asked for.
 
     The slice moves from the rows ``source`` to the rows ``target``, by a ``gamma`` from ``rng``, in
     coordinates in which those of the set are comparable.
+
+    Args:
+        through: an exact point that the target passes through.
     """
     gamma, sizes = complex(unit_complex(rng)), coordinate_sizes(fibres[0])
     rows = evened(source, sizes), evened(target, sizes)
-    return ((fibre, _moved(fibre, *rows, gamma, tracker, endgame)) for fibre in fibres)
+    return ((fibre, _moved(fibre, *rows, gamma, tracker, endgame, through)) for fibre in fibres)
 
 
 def _moved(
@@ -47,15 +53,17 @@ def _moved(
     gamma: complex,
     tracker: Tracker,
     endgame: bool,
+    through: Sequence[Number],
 ) -> Moved:
     powers = fibre.cut.powers
     if not powers.any():
-        return move(fibre, source, target, gamma, tracker, endgame)
+        return move(fibre, source, target, gamma, tracker, endgame, through)
     sizes = coordinate_sizes(fibre)
     fine = {i: _scaled(point, -powers) for i, point in fibre.fine.items()}
     points = fibre.points * np.ldexp(1.0, -powers)
     own = Fibre(fibre.cut.scaled, fibre.dimension, points, fine)
-    ends = move(own, source * sizes, target * sizes, gamma, tracker, endgame)
+    there = [x * Fraction(2) ** -int(k) for x, k in zip(through, powers, strict=False)]
+    ends = move(own, source * sizes, target * sizes, gamma, tracker, endgame, there)
     fine = {i: _scaled(point, powers) for i, point in ends.fine.items()}
     finite = np.where(ends.finite[:, None], ends.points, 0.0)
     return replace(ends, points=finite * np.ldexp(1.0, powers), fine=fine)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from nag.algebra.number import Number
 from nag.numerics.coincidence import coincident
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.zero_values import ON
@@ -215,18 +216,30 @@ def move(
     gamma: complex,
     tracker: Tracker,
     endgame: bool = False,
+    through: Sequence[Number] = (),
 ) -> Moved:
     """Move the slice of ``fibre`` from the rows ``source`` to the rows ``target``.
 
     All rows turn with the same ``gamma``: only then do all points of a fibre, and all fibres of a
     set, move as one.
+
+    Args:
+        through: an exact point that the target passes through. Where sheets cross, a slice that is
+            rounded beside the crossing meets them in as many points as near to each other.
     """
     if fibre.fine:
-        return _moved_apart(fibre, source, target, gamma, tracker, endgame)
+        return _moved_apart(fibre, source, target, gamma, tracker, endgame, through)
     columns = 1 + fibre.cut.n + fibre.cut.aux
-    a0, a1 = padded(target, columns), padded(gamma * source - target, columns)
+    if len(through):
+        from nag.tracking.close_paths import moving_rows
+
+        ends = padded(source, columns), padded(target, columns)
+        homotopy = moving_rows(fibre.cut.rows, *ends, gamma, through)
+    else:
+        a0, a1 = padded(target, columns), padded(gamma * source - target, columns)
+        homotopy = Homotopy(fibre.cut.rows, a0, a1)
     paths = track(
-        Homotopy(fibre.cut.rows, a0, a1),
+        homotopy,
         homogeneous(fibre.points),
         settings=tracker.settings,
         threads=tracker.threads,
@@ -242,6 +255,7 @@ def _moved_apart(
     gamma: complex,
     tracker: Tracker,
     endgame: bool,
+    through: Sequence[Number],
 ) -> Moved:
     """`move` where some points are close to others: their paths are tracked in more digits."""
     from nag.tracking.close_paths import moving_rows
@@ -252,11 +266,10 @@ def _moved_apart(
     columns = 1 + fibre.cut.n + fibre.cut.aux
     rows = padded(source, columns), padded(target, columns)
     starts = [fibre.fine[i] for i in indices]
-    homotopy = moving_rows(fibre.cut.rows, *rows, gamma)
+    homotopy = moving_rows(fibre.cut.rows, *rows, gamma, through)
     close = moved_close(homotopy, starts, fibre.cut, target, tracker, endgame)
-    return joined(
-        {0: plain, 1: indices}, (move(rest, source, target, gamma, tracker, endgame), close)
-    )
+    others = move(rest, source, target, gamma, tracker, endgame, through)
+    return joined({0: plain, 1: indices}, (others, close))
 
 
 def moved_close(

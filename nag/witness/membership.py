@@ -43,7 +43,7 @@ def is_member(
     flag: np.ndarray,
     rng: np.random.Generator,
     tracker: Tracker,
-    bounded: bool = False,
+    given: Sequence[Number] | None = None,
 ) -> tuple[Membership, PathCounts]:
     """Whether an affine point lies in the closure of the set that ``fibres`` stand for.
 
@@ -52,10 +52,12 @@ def is_member(
     (Sommese, Verschelde & Wampler 2001).
 
     Args:
-        bounded: whether ``accuracy`` is a bound of the point's relative error. A regular end that
-            is further from the point than this and its own error explain is another one then.
+        given: of a point that was asked about, its exact coordinates, none if they are not known;
+            ``accuracy`` is a bound of its relative error. A regular end that is further from the
+            point than this and its own error explain is another one then. None of a point that
+            paths led to.
     """
-    counts = PathCounts()
+    counts, bounded = PathCounts(), given is not None
     fibres = [fibre for fibre in fibres if len(fibre)]
     if not fibres:
         return Membership.FOREIGN, counts
@@ -63,7 +65,8 @@ def is_member(
     scale = 1 + float(np.linalg.norm(point))
     target = rows_through(rng, dimension, point, coordinate_sizes(fibres[0]))
     unclear = False
-    for fibre, ends in move_together(fibres, flag[:dimension], target, rng, tracker):
+    rows = flag[:dimension], target
+    for fibre, ends in move_together(fibres, *rows, rng, tracker, through=given or ()):
         counts += ends.counts.judged_elsewhere
         if bounded:
             ends = _near_ones_rated(point, accuracy, fibre, ends, target)
@@ -237,7 +240,7 @@ def memberships(
             answers.append(Membership.UNDECIDED)
             continue
         rows = component.slice.rows
-        answer, _ = is_member(point, accuracy, fibres, rows, rng, tracker, bounded=True)
+        answer, _ = is_member(point, accuracy, fibres, rows, rng, tracker, exact)
         answers.append(answer)
     return tuple(answers)
 
