@@ -56,6 +56,11 @@ CASES = [
     (system("x y z", "x*y", "y*z", "x*z*(x - 1)"), {(1, 1, 1): 4}),
     (system("x y z", "x^2*(z - 1)^3", "x*y*(z - 1)^2"), {(2, 1, 2): 1, (2, 1, 1): 1}),
     (system("x y", "sqrt(2)*x*y", "x*(y - 1)"), {(1, 1, 1): 1}),
+    (system("x y", "(y - x)*(y + x)", "x - sqrt(2)"), {(0, 1, 1): 2}),
+    (system("x y", "(y - x)*(y + x)^2", "(x - sqrt(3)/2)*(y - 1)"), {(0, 1, 1): 2, (0, 1, 2): 2}),
+    (system("x y", "(x - 1)*y", "(x - 1)*(x - cos(pi/5))"), {(1, 1, 1): 1, (0, 1, 1): 1}),
+    (system("x y", "x*(x - 1)", "y - sqrt(2)*x", "y - sqrt(3)*x"), {(0, 1, 1): 1}),
+    (system("x y z", "(x - y)*z", "(x - y)*(z - 1)", "z*(y - sqrt(6))"), {(1, 1, 1): 2}),
     (system("x y", "-2*x*y^3 - 2*x^2 + 3*y - 1/500", "-2*y - 3*y^4/100000"), {(0, 1, 1): 8}),
 ]
 
@@ -72,6 +77,59 @@ def test_isolated_solutions_are_the_components_of_dimension_zero(of, expected) -
     assert multiplicities(result) == points
     assert result.positive_dimensional == any(kind[0] > 0 for kind in expected)
     assert all(s.residual < 1e-14 for s in result.solutions)
+
+
+COEFFICIENTS = {
+    "rational": ["0", "1", "-1", "2", "1/2", "-3/2"],
+    "square roots": ["0", "1", "-1", "sqrt(2)", "sqrt(3)/2", "-sqrt(2)", "sqrt(6)"],
+    "algebraic": ["0", "1", "-1/2", "cos(pi/5)", "cos(2*pi/7)", "sqrt(1 + sqrt(2))"],
+}
+
+
+def random_factored_system(rng: np.random.Generator, numbers: list[str]) -> PolynomialSystem:
+    """Products of linear polynomials, each of which vanishes at one of some points.
+
+    Some equations are rational, so that they fall apart, and others need not be.
+    """
+    n = int(rng.integers(2, 4))
+    variables = "xyz"[:n]
+    places = {
+        False: rng.choice(COEFFICIENTS["rational"], (2, n)),
+        True: rng.choice(numbers, (3, n)),
+    }
+
+    def factor(numbers: list[str], points: np.ndarray) -> str:
+        point = rng.choice(points)
+        only = int(rng.integers(n)) if rng.random() < 0.4 else None
+        slopes = ["1" if i == only else "0" for i in range(n)]
+        if only is None:
+            slopes = list(rng.choice(numbers, n))
+        if set(slopes) == {"0"}:
+            slopes[0] = "1"
+        terms = zip(slopes, variables, point, strict=True)
+        return "(" + " + ".join(f"({a})*({v} - ({c}))" for a, v, c in terms) + ")"
+
+    equations = []
+    for _ in range(n + int(rng.random() < 0.25)):
+        given = bool(rng.random() < 0.5)
+        pool = numbers if given else rational
+        factors = (factor(pool, places[given]) for _ in range(rng.integers(1, 4)))
+        equations.append("*".join(factors))
+    return system(" ".join(variables), *equations)
+
+
+@pytest.mark.parametrize("numbers", COEFFICIENTS.values(), ids=COEFFICIENTS)
+def test_solve_and_decompose_find_the_same_points_of_random_products(numbers: list[str]) -> None:
+    rng = np.random.default_rng(7)
+    for _ in range(8):
+        of = random_factored_system(rng, numbers)
+        result, answer = solve(of), decompose(of)
+        assert result.complete and answer.complete
+        points = [(p, c) for c in answer.components if not c.dimension for p in c.points]
+        assert len(result.solutions) == len(points)
+        for each in result.solutions:
+            near = [c for p, c in points if np.allclose(p, each.point, rtol=1e-9, atol=1e-9)]
+            assert [c.multiplicity for c in near] == [each.multiplicity]
 
 
 def test_sixteen_planes_are_sixteen_components() -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
+from enum import Enum
 from functools import cached_property
 
 from nag.algebra.elimination import Elimination, eliminate_linear, solved, substituted
@@ -44,6 +45,15 @@ def follows(image: Polynomial, elimination: Elimination) -> bool:
     return not image or any(p in elimination.irreducible for p, _ in factored(image))
 
 
+class BranchKind(Enum):
+    """What elimination shows a branch to be."""
+
+    EMPTY = "no points"
+    POINT = "one point"
+    LINEAR_SPACE = "a linear space, or the graph of polynomials over one"
+    SYSTEM = "the zeros of equations that are left"
+
+
 @dataclass(frozen=True, eq=False)
 class BranchEquations:
     """A branch of a system, which all its components share.
@@ -61,6 +71,20 @@ class BranchEquations:
     def elimination(self) -> Elimination:
         """The way to fewer variables."""
         return eliminate_linear(self.system, graphs=self.graphs)
+
+    @cached_property
+    def kind(self) -> BranchKind:
+        """What the branch is, as far as elimination shows.
+
+        Its dimension, where no equation is left, is the number of variables that are. It has no
+        points where a polynomial that must not vanish does so identically.
+        """
+        reduced = self.elimination.system
+        if any(f.degree == 0 for f in reduced.polynomials) or not all(reduced.nonzero):
+            return BranchKind.EMPTY
+        if reduced.polynomials:
+            return BranchKind.SYSTEM
+        return BranchKind.LINEAR_SPACE if reduced.n else BranchKind.POINT
 
     def image(self, f: Polynomial) -> tuple[Polynomial, bool]:
         """A polynomial in the variables that are left, and whether it is seen to vanish there."""

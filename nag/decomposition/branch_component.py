@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero
-from nag.algebra.branch_equations import BranchEquations, Vanishing
+from nag.algebra.branch_equations import BranchEquations, BranchKind, Vanishing
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, SingularEnd, analyse
@@ -53,11 +53,9 @@ class BranchComponent:
         known = self._each_known and self.witness.multiplicity == 1
         if known and surely_differs(f, self.witness.points[0], self.witness.radii[0]):
             return False
-        image, zero = self.branch.image(f)
-        if not self.branch.elimination.system.polynomials and f.exact:
-            return not image
-        if zero:
-            return True
+        _, zero = self.branch.image(f)
+        if zero or self.branch.kind in (BranchKind.POINT, BranchKind.LINEAR_SPACE):
+            return zero
         multiple = self._isolated and self.witness.multiplicity != 1
         fibre = None if multiple and self.zeros else self._fibre
         if fibre is None:

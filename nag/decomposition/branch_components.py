@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.algebra.algebraic_zeros import BITS, AlgebraicZero, algebraic_zeros
-from nag.algebra.branch_equations import BranchEquations
+from nag.algebra.branch_equations import BranchEquations, BranchKind
 from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
@@ -121,10 +121,12 @@ def _part(
     zeros = None if symmetries else algebraic_zeros(system)
     if zeros is not None:
         return _algebraic(system, zeros)
-    if not system.groups and all(f.exact and f.degree <= 1 for f in system.polynomials):
-        return _linear(system, rng)
-    answer = whole(system, symmetries)
     branch = BranchEquations(system, graphs=False)
+    if branch.kind is BranchKind.EMPTY:
+        return _Part(system, (), None)
+    if branch.kind is not BranchKind.SYSTEM and not system.groups:
+        return _Part(system, (_linear_space(branch, rng),), None)
+    answer = whole(system, symmetries)
     return _Part(system, tuple(BranchComponent(c, branch) for c in answer.components), answer)
 
 
@@ -154,10 +156,9 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
     return _Part(system, tuple(found), None)
 
 
-def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
-    """A linear space by a point of it."""
-    branch = BranchEquations(system, graphs=False)
-    elimination = branch.elimination
+def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchComponent:
+    """A linear space, which may be a point, by a point of it."""
+    system, elimination = branch.system, branch.elimination
     frame, d = Frame.of(elimination), elimination.system.n
     rows = random_rows(rng, d, d)
     point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
@@ -176,7 +177,7 @@ def _linear(system: PolynomialSystem, rng: np.random.Generator) -> _Part:
         corank=d,
         fibres=(Fibre(cut, d, x),),
     )
-    return _Part(system, (BranchComponent(witness, branch),), None)
+    return BranchComponent(witness, branch)
 
 
 def _vanishes_at(f: Polynomial, zero: AlgebraicZero) -> bool:

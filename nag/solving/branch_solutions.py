@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.algebraic_zeros import BITS, AlgebraicZero, algebraic_zeros
-from nag.algebra.branch_equations import BranchEquations, Vanishing
+from nag.algebra.branch_equations import BranchEquations, BranchKind, Vanishing
 from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator, may_vanish
 from nag.algebra.factoring import Factors, factored
@@ -56,8 +56,8 @@ class _Found:
 
     Attributes:
         zero: the exact zero, where it is one of an algebraic branch.
-        branch: where it is one of a system that was tracked, what led there from the branch.
-        tracked: the solution of that system.
+        branch: of any other, what led there from its equations.
+        tracked: the solution of the system that was left; None where elimination left one point.
     """
 
     solution: Solution
@@ -83,8 +83,8 @@ class _Found:
             return False
         assert self.branch is not None
         image, zero = self.branch.image(f)
-        if zero:
-            return True
+        if zero or self.tracked is None:
+            return zero
         return vanishes_at_all(self._zeros, image)
 
     @cached_property
@@ -104,7 +104,7 @@ class _Found:
     @cached_property
     def in_digits(self) -> list[Any] | None:
         """The coordinates to 100 digits (FLINT's ``acb``) where it is known which zero this is."""
-        if len(self._zeros) != 1:
+        if self.tracked is not None and len(self._zeros) != 1:
             return None
         import flint
 
@@ -112,7 +112,7 @@ class _Found:
 
         assert self.branch is not None
         with flint.ctx.workdps(WORKING):
-            y = point(self._zeros[0].digits)
+            y = point(self._zeros[0].digits) if self.tracked is not None else []
             return [flint.acb(f(y, number)).mid() for f in self.branch.elimination.images]
 
 
@@ -163,47 +163,57 @@ def solve_apart(
         return None
     apart = branches(replace(system, nonzero=()))
     if apart is None:
-        whole = replace(system, nonzero=())
-        zeros = algebraic_zeros(whole) if exactly else None
-        if zeros is None:
+        branch = BranchEquations(replace(system, nonzero=()), graphs=True)
+        whole = _exact(branch) if exactly else None
+        if whole is None:
             return None
-        parts = [_algebraic(whole, zeros)]
+        parts = [whole]
     else:
         parts = [_part(b.system(replace(system, nonzero=())), tracked, exactly) for b in apart]
     return _joined(system, parts, seed, settings, apart is not None)
 
 
-def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Part:
+def _exact(branch: BranchEquations, two_variables: bool = True) -> _Part | None:
+    """A branch that exact algebra solves; None where paths must be tracked."""
+    system = branch.system
     evaluator = Evaluator.of(system.polynomials, system.n)
-    found = []
-    for zero in zeros:
-        x = zero.point
-        s = np.linalg.svd(evaluator.balanced_jacobian(x), compute_uv=False)
-        # A multiple zero is a simple one of the polynomial that defines it.
-        condition = float(s[0] / s[-1]) if zero.multiplicity == 1 and s[-1] > 0 else 1.0
-        residual = float(evaluator.residuals(x[None]).max(initial=0.0))
-        accuracy = float(np.finfo(float).eps / 2)
-        found.append(
-            _Found(
-                Solution(x, zero.multiplicity, zero.real, residual, accuracy, condition, 16), zero
-            )
-        )
     none = np.zeros((0, system.n), dtype=complex)
-    return _Part(system, tuple(found), None, none, none)
+    zeros = algebraic_zeros(system, two_variables)
+    if zeros is not None:
+        known = ((_rounded_solution(evaluator, z.point, z.multiplicity, z.real), z) for z in zeros)
+        return _Part(system, tuple(_Found(*each) for each in known), None, none, none)
+    if branch.kind is BranchKind.SYSTEM:
+        return None
+    if branch.kind is BranchKind.EMPTY:
+        return _Part(system, (), None, none, none)
+    # Of a linear space, or a graph over one, every point will do.
+    elimination = branch.elimination
+    point = elimination.lift(np.ones((1, elimination.system.n), dtype=complex))
+    if branch.kind is BranchKind.LINEAR_SPACE:
+        return _Part(system, (), None, point, none)
+    found = _Found(_rounded_solution(evaluator, point[0], 1, True), None, branch)
+    return _Part(system, (found,), None, none, none)
+
+
+def _rounded_solution(
+    evaluator: Evaluator, x: np.ndarray, multiplicity: int, real: bool
+) -> Solution:
+    """A zero that is known exactly, and was rounded once."""
+    s = np.linalg.svd(evaluator.balanced_jacobian(x), compute_uv=False)
+    # A multiple zero is a simple one of the polynomial that defines it.
+    condition = float(s[0] / s[-1]) if multiplicity == 1 and s[-1] > 0 else 1.0
+    residual = float(evaluator.residuals(x[None]).max(initial=0.0))
+    accuracy = float(np.finfo(float).eps / 2)
+    return Solution(x, multiplicity, real, residual, accuracy, condition, 16)
 
 
 def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
-    zeros = algebraic_zeros(system, two_variables=exactly)
-    if zeros is not None:
-        return _algebraic(system, zeros)
     branch = BranchEquations(system, graphs=True)
+    part = _exact(branch, two_variables=exactly)
+    if part is not None:
+        return part
     elimination = branch.elimination
-    reduced = elimination.system
-    if not reduced.polynomials:
-        # A linear space, or a graph over one: every point of it will do.
-        point = elimination.lift(np.ones((1, reduced.n), dtype=complex))
-        return _Part(system, (), None, point, np.zeros((0, system.n), dtype=complex))
-    result = tracked(reduced)
+    result = tracked(elimination.system)
     found = tuple(
         _Found(lifted_solution(s, elimination), None, branch, s) for s in result.solutions
     )
