@@ -93,10 +93,8 @@ def random_factored_system(rng: np.random.Generator, numbers: list[str]) -> Poly
     """
     n = int(rng.integers(2, 4))
     variables = "xyz"[:n]
-    places = {
-        False: rng.choice(COEFFICIENTS["rational"], (2, n)),
-        True: rng.choice(numbers, (3, n)),
-    }
+    rational = COEFFICIENTS["rational"]
+    places = {False: rng.choice(rational, (2, n)), True: rng.choice(numbers, (3, n))}
 
     def factor(numbers: list[str], points: np.ndarray) -> str:
         point = rng.choice(points)
