@@ -12,7 +12,13 @@ import pytest
 import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import decompose
+from nag.decomposition import (
+    decompose,
+    discover,
+    intersect_equations,
+    intersect_pair,
+    singular_locus,
+)
 from nag.witness.component_equations import component_fibres
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -64,3 +70,45 @@ def test_sizes_of_a_set_follow_its_equations() -> None:
     found = fibre.cut.powers[:6] * np.log10(2)
     assert np.abs(found - powers).max() < 1
     assert not decompose(plain).components[0].fibres[0].cut.powers.any()
+
+
+@pytest.mark.parametrize("power", [-12, -8, -4, 4, 6, 8, 10, 12])
+def test_operations_on_components_do_not_depend_on_units(power: int) -> None:
+    k = Fraction(10) ** power
+    surfaces = nag.system(f"(({k}*x)^2 + y^2 - z)*({k}*x - y*z + 1)", "x y z")
+    plane = nag.system(f"{k}*x + 2*y = z", "x y z")
+    for seed in range(2):
+        both = decompose(surfaces, seed=seed)
+        found = {
+            "pair": intersect_pair(both, 0, 1, seed=seed),
+            "equations": intersect_equations(surfaces, both.components[0], plane, seed=seed),
+            "discovered": discover(surfaces, starts=6, seed=seed),
+        }
+        kinds = {
+            name: [(c.dimension, c.degree, str(c.status)) for c in answer.components]
+            for name, answer in found.items()
+        }
+        assert kinds == {
+            "pair": [(1, 4, "irreducible")],
+            "equations": [(1, 2, "irreducible")],
+            "discovered": [(2, 2, "irreducible")] * 2,
+        }
+        assert found["pair"].complete and found["equations"].complete
+        locus = singular_locus(both, seed=seed)
+        assert [(s.dimension, s.degree, dict(s.multiplicities)) for s in locus.sets] == [
+            (1, 4, {0: 1, 1: 1})
+        ]
+
+
+def test_intersections_come_back_in_the_units_that_were_given() -> None:
+    plain = nag.decompose("(x^2 + y^2 - z)*(x - y*z + 1)")
+    large = nag.decompose("(10^16*x^2 + y^2 - z)*(10^8*x - y*z + 1)")
+    curves = [intersect_pair(both, 0, 1).components[0] for both in (plain, large)]
+    assert curves[0].contains([0, 1, 1]) and curves[1].contains([0, 1, 1])
+    for x in curves[1].sample(0, 3):
+        assert curves[1].contains(x) and curves[0].contains(x * [1e8, 1, 1])
+    slopes, b = curves[1].slice.A, curves[1].slice.b
+    off = np.abs(curves[1].points @ slopes.T - b) / (np.abs(curves[1].points) @ np.abs(slopes.T))
+    assert off.max() < 1e-14
+    sizes = np.abs(curves[1].points).max(axis=0)
+    assert (curves[1].radii < 1e-14 * sizes).all()

@@ -144,6 +144,22 @@ def test_components_that_do_not_meet_are_a_complete_answer(tmp_path, capsys) -> 
     assert "answer     they do not meet" in capsys.readouterr().out
 
 
+def test_components_that_are_undecided_are_not_said_to_be_apart(tmp_path, capsys) -> None:
+    file, target = tmp_path / "parallel.toml", tmp_path / "parallel.json"
+    file.write_text(
+        'title = "Parallels"\nkind = "system"\nvariables = ["x", "y"]\nequations = ["x^2 - 1"]\n'
+    )
+    assert main(["decompose", str(file), "--quiet", "--json", str(target)]) == 0
+    content = json.loads(target.read_text())
+    content["components"][0] |= {"status": "undecided", "note": "its trace was not tested"}
+    content["complete"] = False
+    target.write_text(json.dumps(content))
+    capsys.readouterr()
+    assert main(["intersect", str(target), "--components", "1", "2", "--quiet"]) == 1
+    shown = capsys.readouterr().out
+    assert "do not meet" not in shown and "answer     undecided" in shown
+
+
 def test_an_incomplete_decomposition_leaves_memberships_incomplete(case, tmp_path, capsys) -> None:
     file = tmp_path / "sampled.json"
     argv = ["decompose", case, "--method", "sampling", "--starts", "12", "--quiet"]

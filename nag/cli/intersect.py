@@ -110,7 +110,9 @@ def _rows(
     for number, component in zip(options.components, pair, strict=True):
         kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
         top.append(("component", f"{kind}, {component.status}"))
-    top.append(("answer", title_line(result) if result.components else "they do not meet"))
+    # Only a complete answer without components says that there are none.
+    nothing = "they do not meet" if complete else "undecided: no common point is certain"
+    top.append(("answer", title_line(result) if result.components else nothing))
     if not complete:
         top.append(("", "INCOMPLETE, see below"))
     undecided = [n for n, c in zip(options.components, pair, strict=True) if c.note]

@@ -18,7 +18,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.excluded import ROUNDED, forbidden
-from nag.decomposition.factor import Factor, on_flag
+from nag.decomposition.factor import NOT_MOVED, Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import clusters, coincident, compared
@@ -134,7 +134,11 @@ def intersected(
     flag = random_rows(rng, product.n, product.n)
     equations = product.differences(rng)
     fibres, rows = product.fibres(rng)
-    fibres, result.counts = on_flag(fibres, rows, flag, rng, tracker)
+    moved, result.counts = on_flag(fibres, rows, flag, rng, tracker)
+    if moved is None:
+        result.notes.append(NOT_MOVED)
+        return result
+    fibres = moved
     diagonal = _Diagonal(product, common, flag, result, rng, tracker)
     d = len(rows)
     if d == 0:

@@ -89,7 +89,7 @@ def discover(
         check_symmetry(system, symmetry)
     rng = np.random.default_rng([seed, 7])
     tracker = Tracker(settings, threads, progress)
-    reduction = Reduction.of(system)
+    reduction = Reduction.of(system, scaled=True)
     search = _Search(reduction, CommonSlices.random(reduction.equations, rng), rng, tracker)
     search.from_random_points(starts)
     found = assembled(search.slices.points, reduction, rng, tracker, Known(embedded=True))

@@ -14,7 +14,11 @@ from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, Tracker, carried, cut_fibres
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import unit_complex
+from nag.witness.units import Units
 from nag.witness.witness import PathCounts, WitnessSet
+
+# What is said of an answer where no path led on from the given points.
+NOT_MOVED = "the witness points could not be moved to a generic slice"
 
 
 class IntersectionError(ValueError):
@@ -40,6 +44,13 @@ class Factor:
     def in_branch(cls, system: PolynomialSystem, component: WitnessSet) -> Factor:
         """`of` the branch of a system that the component is one of, if it has branches."""
         return cls.of(component_system(system, component), component)
+
+    def in_units(self, units: Units) -> Factor:
+        """The component in other coordinates."""
+        if units.same:
+            return self
+        system = units.of_system(self.reduction.system)
+        return Factor.of(system, units.of_component(self.component, system))
 
     @property
     def n(self) -> int:
@@ -86,16 +97,12 @@ def on_flag(
     flag: np.ndarray,
     rng: np.random.Generator,
     tracker: Tracker,
-) -> tuple[list[Fibre], PathCounts]:
+) -> tuple[list[Fibre] | None, PathCounts]:
     """Fibres on the slice ``rows`` carried to the leading rows of a generic flag.
 
-    Raises:
-        IntersectionError: if a path fails.
+    None if a path fails.
     """
     if len(rows) == 0:
         return fibres, PathCounts()
     gamma = complex(unit_complex(rng))
-    there, counts = carried(fibres, rows, flag[: len(rows)], gamma, tracker)
-    if there is None:
-        raise IntersectionError("the witness points could not be moved to a generic slice")
-    return there, counts
+    return carried(fibres, rows, flag[: len(rows)], gamma, tracker)

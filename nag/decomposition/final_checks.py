@@ -160,13 +160,11 @@ class Examined:
     ) -> Examined:
         """The points of some classes.
 
-        A slice of scaled coordinates is rounded on its way to the original ones, and the points on
-        it are found anew; where points are close to each other, it is taken over exactly.
+        Those of scaled coordinates are found anew in the original ones, to rounding.
         """
         rows, frame = points.rows, reduction.frame
         by_cuts = points.fibres(np.concatenate([each.indices for each in classes]))
-        close = any(fibre.fine for fibre, _ in by_cuts)
-        cut, parts = frame.slice(rows, orthonormal=not close), []
+        cut, parts = frame.slice(rows), []
         for fibre, own in by_cuts:
             sharp = sharpened(fibre, rows, points.exact.only(own))
             lifted = _lifted(sharp.fibre, reduction)

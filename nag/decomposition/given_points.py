@@ -162,7 +162,7 @@ def components_through_points(
     """
     rng = np.random.default_rng([seed, 11])
     tracker = Tracker(settings, threads)
-    reduction = Reduction.of(system)
+    reduction = Reduction.of(system, scaled=True)
     slices, counts, notes = _on_common_slices(starts, reduction, rng, tracker)
     found = assembled(slices.points, reduction, rng, tracker)
     counts += found.counts
@@ -191,7 +191,7 @@ def _on_common_slices(
     slices = CommonSlices.random(reduction.equations, rng)
     counts, notes = PathCounts(), []
     for d, start in starts:
-        x = np.asarray(start, dtype=complex)[reduction.kept]
+        x = reduction.frame.coordinates(np.asarray(start, dtype=complex))
         zero = polish(reduction.equations.evaluator, x)
         near, accuracy = (zero.x, LEAST) if zero.converged else (x, ROUGH)
         simple = zero.converged and zero.corank == d

@@ -15,7 +15,7 @@ from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.diagonal import intersected
-from nag.decomposition.factor import Factor, IntersectionError, on_flag
+from nag.decomposition.factor import NOT_MOVED, Factor, IntersectionError, on_flag
 from nag.decomposition.hypersurface import Sections
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import (
@@ -32,6 +32,7 @@ from nag.witness.given_component import check_component, check_index, check_syst
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
+from nag.witness.units import Units
 from nag.witness.witness import (
     DOUBLE,
     Decomposition,
@@ -130,16 +131,30 @@ def intersect_factors(
     Raises:
         IntersectionError: if witness points are none.
     """
-    common = Reduction.of(_union(first.reduction.system, second.reduction.system))
+    whole = _union(first.reduction.system, second.reduction.system)
+    units = Units.of(whole.polynomials, whole.n)
+    common = Reduction.of(units.of_system(whole))
     rng = np.random.default_rng([seed, 5])
-    found = intersected(first, second, common, rng, tracker)
+    found = intersected(first.in_units(units), second.in_units(units), common, rng, tracker)
     points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
     result = _intersection(common, points, found.counts, found.notes, rng, tracker)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
+    return _given(result, (*result.components, *bare), whole, units, seed)
+
+
+def _given(
+    result: Intersection,
+    components: Sequence[WitnessSet],
+    system: PolynomialSystem,
+    units: Units,
+    seed: int,
+) -> Intersection:
+    """An answer with these components, in the coordinates that were given."""
     return replace(
         result,
-        components=(*result.components, *bare),
-        complete=result.complete and not any(c.note for c in bare),
+        system=system,
+        components=tuple(units.inverse.of_component(c, system) for c in components),
+        complete=result.complete and not any(c.note for c in components),
         seed=seed,
     )
 
@@ -184,12 +199,14 @@ def intersect_equations(
     check_system(equations, "equations")
     _check_variables(system, equations)
     system = component_system(system, component)
-    factor = Factor.of(system, component)
+    whole = _union(system, equations)
+    units = Units.of(whole.polynomials, whole.n)
+    factor = Factor.of(system, component).in_units(units)
     tracker = Tracker(settings, threads, progress)
-    common = Reduction.of(_union(system, equations))
+    common = Reduction.of(units.of_system(whole))
 
     rng = np.random.default_rng([seed, 6])
-    superset = _met(factor, equations, rng, tracker)
+    superset = _met(factor, units.of_system(equations), rng, tracker)
     notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
@@ -201,7 +218,7 @@ def intersect_equations(
         if lost:
             notes.append(f"{lost} singular points of dimension {d} could not be made regular")
     answer = _intersection(common, points, superset.counts, notes, rng, tracker)
-    return replace(answer, seed=seed)
+    return _given(answer, answer.components, whole, units, seed)
 
 
 def _met(
@@ -213,6 +230,8 @@ def _met(
     further = [further[i] for i in intersection_order(further)]
     flag = random_rows(rng, factor.n, factor.n)
     start, spent = on_flag(factor.fibres(rng), factor.rows, flag, rng, tracker)
+    if start is None:
+        return Superset({}, flag, spent, (NOT_MOVED,))
     reduced = factor.reduction.reduced
     sections = Sections({factor.component.dimension: start}, flag)
     ambient = Ambient(sections, reduced.polynomials, reduced.nonzero)

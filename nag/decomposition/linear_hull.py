@@ -23,8 +23,8 @@ from nag.decomposition.reduction import Reduction
 from nag.interpolation.point_cloud import Ambient, Cloud
 from nag.interpolation.precise_samples import SourceError, source_of_component
 from nag.interpolation.vanishing import InterpolationError, next_degree, start
-from nag.witness.cutting import Equations
-from nag.witness.fibres import Tracker, cut_fibres
+from nag.witness.component_equations import find_fibres
+from nag.witness.fibres import Tracker
 from nag.witness.witness import WitnessSet
 
 
@@ -68,15 +68,8 @@ def simple_in(system: PolynomialSystem, component: WitnessSet) -> WitnessSet:
     """The component with a multiplicity of one, if a system is regular at its witness points."""
     if component.multiplicity == 1 or component.dimension == 0:
         return component
-    fibres = cut_fibres(
-        component.points,
-        component.accuracy,
-        Equations(system.polynomials, system.n),
-        component.slice.rows,
-        np.random.default_rng(0),
-        False,
-    )
-    return component if fibres is None else replace(component, multiplicity=1, fibres=())
+    regular = find_fibres(system, component, deflate=False) is not None
+    return replace(component, multiplicity=1, fibres=()) if regular else component
 
 
 def _beside(found: Sequence[Polynomial], system: PolynomialSystem) -> PolynomialSystem:

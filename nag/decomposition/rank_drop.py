@@ -105,7 +105,7 @@ def rank_drop(
     Raises:
         nag.decomposition.factor.IntersectionError: if the witness points are no regular zeros.
     """
-    reduction = Reduction.of(component_system(system, component))
+    reduction = Reduction.of(component_system(system, component), scaled=True)
     own, frame, n = reduction.reduced, reduction.frame, reduction.n
     if component.dimension in (0, n):
         return RankDrop((), PathCounts(), (), system.n)
@@ -198,9 +198,9 @@ class _Search:
 
 def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:
     """A component in the coordinates that linear equations leave: the ranks drop where they did."""
-    cut = component.slice
-    rows = orthonormal_rows(reduction.frame.pulled_back(cut.A, cut.b))
-    points, radii = component.points[:, reduction.kept], component.radii[:, reduction.kept]
+    cut, frame = component.slice, reduction.frame
+    rows = orthonormal_rows(frame.pulled_back(cut.A, cut.b))
+    points, radii = (frame.coordinates(x) for x in (component.points, component.radii))
     here = Slice(rows[:, 1:], -rows[:, 0])
     return replace(component, slice=here, points=points, radii=radii, multidegree=None, fibres=())
 

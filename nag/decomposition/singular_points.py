@@ -32,6 +32,7 @@ from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
 from nag.witness.given_component import check_decomposition, check_index
 from nag.witness.multiplicity import multiplicity_at
+from nag.witness.units import Units
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.
@@ -230,8 +231,10 @@ def singular_locus(
     (0, {0: 2}, True)
     """
     check_decomposition(decomposition, seed, threads, settings)
-    whole = expanded(decomposition)
-    check_indices(only, len(whole.components))
+    given = expanded(decomposition)
+    check_indices(only, len(given.components))
+    units = Units.of(given.system.polynomials, given.system.n)
+    whole = units.of_decomposition(given)
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
     own = _own_equations(whole, np.random.default_rng([seed, 8]), Tracker(settings, threads))
     search = _Search(whole, own, {"seed": seed, "threads": threads, "settings": settings})
@@ -240,9 +243,22 @@ def singular_locus(
     search.of_pairs(chosen)
     rng = np.random.default_rng([seed, 7])
     sets = _judged_sets(search, rng, Tracker(settings, threads))
+    if not units.same:
+        sets = tuple(_given(one, units, given.system) for one in sets)
     notes = tuple(dict.fromkeys(search.notes))
     examined, proved = tuple(search.examined), tuple(search.proved)
     return SingularLocus(sets, examined, search.counts, not notes, notes, proved)
+
+
+def _given(one: SingularSet, units: Units, system: PolynomialSystem) -> SingularSet:
+    """A set that was found in units, in the coordinates that were given."""
+    points, x, cone = one.points * units.sizes, one.local.point * units.sizes, one.cone
+    # Errors there are relative to the sizes that the coefficients suggest, whatever the units.
+    accuracy = None if one.local.tangent_dimension is None else ROUNDED
+    local = local_dimension(system, x, accuracy=accuracy)
+    if cone is not None:
+        cone = tangent_cone(system, x, accuracy=accuracy)
+    return replace(one, points=points, local=local, cone=cone)
 
 
 def check_indices(only: Sequence[int] | None, count: int) -> None:

@@ -6,6 +6,7 @@ Read in this order: `witness` (the data; `at_prompt` and `shown` for users), `sl
 `component_equations` (held, or found anew), `exact_points` (found in as many digits as are asked
 for), `close_points`, `confirm`, `multiplicity` and `close_to_sets` (what is known of them); then
 the operations on a set as it is given (`given_component`): `moving`, `membership`, `sampling`,
-`projection`, `real_points` by `gauss_newton`. `frame` leads back to the coordinates and the
-components that the user has; `certificate` and `certified_loops` prove.
+`projection`, `real_points` by `gauss_newton`. `units` leads to coordinates of comparable sizes and
+back, `frame` back to the coordinates and the components that the user has; `certificate` and
+`certified_loops` prove.
 """

@@ -13,6 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import ON
 from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre, cut_fibres
+from nag.witness.units import Units
 from nag.witness.witness import WitnessSet
 
 
@@ -62,18 +63,33 @@ def _cut(
         together = dict.fromkeys(f for part in parts for f in part.polynomials)
         parts.append(replace(system, polynomials=tuple(together)))
     for part in (*parts, system):
-        equations = Equations(part.polynomials, part.n)
         for deflate in dict.fromkeys((False, component.multiplicity != 1)):
             if part is system and deflate != (component.multiplicity != 1):
                 continue
-            fibres = cut_fibres(
-                component.points,
-                component.accuracy,
-                equations,
-                component.slice.rows,
-                np.random.default_rng(0),
-                deflate,
-            )
+            fibres = find_fibres(part, component, deflate)
             if fibres is not None:
                 return part, fibres
     return None, None
+
+
+def find_fibres(
+    system: PolynomialSystem, component: WitnessSet, deflate: bool
+) -> list[Fibre] | None:
+    """The points of a component with square systems, from the equations or deflations of them.
+
+    They are looked for in units in which the coordinates are comparable. None if a point is a
+    regular zero of none.
+    """
+    units = Units.of(system.polynomials, system.n)
+    equations, here = units.of_system(system), units.of_component(component, None)
+    fibres = cut_fibres(
+        here.points,
+        here.accuracy,
+        Equations(equations.polynomials, equations.n),
+        here.slice.rows,
+        np.random.default_rng(0),
+        deflate,
+    )
+    if fibres is None or units.same:
+        return fibres
+    return [units.inverse.of_fibre(fibre) for fibre in fibres]

@@ -52,6 +52,10 @@ class Frame:
     def points(self, y: np.ndarray) -> np.ndarray:
         return y @ self.T.T + self.t
 
+    def coordinates(self, x: np.ndarray) -> np.ndarray:
+        """The reduced coordinates of original points, the last axis theirs."""
+        return x[..., list(self.positions)] / self.scales
+
     def error(self, y: np.ndarray, accuracy: float) -> float:
         """The largest error of `points`, relative to ``1 + |x|``, where y has that one to its size.
 
@@ -63,21 +67,18 @@ class Frame:
         sizes = 1 + np.linalg.norm(self.points(y), axis=1)
         return float((np.linalg.norm(moved, axis=1) / sizes).max(initial=EPS))
 
-    def slice(self, rows: np.ndarray, orthonormal: bool = True) -> Slice:
+    def slice(self, rows: np.ndarray) -> Slice:
         """A slice of the reduced space as one of the original space: its coordinates are kept.
 
-        Where coordinates are scaled, making the rows orthonormal rounds them; without it they are
-        exact.
+        Nothing is rounded: where coordinates are scaled, rows are of norms about one, and no more
+        orthonormal, which would leave nothing of their entries for the largest coordinates.
         """
         A = np.zeros((len(rows), len(self.t)), dtype=complex)
         A[:, self.positions] = rows[:, 1:] / self.scales
         b = -rows[:, 0]
-        if (self.scales != 1).any() and not orthonormal:
+        if (self.scales != 1).any():
             powers = -np.frexp(np.linalg.norm(A, axis=1))[1]
             A, b = A * np.ldexp(1.0, powers)[:, None], b * np.ldexp(1.0, powers)
-        elif (self.scales != 1).any():
-            q, r = np.linalg.qr(A.conj().T)
-            A, b = q.conj().T, np.linalg.solve(r.conj().T, b)
         return Slice(A, b)
 
     def pulled_back(self, A: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -41,8 +41,8 @@ class Slice:
     """A linear slice ``A x = b`` of codimension ``len(b)`` in affine space.
 
     Attributes:
-        A: complex, shape ``(d, n)``, rows orthonormal; of norms about one only, where that would
-            have rounded them and points are too close to each other for it.
+        A: complex, shape ``(d, n)``, rows orthonormal, or such in other units of the variables
+            and of norms about one in these.
         b: complex, shape ``(d,)``.
     """
 
