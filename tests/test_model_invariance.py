@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 from linkages import case, general_loop, loops_of_all_joints
 from solved import components_of
 
+import nag
 from nag.decomposition import decompose
 from nag.mechanism.coordinates import euler_decomposition
 from nag.mechanism.graph import Body, Joint, Mechanism
-from nag.mechanism.model import formulations, model
+from nag.mechanism.model import ModelError, formulations, model
 from nag.mechanism.quaternion import norm_squared, rotate
 from nag.mechanism.rods import RodModel
 
@@ -187,3 +188,89 @@ def test_six_rods_have_forty_assemblies():
         at = [complex(x) for x in m.unreduced_point(lifted)]
         values = [abs(complex(f(at))) for f in m.unreduced.polynomials]
         assert max(values) < 1e-9 * max(1, max(map(abs, at))) ** 2
+
+
+P, Q, T, V = (1, 2, 3), (4, 0, 1), (0, 5, 2), (7, 1, 1)
+
+
+def spherical(name: str, first: str, second: str, point) -> Joint:
+    return Joint(name, "spherical", (first, second), point)
+
+
+def rod(name: str, first: str, second: str, start, end) -> list[Joint]:
+    return [spherical(f"{name}1", first, name, start), spherical(f"{name}2", name, second, end)]
+
+
+def cranks() -> list[Joint]:
+    crank = Joint("A", "revolute", ("base", "a"), (0, 0, 0), (0, 0, 1))
+    return [crank, Joint("B", "revolute", ("b", "base"), Q, (1, 1, 0))]
+
+
+# Rods of length zero (x, y, z) and others (r, s, t), and the mobility.
+ZERO_RODS = {
+    "between cranks": ([*cranks(), *rod("z", "a", "b", P, P)], 3),
+    "between cranks, with a rod": (
+        [*cranks(), *rod("z", "a", "b", P, P), *rod("r", "a", "b", V, T)],
+        4,
+    ),
+    "two in a chain": (
+        [*cranks(), *rod("z", "a", "y", P, P), spherical("y2", "y", "b", P)],
+        6,
+    ),
+    "a rod in a chain": ([*cranks(), *rod("z", "a", "r", P, P), spherical("r2", "r", "b", T)], 5),
+    "in a ring of balls": (
+        [spherical("A", "base", "a", V), *rod("z", "a", "b", P, P), spherical("B", "b", "base", Q)],
+        6,
+    ),
+    "ball joint at the ground, three rods": (
+        [
+            *rod("z", "base", "top", P, P),
+            *rod("r", "base", "top", (0, 0, 0), (3, 1, 5)),
+            *rod("s", "base", "top", (5, 0, 0), (5, 2, 4)),
+            *rod("t", "base", "top", (0, 6, 0), (1, 7, 4)),
+        ],
+        6,
+    ),
+    "two make a hinge": ([*rod("z", "base", "top", P, P), *rod("y", "base", "top", Q, Q)], 7),
+    "three hold a body": (
+        [x for n, p in zip("xyz", (P, Q, T), strict=True) for x in rod(n, "base", "top", p, p)],
+        9,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", sorted(ZERO_RODS))
+def test_a_rod_of_length_zero_is_a_spherical_joint(name: str) -> None:
+    joints, mobility = ZERO_RODS[name]
+    mechanism = Mechanism("base", tuple(joints))
+    for formulation in ("S", "E", "H"):
+        report = nag.mobility(mechanism, formulation=formulation, detail="local")
+        assert (report.tangent_dimension, report.local_dimension) == (mobility, mobility)
+    m = model(mechanism, "S")
+    lifted = m.unreduced_point(m.lift(m.reference))
+    assert all(f(lifted) == 0 for f in m.unreduced.polynomials)
+    assert {d for d, *_ in components(mechanism, "S")} == {mobility}
+
+
+@pytest.mark.parametrize("name", ["between cranks", "a rod in a chain", "two make a hinge"])
+def test_components_with_rods_of_length_zero_are_those_of_euler_parameters(name: str) -> None:
+    mechanism = Mechanism("base", tuple(ZERO_RODS[name][0]))
+    m = model(mechanism, "S")
+    _, carried = euler_decomposition(m, decompose(m.system))
+    assert carried.complete
+    found = Counter({(c.dimension, c.degree, c.multiplicity): 0 for c in carried.components})
+    for c in carried.components:
+        found[c.dimension, c.degree, c.multiplicity] += c.orbit
+    assert found == components(mechanism, "E")
+
+
+def test_ball_joint_and_three_rods_have_eight_assemblies() -> None:
+    mechanism = Mechanism("base", tuple(ZERO_RODS["ball joint at the ground, three rods"][0]))
+    assert components(mechanism, "S") == {(6, 1, 1): 8}
+
+
+def test_a_chain_of_rods_of_length_zero_alone_is_left_to_other_formulations() -> None:
+    ring = Mechanism("base", (*rod("z", "base", "y", P, P), spherical("y2", "y", "base", P)))
+    with pytest.raises(ModelError, match="nothing turns but rods"):
+        model(ring, "S")
+    assert nag.mobility(ring).local_dimension == 6

@@ -116,8 +116,14 @@ def description(alternative: Alternative, space: Space) -> str:
     form = alternative.form
     if isinstance(form, RodModel):
         free = sum(f.kind == "free" for f in form.charts.plain)
-        names = "Study coordinates" if free else "joint coordinates"
-        return f"{names}, {counted(len(form.rods), 'rod')} between spherical joints as distances"
+        words = ["Study coordinates" if free else "joint coordinates"]
+        if form.rods:
+            words.append(f"{counted(len(form.rods), 'rod')} between spherical joints as distances")
+        if form.zero_rods:
+            count = len(form.zero_rods)
+            each = "a spherical joint" if count == 1 else "spherical joints"
+            words.append(f"{counted(count, 'rod')} of length zero as {each}")
+        return ", ".join(words)
     if not isinstance(form, HalfAngleModel):
         return "half-angles"
     lost = len({f.joint for c in form.closures for f in c.lost})

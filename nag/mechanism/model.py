@@ -144,7 +144,7 @@ class Model:
         if self.structure.cut_freedoms:
             found.append((self.structure.cut_freedoms, "the joints that were cut off"))
         if isinstance(self.form, RodModel):
-            found.append((self.form.spins, "rods that turn about themselves"))
+            found += self.form.left_out
         return tuple(found)
 
     @property

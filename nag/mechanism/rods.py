@@ -5,16 +5,21 @@ their distance; it turns freely about the line through them. Without such rods t
 of joints; one that hangs in the air has Study coordinates (e, g), a dual quaternion e + eps g on
 the quadric e.g = 0 (Husty 1996). With A the displacement of the rod's one neighbour against the
 other, a and b its ends, |A_0 b + 2 A_1 - a A_0|^2 = |b - a|^2 |A_0|^2.
+
+A rod of length zero is no distance: |p - q|^2 = 0 is a cone over the complex numbers, of which
+p = q is the vertex. It is a spherical joint between its neighbours, about which the rod turns as it
+likes. Spherical joints that close a loop of the joints that are left are the four equations
+A_0 a + 2 A_1 - a A_0 = 0, of A's degree: with Study's quadric they say p = q and nothing else.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from nag.algebra.number import Number
+from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import across, cross, difference, dot
@@ -49,6 +54,9 @@ from nag.mechanism.quaternion import (
 # Factors along a path, beyond which a distance has too many terms.
 MOST_FACTORS = 5
 
+# Freedoms of a rod that has length zero: those of turning about a point.
+TURNS_ABOUT_A_POINT = 3
+
 
 @dataclass(frozen=True)
 class Rod:
@@ -72,16 +80,18 @@ class RodModel:
     Attributes:
         structure: the mechanism's part with loops.
         rods: what is taken as distances; each turns freely about itself.
+        zero_rods: the bodies that are rods of length zero; each turns freely about its point.
         charts: the factors of all joints that are left, and of bodies in the air.
         paths: for each body that is no rod, the elements of its displacement against the base.
-        joints: the elements of the joints that are left.
-        system: the distances and Study's quadrics.
+        joints: the elements of the joints that are left and close no loop.
+        system: the distances, the spherical joints that close a loop, and Study's quadrics.
         reference: the reference configuration; empty in other assembly modes.
         modes: the assembly modes.
     """
 
     structure: LoopStructure
     rods: tuple[Rod, ...]
+    zero_rods: tuple[str, ...]
     charts: Charts
     paths: Mapping[str, tuple[Element, ...]]
     joints: Mapping[str, tuple[Element, ...]]
@@ -91,14 +101,26 @@ class RodModel:
 
     @property
     def spins(self) -> int:
-        """Freedoms that the equations leave out: each rod turns about itself."""
-        return len(self.rods)
+        """Freedoms that the equations leave out: each rod turns about itself, or its point."""
+        return sum(freedoms for freedoms, _ in self.left_out)
+
+    @property
+    def left_out(self) -> list[tuple[int, str]]:
+        """The same by kind of rod: how many freedoms and, in words, whose they are."""
+        by_kind = (
+            (len(self.rods), "rods that turn about themselves"),
+            (
+                TURNS_ABOUT_A_POINT * len(self.zero_rods),
+                "rods of length zero that turn about their points",
+            ),
+        )
+        return [(freedoms, whose) for freedoms, whose in by_kind if freedoms]
 
     def lift(self, point: Sequence[Any]) -> Configuration:
         """All bodies' orientations and positions at a solution.
 
         The rods, which may turn about themselves, are turned the shortest way from the reference
-        configuration.
+        configuration; those of length zero are not turned.
 
         Raises:
             ZeroDivisionError: at a point of norm zero.
@@ -114,6 +136,8 @@ class RodModel:
             there = [moved(motions[b], p) for b, p in zip(rod.neighbours, ends, strict=True)]
             before, after = difference(ends[1], ends[0]), difference(there[1], there[0])
             turns[rod.body] = _shortest_turn(before, after, arithmetic)
+        one, zero = convert(Fraction(1)), convert(Fraction(0))
+        turns |= dict.fromkeys(self.zero_rods, (one, zero, zero, zero))
         euler = {
             b: multiply(turns[b], [convert(x) for x in mechanism.orientation(b)])
             for b in structure.moving
@@ -131,24 +155,36 @@ def rod_model(structure: LoopStructure, modes: Modes = REFERENCE) -> RodModel:
     """The distances that rods keep.
 
     Raises:
-        ValueError: if there are no such rods, or the joints that are left have loops.
+        ValueError: if there are no such rods, the joints that are left have loops that no spherical
+            joint closes, or only rods turn.
     """
-    rods = _rods(structure)
-    if not rods:
+    without, zero_rods = contract_zero_rods(structure)
+    rods = _rods(without)
+    if not rods and not zero_rods:
         raise ValueError("no body has two spherical joints and no other joint")
-    joints, paths = _trees(structure, {r.body for r in rods}, dict(modes))
+    tree, closing = _spanning_joints(without, {r.body for r in rods})
+    joints, paths = _trees(without, {r.body for r in rods}, tree, dict(modes))
     charts = Charts.of(factors_in([e for own in paths.values() for e in own]))
+    if not charts.n:
+        raise ValueError("nothing turns but rods about themselves")
     equations: list[Any] = []
     products: dict[tuple[str, str], DualQuaternion] = {}
     first: dict[tuple[str, str], Any] = {}
+
+    def displacement_between(bodies: tuple[str, str], what: str) -> DualQuaternion:
+        if bodies not in products:
+            between = _without_common([*opposite(paths[bodies[0]]), *paths[bodies[1]]])
+            if len(factors_in(between)) > MOST_FACTORS:
+                raise ValueError(f"{what} spans more than {MOST_FACTORS} joint coordinates")
+            products[bodies] = _motion(between, charts.values, lambda c: c)
+        return products[bodies]
+
+    for joint in closing:
+        motion = displacement_between(joint.bodies, f"joint {joint.name!r}")
+        equations += _gap(motion, joint.point, joint.point)
     for rod in sorted(rods, key=lambda r: r.neighbours):
-        between = [*opposite(paths[rod.neighbours[0]]), *paths[rod.neighbours[1]]]
-        between = _without_common(between)
-        if len(factors_in(between)) > MOST_FACTORS:
-            raise ValueError(f"rod {rod.body!r} spans more than {MOST_FACTORS} joint coordinates")
-        if rod.neighbours not in products:
-            products[rod.neighbours] = displacement(between, charts.values, lambda c: c)
-        value = _distance(products[rod.neighbours], *(j.point for j in rod.ends))
+        motion = displacement_between(rod.neighbours, f"rod {rod.body!r}")
+        value = _distance(motion, *(j.point for j in rod.ends))
         # Differences of distances between the same two bodies are of lower degree in g.
         equations.append(value - first[rod.neighbours] if rod.neighbours in first else value)
         first.setdefault(rod.neighbours, value)
@@ -157,16 +193,50 @@ def rod_model(structure: LoopStructure, modes: Modes = REFERENCE) -> RodModel:
             values = charts.values[factor]
             equations.append(dot4(values[:4], values[4:]))
     reference = () if modes else charts.reference
-    return RodModel(
-        structure, rods, charts, paths, joints, charts.system(equations), reference, modes
-    )
+    system = charts.system(equations)
+    return RodModel(structure, rods, zero_rods, charts, paths, joints, system, reference, modes)
+
+
+def contract_zero_rods(structure: LoopStructure) -> tuple[LoopStructure, tuple[str, ...]]:
+    """The structure without rods of length zero, and the names of these.
+
+    Each is a spherical joint between its neighbours; where both are one body, it is nothing.
+    Loops stay those of the given structure.
+    """
+    joints, moving = list(structure.joints), list(structure.moving)
+    found: list[str] = []
+    while True:
+        zero = next((b for b in moving if _is_zero_rod(_joints_of(b, joints))), None)
+        if zero is None:
+            contracted = replace(structure, joints=tuple(joints), moving=tuple(moving))
+            return contracted, tuple(found)
+        first, second = _joints_of(zero, joints)
+        ends = (first.other(zero), second.other(zero))
+        at = joints.index(first)
+        joints = [j for j in joints if j not in (first, second)]
+        if ends[0] != ends[1]:
+            joints.insert(at, replace(first, bodies=ends))
+        moving.remove(zero)
+        found.append(zero)
+
+
+def _joints_of(body: str, joints: Sequence[Joint]) -> list[Joint]:
+    return [j for j in joints if body in j.bodies]
+
+
+def _is_rod(joints: Sequence[Joint]) -> bool:
+    return len(joints) == 2 and all(j.type == "spherical" for j in joints)
+
+
+def _is_zero_rod(joints: Sequence[Joint]) -> bool:
+    return _is_rod(joints) and all(map(is_zero, difference(joints[1].point, joints[0].point)))
 
 
 def _rods(structure: LoopStructure) -> tuple[Rod, ...]:
     rods: list[Rod] = []
     for body in structure.moving:
-        ends = [j for j in structure.joints if body in j.bodies]
-        if len(ends) == 2 and all(j.type == "spherical" for j in ends):
+        ends = _joints_of(body, structure.joints)
+        if _is_rod(ends):
             neighbours = tuple(j.other(body) for j in ends)
             taken = {r.body for r in rods}
             if neighbours[0] != neighbours[1] and not taken & set(neighbours):
@@ -175,12 +245,40 @@ def _rods(structure: LoopStructure) -> tuple[Rod, ...]:
     return tuple(rods)
 
 
-def _trees(
-    structure: LoopStructure, rods: set[str], modes: dict[str, int]
-) -> tuple[dict[str, tuple[Element, ...]], dict[str, tuple[Element, ...]]]:
-    """Elements of the joints that are left, and of each body's displacement against the base."""
+def _spanning_joints(
+    structure: LoopStructure, rods: set[str]
+) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
+    """Joints that span the bodies that are no rods, and spherical ones that close their loops.
+
+    Raises:
+        ValueError: if other joints close a loop.
+    """
     left = [j for j in structure.joints if not rods & set(j.bodies)]
-    elements = {j.name: joint_elements(j, modes.get(j.name, 0), True) for j in left}
+    tree: dict[str, str] = {}
+    closing = []
+
+    def root(body: str) -> str:
+        while body in tree:
+            body = tree[body]
+        return body
+
+    # Spherical joints last: they alone can close a loop by equations of their own.
+    for joint in sorted(left, key=lambda j: j.type == "spherical"):
+        ends = [root(b) for b in joint.bodies]
+        if ends[0] != ends[1]:
+            tree[ends[1]] = ends[0]
+        elif joint.type == "spherical":
+            closing.append(joint)
+        else:
+            raise ValueError("the joints between the bodies that are no rods have a loop")
+    return tuple(j for j in left if j not in closing), tuple(closing)
+
+
+def _trees(
+    structure: LoopStructure, rods: set[str], tree: Sequence[Joint], modes: dict[str, int]
+) -> tuple[dict[str, tuple[Element, ...]], dict[str, tuple[Element, ...]]]:
+    """Elements of the joints of the trees, and of each body's displacement against the base."""
+    elements = {j.name: joint_elements(j, modes.get(j.name, 0), True) for j in tree}
     paths: dict[str, tuple[Element, ...]] = {structure.base: ()}
     waiting, used = [b for b in structure.moving if b not in rods], set()
     frontier = [structure.base]
@@ -192,13 +290,11 @@ def _trees(
             frontier.append(body)
         parent = frontier.pop(0)
         waiting = [b for b in waiting if b != parent]
-        for joint in left:
+        for joint in tree:
             if joint.name in used or parent not in joint.bodies:
                 continue
             used.add(joint.name)
             child = joint.other(parent)
-            if child in paths:
-                raise ValueError("the joints between the bodies that are no rods have a loop")
             own = elements[joint.name]
             step = own if joint.bodies[0] == parent else tuple(opposite(own))
             paths[child] = (*paths[parent], *step)
@@ -220,12 +316,16 @@ def _without_common(elements: Sequence[Element]) -> list[Element]:
 
 def _distance(motion: DualQuaternion, a: Sequence[Number], b: Sequence[Number]) -> Any:
     """|A_0 b + 2 A_1 - a A_0|^2 - |b - a|^2 |A_0|^2, zero in the reference configuration."""
+    link = difference(b, a)
+    return norm_squared(_gap(motion, a, b)) - norm_squared(motion[0]) * dot(link, link)
+
+
+def _gap(motion: DualQuaternion, a: Sequence[Number], b: Sequence[Number]) -> tuple[Any, ...]:
+    """A_0 b + 2 A_1 - a A_0: the vector from a to where b goes, times A_0."""
     zero = Fraction(0)
     real, dual = motion
     gap = difference(multiply(real, (zero, *b)), multiply((zero, *a), real))
-    gap = tuple(x + 2 * y for x, y in zip(gap, dual, strict=True))
-    link = difference(b, a)
-    return norm_squared(gap) - norm_squared(real) * dot(link, link)
+    return tuple(x + 2 * y for x, y in zip(gap, dual, strict=True))
 
 
 def _motion(elements: Sequence[Element], values: Any, convert: Any) -> DualQuaternion:
