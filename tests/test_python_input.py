@@ -158,3 +158,39 @@ def test_nothing_that_is_given_loads_sympy_or_networkx() -> None:
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True
     )
     assert done.stdout == "\n"
+
+
+@pytest.mark.parametrize(
+    ("equations", "message"),
+    [
+        (["x^2 + I", "y - x"], r"equations\[0\]: 'I' looks like the imaginary unit"),
+        (["y - x", "x^2 + 1+2*i"], r"equations\[1\]: 'i' looks like .* list all of them"),
+        (["x^2 - 2i"], "'i' looks like"),
+        (["x^2 - 2j"], "'2j' looks like"),
+        (["x^2 - 1", 1j], r"equations\[1\]: 1j is complex; only real numbers are read"),
+        (["x^2 - 1", np.complex64(2)], r"equations\[1\]: \(2\+0j\) is complex"),
+    ],
+)
+def test_the_imaginary_unit_is_never_taken_for_a_variable(equations: Any, message: str) -> None:
+    for command in (nag.system, nag.solve, nag.decompose):
+        with pytest.raises(ValueError, match=message) as refused:
+            command(equations)
+        assert "\n" not in str(refused.value)
+
+
+def test_the_imaginary_unit_is_refused_wherever_numbers_are_read() -> None:
+    with pytest.raises(ValueError, match=r"nonzero\[0\]: 'I' looks like"):
+        nag.system(["x^2 - 1"], nonzero=["x - I"])
+    with pytest.raises(ValueError, match=r"parameters\['a'\]: 1j is complex"):
+        nag.system(["x^2 - a"], parameters={"a": 1j})
+    with pytest.raises(ValueError, match=r"'I' looks like .* goes among the variables"):
+        nag.system(["x^2 - I"], ["x"])
+    with pytest.raises(ValueError, match="terms: give a dict"):
+        nag.Polynomial(1, {(1,): 1j})
+
+
+def test_a_variable_that_is_listed_may_have_any_letter() -> None:
+    assert nag.system(["x^2 + I"], ["x", "I"]).variables == ("x", "I")
+    assert nag.system(["i^2 + j"], "i j").variables == ("i", "j")
+    known = nag.system(["x^2 + I"], parameters={"I": 3})
+    assert str(known.polynomials[0]) == str(nag.system(["x^2 + 3"]).polynomials[0])

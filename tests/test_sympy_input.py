@@ -66,7 +66,7 @@ def test_equations_may_be_mixed_in_lists_arrays_and_matrices() -> None:
         (sympy.sin(x), "make the sine and the cosine variables"),
         (1 / x, "no negative power"),
         (sympy.sqrt(x), "the exponent '1/2' is not whole"),
-        (sympy.I * x, "'I' is no finite real number"),
+        (sympy.I * x, "it holds sympy's I; only real numbers are read"),
         (sympy.exp(x), "is no polynomial"),
         (sympy.oo + x, "is no finite real number"),
         (sympy.Eq(x, x), "always holds"),
@@ -87,3 +87,8 @@ def test_a_system_of_sympys_is_solved_and_decomposed() -> None:
     assert (curve.dimension, curve.degree) == (2, 2)
     assert curve.contains({x: sympy.sqrt(2), y: 0, a: 2})
     assert not curve.contains({x: sympy.sqrt(2), y: 0, a: sympy.Rational(21, 10)})
+
+
+def test_a_symbol_may_have_any_name() -> None:
+    unit = sympy.Symbol("I")
+    assert system([x**2 + unit]).variables == ("I", "x")

@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from numbers import Complex, Real
 from typing import Any, NoReturn
 
 from nag.algebra.bounded import (
@@ -29,7 +30,16 @@ from nag.algebra.bounded import (
 )
 from nag.algebra.number import PI, Irrational, Number, cosine, sine, square_root
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.tokens import ExpressionError, Token, nearest, quote, tokenize
+from nag.algebra.tokens import (
+    IMAGINARY_UNITS,
+    ONLY_REAL,
+    ExpressionError,
+    Token,
+    imaginary_text,
+    nearest,
+    quote,
+    tokenize,
+)
 
 __all__ = ["ExpressionError", "parse_number", "parse_polynomial"]
 
@@ -58,6 +68,8 @@ def parse_number(
         return _Parser(value, (), parameters or {}, budget or Budget()).number()
     if isinstance(value, Irrational):
         return value
+    if not isinstance(value, Real | Decimal) and isinstance(value, Complex):
+        raise ExpressionError(f"{value} is complex; {ONLY_REAL}")
     if isinstance(value, bool) or not isinstance(value, int | float | Decimal | Fraction):
         raise ExpressionError(f"{_kind(value)} is no number; write a number or an expression")
     if isinstance(value, float | Decimal):
@@ -168,6 +180,9 @@ class _Parser:
                 f"{quote(before.text)} is not a function"
                 f"{nearest(before.text, _FUNCTIONS)}; write '*' for a product",
             )
+        if before.kind == "number" and token.text.lower() in ("i", "j"):
+            text = before.text + token.text
+            self._fail(before, imaginary_text(text, "write '*' for a product with a variable"))
         self._fail(
             token,
             f"{quote(token.text)} follows {quote(before.text)}; "
@@ -263,6 +278,9 @@ class _Parser:
             return PI
         if self.token.text == "(":
             self._fail(token, f"{quote(name)} is not a function; write sqrt, sin or cos")
+        if name in IMAGINARY_UNITS:
+            what = "variables" if self.variables else "parameters"
+            self._fail(token, imaginary_text(name, f"a name of your own goes among the {what}"))
         known = [*self.variables, *self.parameters]
         kinds = "variables and parameters" if self.variables else "parameters"
         listed = ", ".join(known[:12]) + (", ..." if len(known) > 12 else "") or "none"

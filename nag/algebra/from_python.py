@@ -21,7 +21,15 @@ from nag.algebra.given import check_listed, check_type, shown
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.tokens import ExpressionError, is_name, names_in, nearest, quote
+from nag.algebra.tokens import (
+    IMAGINARY_UNITS,
+    ExpressionError,
+    imaginary_text,
+    is_name,
+    names_in,
+    nearest,
+    quote,
+)
 
 __all__ = ["exact_number", "exact_vector", "system"]
 
@@ -88,7 +96,9 @@ def system(
         equations: one or a sequence of them: texts (``"x^2 + y^2 = 1"``; without ``=`` the
             expression is zero), sympy's expressions, ``Eq`` or ``Poly``, or `Polynomial`.
         variables: their names, or sympy's symbols, in order; a text of names will do. By default
-            all names that occur and are no parameters, in alphabetical order (x2 before x10).
+            all names that occur and are no parameters, in alphabetical order (x2 before x10). A
+            variable that is called ``I`` or ``i`` in a text has to be given: coefficients are
+            real, and it might be meant as the imaginary unit.
         parameters: values of further names.
         nonzero: expressions that must not vanish; written like ``equations``.
         groups: groups of variables in which multidegrees are counted, by name or index.
@@ -113,7 +123,12 @@ def system(
         str(name): exact_number(value, f"parameters[{str(name)!r}]")
         for name, value in (parameters or {}).items()
     }
-    names = _names(variables, [*given, *apart], values)
+    occurring = [
+        (equation, f"{place}[{i}]")
+        for place, equations in (("equations", given), ("nonzero", apart))
+        for i, equation in enumerate(equations)
+    ]
+    names = _names(variables, occurring, values)
     read = _Reader(names, values)
     return PolynomialSystem(
         names,
@@ -140,14 +155,16 @@ def _listed(equations: Any, place: str) -> list[Any]:
     return list(equations)
 
 
-def _names(variables: Any, equations: Sequence[Any], values: Mapping[str, Any]) -> tuple[str, ...]:
+def _names(
+    variables: Any, equations: Sequence[tuple[Any, str]], values: Mapping[str, Any]
+) -> tuple[str, ...]:
     """The variables' names: those given, else those that occur in the equations."""
     if variables is None:
-        if any(isinstance(f, Polynomial) for f in equations):
+        if any(isinstance(f, Polynomial) for f, _ in equations):
             raise ExpressionError(
                 "variables: a nag.Polynomial has no names in it; give one for each variable"
             )
-        found = {name for i, f in enumerate(equations) for name in _occurring(f, i)}
+        found = {name for f, place in equations for name in _occurring(f, place, values)}
         names = tuple(sorted(found - values.keys(), key=_natural))
     else:
         given = re.split(r"[\s,]+", variables.strip()) if isinstance(variables, str) else variables
@@ -167,11 +184,19 @@ def _names(variables: Any, equations: Sequence[Any], values: Mapping[str, Any]) 
     return names
 
 
-def _occurring(equation: Any, index: int) -> Iterable[str]:
+def _occurring(equation: Any, place: str, values: Mapping[str, Any]) -> Iterable[str]:
+    """The names in an equation; sympy's symbols are variables whatever they are called."""
+    if not is_sympy(equation):
+        names = names_in(equation) if isinstance(equation, str) else frozenset()
+        for unit in IMAGINARY_UNITS:
+            if unit in names - values.keys():
+                mend = "rename the variable, or list all of them in `variables`"
+                raise ExpressionError(f"{place}: {imaginary_text(unit, mend)}")
+        return names
     try:
-        return symbol_names(equation) if is_sympy(equation) else names_in(str(equation))
+        return symbol_names(equation)
     except ExpressionError as error:
-        raise ExpressionError(f"equations[{index}]: {error}") from None
+        raise ExpressionError(f"{place}: {error}") from None
 
 
 def _natural(name: str) -> list[tuple[int, int | str]]:

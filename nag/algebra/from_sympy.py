@@ -17,7 +17,7 @@ from nag.algebra.bounded import BoundedArithmetic, Budget, Value, checked
 from nag.algebra.expression import parse_number
 from nag.algebra.number import PI, cosine, sine, square_root
 from nag.algebra.polynomial import Polynomial
-from nag.algebra.tokens import ExpressionError, quote
+from nag.algebra.tokens import ONLY_REAL, ExpressionError, quote
 
 # Horner forms nest once for each degree.
 MAX_NESTING = 200
@@ -109,7 +109,9 @@ class _Walk:
                     "c and s with c^2 + s^2 = 1"
                 )
             return checked(sine(angle) if isinstance(e, sympy.sin) else cosine(angle))
-        if e == sympy.I or e == sympy.nan or e.is_infinite:
+        if e == sympy.I:
+            raise ExpressionError(f"it holds sympy's I; {ONLY_REAL}")
+        if e == sympy.nan or e.is_infinite:
             raise ExpressionError(
                 f"{quote(str(e))} is no finite real number; coefficients are finite and real"
             )

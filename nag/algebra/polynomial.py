@@ -61,7 +61,7 @@ class Polynomial:
                     continue
                 if isinstance(coefficient, int):
                     coefficient = Fraction(coefficient)
-                elif isinstance(coefficient, str):
+                elif not isinstance(coefficient, Fraction | Irrational):
                     raise TypeError
                 if not is_zero(coefficient):
                     kept[exponents] = coefficient

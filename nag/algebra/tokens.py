@@ -11,6 +11,9 @@ MAX_LENGTH = 100_000
 
 FUNCTION_NAMES = ("sqrt", "sin", "cos")
 RESERVED = frozenset(FUNCTION_NAMES) | {"pi"}
+# Names that mostly stand for the imaginary unit: taken for variables only where they are listed.
+IMAGINARY_UNITS = ("I", "i")
+ONLY_REAL = "only real numbers are read here"
 
 _TOKEN = re.compile(
     r"(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
@@ -68,6 +71,11 @@ def names_in(text: str) -> frozenset[str]:
 def is_name(text: str) -> bool:
     """Whether ``text`` can name a variable or a parameter."""
     return len(text) <= 100 and _NAME.fullmatch(text) is not None and text not in RESERVED
+
+
+def imaginary_text(name: str, mend: str) -> str:
+    """What to say where a name looks like the imaginary unit."""
+    return f"{quote(name)} looks like the imaginary unit, but {ONLY_REAL}; {mend}"
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
