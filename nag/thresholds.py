@@ -325,8 +325,6 @@ decomposition.excluded.FORBIDDEN            1e-8    Values, beside their terms, 
                                                     must not vanish and may: looked at more closely.
 decomposition.branch_points.NOTHING         -90     Decimal logarithm of a pivot of the Loewner
                                                     matrix that is zero, of 200 digits.
-decomposition.singular_members.ROUNDING     1e-8    Distance of a number in doubles from the
-                                                    fraction that it is read as.
 interpolation.point_cloud.SMALL             1e-5    Singular values of tangents, over the largest,
                                                     of directions that the projection loses.
 mechanism.assembly.REAL                     1e-8    Imaginary parts of real assemblies, relative.

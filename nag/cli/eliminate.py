@@ -156,7 +156,7 @@ def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled
     import numpy as np
 
     from nag.interpolation.point_cloud import Ambient, Cloud
-    from nag.interpolation.precise_samples import source_of_component
+    from nag.interpolation.precise_samples import SourceError, source_of_component
     from nag.report.model import body_rows
     from nag.witness.fibres import Tracker
 
@@ -177,6 +177,8 @@ def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled
     component = component_of(found, number, "--component")
     system = found.decomposition.system
     ambient = _ambient(model) if model is not None else Ambient.itself(system)
+    if component.dimension == 0:
+        raise SourceError("the component is a point; there is nothing to eliminate from")
     kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
     top = [("component", f"{kind}, {component.status}"), *top]
     tail = [*doubts(found), *([("open", component.note)] if component.note else [])]

@@ -110,6 +110,7 @@ def _for_parameters(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.files.case_table import CaseError
     from nag.files.cases import read_case
     from nag.files.problem import freed_system
+    from nag.report.singular import parameter_rows
     from nag.text.table import labelled, printable
     from nag.witness.shown import paths_text
 
@@ -146,10 +147,13 @@ def _for_parameters(options: argparse.Namespace) -> tuple[list[str], bool]:
             "notes": list(found.notes),
             "parameters": names,
             "conditions": [[f.text(names) for f in each] for each in found.conditions],
+            "sets": [
+                {"dimension": each.dimension, "degree": each.degree, "proof": each.proof}
+                for each in found.sets
+            ],
         }
         write_document(document, options.json)
-    rows = [("singular", text) for text in found.texts()] or [("singular", "for no parameters")]
-    rows += [("open", note) for note in found.notes]
+    rows = parameter_rows(found)
     rows.append(("paths", paths_text(found.paths)))
     rows.append(run_row(options))
     body = labelled([(label, printable(text)) for label, text in rows])

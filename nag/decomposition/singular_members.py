@@ -1,7 +1,15 @@
 """For which parameters a family of complete intersections has singular members.
 
-The null space system w^T J(x, p) = 0, J the derivatives in the variables alone, is solved together
-with the equations in variables, parameters and w; its components are projected to the parameters.
+The pairs of a parameter p and a singular point x of its member, with null vectors w of the
+transposed Jacobian J(x, p), derivatives in the variables alone, make a set S that is decomposed.
+What is asked for is the closure of its image in the space of the parameters. Each component of S
+has an irreducible image, and those that lie in no other one are the components of the closure.
+
+An image that fills the space is known by the rank of its tangents; one of codimension one, by the
+polynomial of its degree that vanishes at random points of many digits, irreducible over the
+rational numbers; a smaller one by all polynomials of low degree, if their zeros have its dimension
+and its degree. Components whose images are not defined over the rational numbers are conjugate to
+others, and have equations with these together.
 """
 
 from __future__ import annotations
@@ -9,26 +17,63 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations_with_replacement
-from math import gcd, lcm
+from itertools import groupby
+from typing import Literal
 
+import flint
 import numpy as np
 
+from nag.algebra.factoring import factored
 from nag.algebra.given import check_running, check_whole
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
-from nag.decomposition.rank_drop import new_names, product
-from nag.numerics.zero_values import NONZERO, ON, SINGULAR
+from nag.decomposition.rank_drop import BITS, new_names, product
+from nag.interpolation.image_ideal import common_zeros, equations_of_image
+from nag.interpolation.point_cloud import Ambient, Cloud
+from nag.interpolation.precise_samples import Source, SourceError, source_of_component
+from nag.interpolation.proof import equations_ideal, largest_value, proved_by_reduction
+from nag.interpolation.vanishing import (
+    InterpolationError,
+    TooManyMonomialsError,
+    hypersurface_equation,
+    primitive,
+)
+from nag.numerics.digits import number
+from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
 from nag.witness.given_component import check_system
-from nag.witness.sampling import SamplingError, sample
-from nag.witness.witness import PathCounts
+from nag.witness.projection import ProjectionError, project
+from nag.witness.witness import PathCounts, WitnessSet
 
-# Equations of higher degree are not looked for.
-HIGHEST = 3
-# Largest numerator and denominator of a coefficient, and how far it may be from its fraction.
-LARGEST_COEFFICIENT, ROUNDING = 10**4, 1e-8
+# Digits of a random point at which equations tell whether an image lies in a known set.
+DIGITS = 100
+
+Proof = Literal["reduction", "points", "dimension"]
+
+
+@dataclass(frozen=True)
+class ParameterSet:
+    """Parameters with singular members: a set that is irreducible over the rational numbers.
+
+    Attributes:
+        equations: coprime whole coefficients; none where it is the whole space.
+        dimension, degree: of the set.
+        proof: why these are its equations. ``"reduction"``: they carry something that does not
+            vanish on the set of singular points into the ideal of that set's equations;
+            ``"points"``: recognised in so many digits, they hold at fresh random points to more,
+            and are irreducible or have the set's degree; ``"dimension"``: of the tangent space's
+            image, where the set is the whole space.
+    """
+
+    equations: tuple[Polynomial, ...]
+    dimension: int
+    degree: int
+    proof: Proof
+
+    def text(self, names: Sequence[str]) -> str:
+        """The equations in one line."""
+        return " and ".join(f"{f.text(names)} = 0" for f in self.equations) or "all values"
 
 
 @dataclass(frozen=True)
@@ -37,25 +82,26 @@ class SingularParameters:
 
     Attributes:
         parameters: their names.
-        conditions: for each irreducible set of parameters its equations of lowest degree, integer
-            coefficients; no equation where all parameters have singular points.
+        sets: the components, over the rational numbers, of the closure of these parameters.
         paths: what the tracker did.
         complete: whether nothing was left open.
         notes: what was.
     """
 
     parameters: tuple[str, ...]
-    conditions: tuple[tuple[Polynomial, ...], ...]
+    sets: tuple[ParameterSet, ...]
     paths: PathCounts
     complete: bool
     notes: tuple[str, ...]
 
+    @property
+    def conditions(self) -> tuple[tuple[Polynomial, ...], ...]:
+        """The equations of each set; none of the whole space."""
+        return tuple(each.equations for each in self.sets)
+
     def texts(self) -> list[str]:
         """Each set of parameters in one line."""
-        return [
-            " and ".join(f"{f.text(self.parameters)} = 0" for f in equations) or "all values"
-            for equations in self.conditions
-        ]
+        return [each.text(self.parameters) for each in self.sets]
 
 
 def singular_parameters(
@@ -79,7 +125,9 @@ def singular_parameters(
         settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
 
     Returns:
-        For each irreducible set of parameters its equations of lowest degree.
+        For each set of parameters that is irreducible over the rational numbers its equations, and
+        what they rest on. They are those of the closure: for all but a smaller set of the
+        parameters in it, the member is singular.
 
     Raises:
         ValueError: if there are more equations than variables, no complete intersection, or
@@ -94,27 +142,12 @@ def singular_parameters(
     n = _variables(system, count)
     whole = _null_space_system(system, n, np.random.default_rng([seed, 8]))
     found = decompose(whole, seed=seed, threads=threads, settings=settings)
-    notes, images, conditions = list(found.notes), [], []
-    for component in expanded(found).components:
-        try:
-            points = sample(
-                whole, component, _monomial_count(count) // 2 + 4, seed=seed, threads=threads
-            ).points
-        except (SamplingError, ValueError) as reason:
-            notes.append(f"a component of dimension {component.dimension}: {reason}")
-            continue
-        equations = _equations(points[:, n : n + count])
-        if equations is None:
-            notes.append("the equations of a set of parameters are not rational, or of high degree")
-        elif equations not in conditions:
-            conditions.append(equations)
-            images.append(points[:, n : n + count])
+    family = _Family(whole, tuple(range(n, n + count)), seed, Tracker(settings, threads))
+    sets, open_notes = _parameter_sets(family, expanded(found).components)
     names = system.variables[n:]
-    largest = [a for a, x in zip(conditions, images, strict=True) if _largest(a, x, conditions)]
-    unique = sorted(largest, key=lambda fs: [f.text(names) for f in fs])
-    return SingularParameters(
-        names, tuple(unique), found.paths, found.complete and not notes, tuple(notes)
-    )
+    notes = (*found.notes, *open_notes)
+    ordered = tuple(sorted(sets, key=lambda each: (-each.dimension, each.text(names))))
+    return SingularParameters(names, ordered, found.paths, found.complete and not notes, notes)
 
 
 def _variables(system: PolynomialSystem, count: int) -> int:
@@ -136,84 +169,234 @@ def _variables(system: PolynomialSystem, count: int) -> int:
 def _null_space_system(
     system: PolynomialSystem, n: int, rng: np.random.Generator
 ) -> PolynomialSystem:
-    """Equations and conditions; w keeps its own coordinates, so that what factors still does."""
+    """Equations and conditions; w keeps its own coordinates, so that what factors still does.
+
+    The chart of w is random enough to leave out no vector that is special.
+    """
     total, m = system.n + len(system.polynomials), len(system.polynomials)
     w = [Polynomial.variable(total, system.n + i) for i in range(m)]
     rows = [f.with_variables(total, range(system.n)) for f in system.polynomials]
     for i in range(n):
         terms = [row[i].with_variables(total, range(system.n)) for row in system.jacobian]
         rows.append(product(w, terms))
-    rows.append(product(w, [Polynomial.constant(total, int(c)) for c in rng.integers(1, 1000, m)]))
-    rows[-1] = rows[-1] - 1
+    chart = [Fraction(int(c), 1 << BITS) for c in rng.integers(1, 1 << BITS, m)]
+    rows.append(product(w, [Polynomial.constant(total, c) for c in chart]) - 1)
     names = (*system.variables, *new_names(system.variables, m))
     return PolynomialSystem(names, tuple(f for f in dict.fromkeys(rows) if f))
 
 
-def _largest(
-    equations: Sequence[Polynomial], points: np.ndarray, others: Sequence[Sequence[Polynomial]]
-) -> bool:
-    """Whether a set of parameters lies in no other one."""
-    return not any(
-        all(abs(f(list(x))) <= ON * max(_size(f, x), ON) for f in other for x in points)
-        for other in others
-        if other is not equations
+@dataclass(frozen=True, eq=False)
+class _Family:
+    """The equations of pairs and null vectors, and how their zeros are followed.
+
+    Attributes:
+        whole: the equations.
+        coordinates: the parameters among their variables.
+    """
+
+    whole: PolynomialSystem
+    coordinates: tuple[int, ...]
+    seed: int
+    tracker: Tracker
+
+    def cloud(self, sources: Sequence[Source]) -> Cloud:
+        """Points of components of one dimension, one after the other."""
+        rng = np.random.default_rng([self.seed, 9])
+        return Cloud(sources[0], Ambient.itself(self.whole), rng, self.tracker, sources[1:])
+
+
+@dataclass(frozen=True, eq=False)
+class _Image:
+    """The image of a component in the space of the parameters.
+
+    Attributes:
+        cloud: points of the component.
+        dimension: of the image.
+    """
+
+    component: WitnessSet
+    cloud: Cloud
+    dimension: int
+
+    def satisfies(self, equations: Sequence[Polynomial], coordinates: Sequence[int]) -> bool:
+        """Whether equations hold at a random point, to all digits that it has."""
+        (point,) = self.cloud.balls(1, DIGITS)
+        with flint.ctx.workdps(DIGITS):
+            at = [point[i] for i in coordinates]
+            return all(flint.acb(f(at, number)).contains(0) for f in equations)
+
+
+class _OpenError(ValueError):
+    """Equations of an image that are not known, with the reason."""
+
+
+def _parameter_sets(
+    family: _Family, components: Sequence[WitnessSet]
+) -> tuple[list[ParameterSet], list[str]]:
+    """The images of components that lie in no other one, and what was left open."""
+    images, notes = _images(family, components)
+    found: list[ParameterSet] = []
+    for dimension, level in groupby(images, key=lambda image: image.dimension):
+        conjugate: list[_Image] = []
+        for image in level:
+            try:
+                if any(image.satisfies(each.equations, family.coordinates) for each in found):
+                    continue
+                found.append(_set_alone(family, image))
+            except (_OpenError, TooManyMonomialsError, SourceError, ProjectionError) as reason:
+                notes.append(_left_open(dimension, reason))
+            except InterpolationError:
+                conjugate.append(image)
+        for together in _united(conjugate):
+            try:
+                new = _sets_together(family, together)
+            except (_OpenError, InterpolationError, SourceError, ProjectionError) as reason:
+                notes.append(_left_open(dimension, reason))
+            else:
+                found += [each for each in new if each not in found]
+    return found, notes
+
+
+def _left_open(dimension: int, reason: ValueError) -> str:
+    return f"there are singular points for a set of parameters of dimension {dimension}: {reason}"
+
+
+def _images(family: _Family, components: Sequence[WitnessSet]) -> tuple[list[_Image], list[str]]:
+    """The images of components, the largest first, and why some are missing."""
+    found, notes = [], []
+    for component in components:
+        try:
+            cloud = family.cloud([source_of_component(family.whole, component)])
+            found.append(_Image(component, cloud, cloud.image_dimension(family.coordinates)))
+        except SourceError as reason:
+            notes.append(f"singular points of dimension {component.dimension}: {reason}")
+    return sorted(found, key=lambda image: -image.dimension), notes
+
+
+def _set_alone(family: _Family, image: _Image) -> ParameterSet:
+    """The set that an image is, if it is defined over the rational numbers.
+
+    Raises:
+        InterpolationError: if it is not.
+        _OpenError: if its equations are not known for another reason.
+    """
+    count = len(family.coordinates)
+    if image.dimension == count:
+        return ParameterSet((), count, 1, "dimension")
+    degree = _image_degree(family, image)
+    if image.dimension < count - 1:
+        return _small_set(family, image.cloud, image.dimension, degree)
+    known = hypersurface_equation(image.cloud, family.coordinates, degree)
+    equation = _primitive(known.basis[0])
+    if [k for _, k in factored(equation)] != [1] or equation.degree != degree:
+        raise InterpolationError("the set is not defined over the rational numbers")
+    proof = _proof(family, image.cloud, equation, known.digits)
+    return ParameterSet((equation,), image.dimension, degree, proof)
+
+
+def _image_degree(family: _Family, image: _Image) -> int:
+    if image.dimension == 0:
+        return 1
+    found = project(
+        family.whole,
+        image.component,
+        family.coordinates,
+        seed=family.seed,
+        threads=family.tracker.threads,
+        settings=family.tracker.settings,
+    )
+    if found.dimension != image.dimension:
+        raise _OpenError("its dimension is not certain")
+    return found.degree
+
+
+def _proof(family: _Family, cloud: Cloud, equation: Polynomial, digits: int) -> Proof:
+    """What it rests on that a polynomial vanishes on images, which was recognised in some digits.
+
+    Raises:
+        InterpolationError: if it does not vanish.
+    """
+    f = equation.with_variables(family.whole.n, family.coordinates)
+    ideal = equations_ideal(cloud)
+    if ideal is not None and proved_by_reduction(cloud, ideal, f):
+        return "reduction"
+    if largest_value(cloud, [f], 2 * digits) > -digits:
+        raise InterpolationError("a polynomial does not hold at fresh points")
+    return "points"
+
+
+def _small_set(family: _Family, cloud: Cloud, dimension: int, degree: int) -> ParameterSet:
+    """A set of codimension two or more, of known degree.
+
+    Raises:
+        InterpolationError: if it is not defined over the rational numbers.
+        _OpenError: if the equations that are found may have further zeros.
+    """
+    known, _ = equations_of_image(cloud, family.coordinates, dimension)
+    if common_zeros(known) != (dimension, degree):
+        raise _OpenError(f"the equations up to degree {known.degree} may have further zeros")
+    equations = tuple(sorted(map(_primitive, known.generators), key=_written))
+    proofs = {_proof(family, cloud, f, known.digits) for f in equations}
+    return ParameterSet(
+        equations, dimension, degree, "points" if "points" in proofs else "reduction"
     )
 
 
-def _size(f: Polynomial, x: np.ndarray) -> float:
-    return sum(abs(float(c)) * float(np.prod(np.abs(x) ** np.array(e))) for e, c in f.terms.items())
+def _united(images: Sequence[_Image]) -> list[list[_Image]]:
+    """Images that may be conjugate: of components of one dimension and degree."""
+    kinds: dict[tuple[int, int], list[_Image]] = {}
+    for image in images:
+        kinds.setdefault((image.component.dimension, image.component.degree), []).append(image)
+    return list(kinds.values())
 
 
-def _monomial_count(count: int) -> int:
-    return len(_monomials(count, HIGHEST))
+def _sets_together(family: _Family, images: Sequence[_Image]) -> list[ParameterSet]:
+    """Images, all of one dimension, that are defined over the rational numbers together.
+
+    A polynomial of least degree that vanishes on hypersurfaces is the product of their equations;
+    its irreducible factors are those of the sets. Smaller sets are told apart by the factors of
+    their equations.
+
+    Raises:
+        InterpolationError: if they are not.
+        _OpenError: if their equations are not known for another reason.
+    """
+    cloud = family.cloud([image.cloud.source for image in images])
+    dimension = images[0].dimension
+    degree = sum(_image_degree(family, image) for image in images)
+    if dimension < len(family.coordinates) - 1:
+        found = _small_set(family, cloud, dimension, degree)
+        parts = _parted(family, images, found.equations)
+        return [found] if len(parts) == 1 else [s for p in parts for s in _sets_together(family, p)]
+    known, _ = equations_of_image(cloud, family.coordinates, dimension, degree)
+    if len(known.generators) != 1:
+        raise _OpenError(f"it has no equation of degree up to {degree}")
+    proof = _proof(family, cloud, known.generators[0], known.digits)
+    factors = [_primitive(f) for f, _ in factored(known.generators[0])]
+    return [ParameterSet((f,), dimension, f.degree, proof) for f in factors]
 
 
-def _monomials(count: int, degree: int) -> list[tuple[int, ...]]:
-    chosen = [
-        c for d in range(degree, -1, -1) for c in combinations_with_replacement(range(count), d)
-    ]
-    return [tuple(c.count(i) for i in range(count)) for c in chosen]
+def _parted(
+    family: _Family, images: Sequence[_Image], equations: Sequence[Polynomial]
+) -> list[list[_Image]]:
+    """Images by the factors of an equation that they are zeros of, if one has several factors."""
+    for f in equations:
+        factors = [p for p, _ in factored(f)]
+        if len(factors) > 1:
+            parts: dict[int, list[_Image]] = {}
+            for image in images:
+                held = [image.satisfies((p,), family.coordinates) for p in factors]
+                parts.setdefault(held.index(True), []).append(image)
+            return list(parts.values())
+    return [list(images)]
 
 
-def _equations(points: np.ndarray) -> tuple[Polynomial, ...] | None:
-    """Polynomials of lowest degree that vanish at points; none if the points fill the space."""
-    count = points.shape[1]
-    for degree in range(1, HIGHEST + 1):
-        monomials = _monomials(count, degree)
-        table = np.array([[np.prod(x ** np.array(e)) for e in monomials] for x in points])
-        table = table / np.linalg.norm(table, axis=1, keepdims=True)
-        _, s, vh = np.linalg.svd(np.vstack([table.real, table.imag]))
-        small = s < SINGULAR * s[0]
-        if (~small & (s < NONZERO * s[0])).any():
-            return None
-        if small.any():
-            return _rational(vh[len(s) - int(small.sum()) :], monomials)
-    # Nothing of such a degree: all parameters, if there are directions enough.
-    spread = np.linalg.matrix_rank(points - points[0], tol=SINGULAR)
-    return () if spread == count else None
+def _written(f: Polynomial) -> tuple[int, tuple[int, ...]]:
+    """The order in which polynomials are written: by their degree and their first term."""
+    return f.degree, min(tuple(-k for k in e) for e in f.terms if sum(e) == f.degree)
 
 
-def _rational(
-    basis: np.ndarray, monomials: Sequence[tuple[int, ...]]
-) -> tuple[Polynomial, ...] | None:
-    """The reduced echelon form of a basis as polynomials with coprime integer coefficients."""
-    rows, equations = np.array(basis), []
-    pivots: list[int] = []
-    for i in range(len(rows)):
-        column = int(np.argmax(np.abs(rows[i:]).max(axis=0) > NONZERO))
-        best = i + int(np.abs(rows[i:, column]).argmax())
-        rows[[i, best]] = rows[[best, i]]
-        rows[i] /= rows[i, column]
-        pivots.append(column)
-        for k in range(len(rows)):
-            if k != i:
-                rows[k] -= rows[k, column] * rows[i]
-    for row in rows:
-        numbers = [Fraction(float(c)).limit_denominator(LARGEST_COEFFICIENT) for c in row]
-        if np.abs(row - np.array([float(q) for q in numbers])).max() > ROUNDING:
-            return None
-        scale = lcm(*(q.denominator for q in numbers))
-        divisor = gcd(*(int(q * scale) for q in numbers))
-        terms = {e: q * scale / divisor for e, q in zip(monomials, numbers, strict=True) if q}
-        equations.append(Polynomial(len(monomials[0]), terms))
-    return tuple(equations)
+def _primitive(f: Polynomial) -> Polynomial:
+    """The multiple with coprime whole coefficients, the one that is written first positive."""
+    g = primitive(f)
+    return g if g.terms[tuple(-k for k in _written(g)[1])] > 0 else -g

@@ -16,6 +16,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.interpolation.point_cloud import (
+    MORE_POINTS,
     Cloud,
     Exponents,
     monomial_values,
@@ -24,7 +25,6 @@ from nag.interpolation.point_cloud import (
 )
 from nag.interpolation.vanishing import (
     DIGITS,
-    MORE_POINTS,
     MOST_MONOMIALS,
     Interpolated,
     InterpolationError,

@@ -121,7 +121,7 @@ def image_ideal(
     coordinates = tuple(coordinates)
     dimension = cloud.image_dimension(coordinates)
     tell("interpolating equations", 1, 4)
-    known, note = _equations(cloud, coordinates, dimension, degree)
+    known, note = equations_of_image(cloud, coordinates, dimension, degree)
     tell("interpolating maps", 2, 4)
     others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
     found: tuple[VariableMap, ...] = ()
@@ -144,7 +144,7 @@ def image_ideal(
         generator_proofs=tuple(proofs[: len(generators)]),
         maps=found,
         map_proofs=tuple(proofs[len(generators) :]),
-        zeros=_zeros(known),
+        zeros=common_zeros(known),
         cuts=_cuts(cloud, known, dimension),
         defines=_defines(known, dimension),
         digits=known.digits,
@@ -153,8 +153,8 @@ def image_ideal(
     )
 
 
-def _equations(
-    cloud: Cloud, coordinates: tuple[int, ...], dimension: int, degree: int | None
+def equations_of_image(
+    cloud: Cloud, coordinates: tuple[int, ...], dimension: int, degree: int | None = None
 ) -> tuple[Interpolated, str]:
     """All equations up to a degree, and why some are missing."""
     known, k = start(coordinates), len(coordinates)
@@ -193,7 +193,7 @@ def _cuts(cloud: Cloud, known: Interpolated, dimension: int) -> bool:
     return numerical_corank(singular, k, SMALL) == dimension
 
 
-def _zeros(known: Interpolated) -> tuple[int, int]:
+def common_zeros(known: Interpolated) -> tuple[int, int]:
     """Dimension of the equations' common zeros, and a bound of their degree.
 
     Those of the leading monomials that are known. The zeros lie in no smaller dimension than the
@@ -210,7 +210,7 @@ def _defines(known: Interpolated, dimension: int) -> bool:
     A hypersurface's equation of least degree is irreducible. The degree of a curve is at least the
     number of functions that one degree more adds (its hyperplane section has no fewer conditions).
     """
-    k, zeros = len(known.coordinates), _zeros(known)
+    k, zeros = len(known.coordinates), common_zeros(known)
     if zeros[0] != dimension:
         return False
     if dimension >= k - 1 or zeros[1] == 1:
@@ -247,7 +247,7 @@ def _essential_base(cloud: Cloud) -> Substitution | None:
     try:
         coordinates = essential_variables(cloud)
         dimension = cloud.image_dimension(coordinates)
-        known, _ = _equations(cloud, coordinates, dimension, None)
+        known, _ = equations_of_image(cloud, coordinates, dimension, None)
         others = [i for i in range(cloud.ambient.system.n) if i not in coordinates]
         found = maps(cloud, known, others)
     except InterpolationError:

@@ -17,6 +17,8 @@ from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Tracker
 from nag.witness.slices import padded
 
+# Points beyond those that make the columns as long as they are many.
+MORE_POINTS = 6
 # A singular value beside the largest, from which a tangent direction is lost in the projection.
 SMALL = 1e-5
 
@@ -65,16 +67,25 @@ class Ambient:
 class Cloud:
     """Random points of a component, found when they are asked for and kept.
 
+    Components that are conjugate over the rational numbers make one set that is defined there; the
+    points lie on one after the other of them. Of isolated points there are no more than these.
+
     Attributes:
         source: what they are sampled from.
+        sources: this, and further components of the same dimension.
         ambient: the variables in which they are given.
         interpolated: what was found of the component's images, by variables and degree.
     """
 
     def __init__(
-        self, source: Source, ambient: Ambient, rng: np.random.Generator, tracker: Tracker
+        self,
+        source: Source,
+        ambient: Ambient,
+        rng: np.random.Generator,
+        tracker: Tracker,
+        further: Sequence[Source] = (),
     ) -> None:
-        self.source, self.ambient = source, ambient
+        self.source, self.sources, self.ambient = source, (source, *further), ambient
         self.interpolated: dict[tuple[tuple[int, ...], int], Any] = {}
         self._rng, self._tracker = rng, tracker
         self._samples: list[Sample] = []
@@ -87,10 +98,25 @@ class Cloud:
 
     def samples(self, count: int) -> list[Sample]:
         """The first ``count`` points."""
-        missing = count - len(self._samples)
-        if missing > 0:
-            self._samples += samples(self.source, missing, self._rng, self._tracker)
+        if not self.source.dimension:
+            count = min(count, len(self.sources))
+        places = range(len(self._samples), count)
+        found: dict[int, Sample] = {}
+        for k, source in enumerate(self.sources):
+            own = [i for i in places if i % len(self.sources) == k]
+            drawn = samples(source, len(own), self._rng, self._tracker)
+            found |= dict(zip(own, drawn, strict=True))
+        self._samples += [found[i] for i in places]
         return self._samples[:count]
+
+    def points_for(self, columns: int) -> int:
+        """How many points make so many real columns longer than they are many, on each component.
+
+        Fewer where there are no more.
+        """
+        if not self.source.dimension:
+            return len(self.sources)
+        return ((columns + 1) // 2 + MORE_POINTS) * len(self.sources)
 
     def balls(self, count: int, digits: int) -> list[list[flint.acb]]:
         """The first ``count`` points in all variables, as balls of so many digits."""
@@ -107,6 +133,8 @@ class Cloud:
 
     def image_dimension(self, coordinates: Sequence[int]) -> int:
         """Dimension of the closure of the component's image in some of the variables."""
+        if not self.source.dimension:
+            return 0
         sample = self.samples(1)[0]
         tangent = _tangent(sample)
         derivatives = np.zeros((len(coordinates), len(sample.x)), dtype=complex)

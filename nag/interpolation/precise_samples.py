@@ -63,12 +63,10 @@ def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Sour
     """The witness points of a component.
 
     Raises:
-        SourceError: if the coefficients are irrational, nothing moves, or the points are singular
-            in a way that deflation does not mend.
+        SourceError: if the coefficients are irrational, or the points are singular in a way that
+            deflation does not mend.
     """
     _check_rational(system)
-    if component.dimension == 0:
-        raise SourceError("the component is a point; there is nothing to eliminate from")
     try:
         fibres = component_fibres(system, component)
     except ValueError as error:
@@ -143,7 +141,8 @@ class Sample:
             raise SourceError("a sampled point is singular to rounding") from None
         with flint.ctx.workdps(digits + SPARE):
             point = [flint.acb(complex(x)) for x in self.z]
-            slices = flint.acb_mat([[flint.acb(complex(c)) for c in row] for row in rows])
+            sliced = [flint.acb(complex(c)) for row in rows for c in row]
+            slices = flint.acb_mat(len(rows), 1 + len(self.z), sliced)
             small = flint.arb(10) ** (-digits - SPARE // 2)
             for _ in range(4 + digits // GAIN):
                 values = self.functions(point).entries()

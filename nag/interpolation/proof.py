@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import prod
 
 import flint
@@ -100,8 +101,13 @@ def equations_ideal(cloud: Cloud) -> Ideal | None:
     system = cloud.ambient.system
     if system.n > MOST_VARIABLES or prod(system.degrees) > MOST_SOLUTIONS:
         return None
+    return _ideal(system.polynomials, system.variables)
+
+
+@lru_cache(maxsize=4)
+def _ideal(polynomials: tuple[Polynomial, ...], names: tuple[str, ...]) -> Ideal | None:
     try:
-        return ideal_of(system.polynomials, system.variables)
+        return ideal_of(polynomials, names)
     except UnfinishedBasis:
         return None
 
@@ -110,20 +116,22 @@ def proved_by_reduction(cloud: Cloud, ideal: Ideal, f: Polynomial) -> bool:
     """Whether a power of ``f`` times some s that is not zero on the component lies in the ideal.
 
     A component is irreducible, so where ``s f^2`` vanishes on it and ``s`` does not, ``f`` does.
+    Of conjugate components each needs such an s.
 
     Args:
         ideal: of all equations.
         f: in all variables.
     """
-    (point,) = cloud.balls(1, DIGITS)
+    points = cloud.balls(len(cloud.sources), DIGITS)
     for power in range(1, MOST_POWER + 1):
         for degree in range(MOST_FACTOR_DEGREE + 1):
             factors = multipliers(ideal, f**power, degree, MOST_FACTOR_TERMS)
             if factors is None:
                 break
             with flint.ctx.workdps(DIGITS):
-                if any(_value(s, point) > NONZERO for s in factors):
-                    return True
+                points = [p for p in points if not any(_value(s, p) > NONZERO for s in factors)]
+            if not points:
+                return True
     return False
 
 
@@ -142,13 +150,14 @@ def cleared_map(m: VariableMap, n: int, coordinates: Sequence[int]) -> Polynomia
 def largest_value(cloud: Cloud, polynomials: Sequence[Polynomial], digits: int) -> float:
     """The decimal logarithm of the largest value at `FRESH_POINTS` new points.
 
-    Relative to the terms, coordinates below one counted as one; radii of the balls included.
+    Relative to the terms, coordinates below one counted as one; radii of the balls included. Of
+    isolated points, which are the same in all digits, these are taken.
 
     Args:
         polynomials: in all variables.
         digits: of the points.
     """
-    known = cloud.count
+    known = cloud.count if cloud.source.dimension else 0
     points = cloud.balls(known + FRESH_POINTS, digits)[known:]
     worst = float("-inf")
     with flint.ctx.workdps(digits + 20):

@@ -24,16 +24,23 @@ from nag.interpolation.point_cloud import (
     monomials_in_doubles,
     real_rows,
 )
-from nag.numerics.rational_relations import Echelon, TooFewDigitsError, clearly_independent
+from nag.numerics.rational_relations import (
+    Echelon,
+    TooFewDigitsError,
+    clearly_independent,
+    recognised,
+)
 
 # Digits that are tried one after the other.
 DIGITS = (100, 250, 700)
 # More monomials cost more time than anybody waits for.
 MOST_MONOMIALS = 400
+# Coefficients of one polynomial of known degree, which are solved for together.
+MOST_COEFFICIENTS = 500
+# The linear form of these that is one has powers of a number modulo a prime for coefficients.
+BASE, PRIME = 5, 10007
 # Entries of a matrix of multiples of equations.
 MOST_ENTRIES = 4_000_000
-# Points beyond those that make the columns as long as they are many.
-MORE_POINTS = 6
 
 
 class InterpolationError(ValueError):
@@ -88,16 +95,11 @@ def start(coordinates: Sequence[int]) -> Interpolated:
     return Interpolated(tuple(coordinates), 0, (), (), (1,), (one,), 0)
 
 
-def _points_for(columns: int) -> int:
-    """How many points make so many real columns longer than they are many."""
-    return (columns + 1) // 2 + MORE_POINTS
-
-
 def columns_at(
     cloud: Cloud, coordinates: Sequence[int], monomials: Sequence[Exponents], digits: int, more: int
 ) -> dict[Exponents, list[flint.arb]]:
     """Real columns of the monomials' values, for ``more`` columns beside these."""
-    count = _points_for(len(monomials) + more)
+    count = cloud.points_for(len(monomials) + more)
     points = [[p[i] for i in coordinates] for p in cloud.balls(count, digits)]
     values = monomial_values(points, monomials)
     return {e: real_rows(values[e]) for e in monomials}
@@ -121,12 +123,12 @@ def _next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
     leading = [leading_monomial(f) for f in known.basis]
     total = len(known.standard) + comb(k + degree - 1, degree)
     if comb(k + degree - 1, degree) > 100 * MOST_MONOMIALS:
-        raise _too_many(total, degree, k)
+        raise _too_many(total, degree, k, MOST_MONOMIALS)
     candidates = [
         e for e in monomials_of_degree(k, degree) if not any(divides(m, e) for m in leading)
     ]
     if len(known.standard) + len(candidates) > MOST_MONOMIALS:
-        raise _too_many(len(known.standard) + len(candidates), degree, k)
+        raise _too_many(len(known.standard) + len(candidates), degree, k, MOST_MONOMIALS)
     for digits in DIGITS:
         if digits < known.digits:
             continue
@@ -136,11 +138,7 @@ def _next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
         except TooFewDigitsError:
             continue
     else:
-        raise InterpolationError(
-            f"the polynomials of degree {degree} have coefficients that are not recognised as "
-            f"rational numbers in {DIGITS[-1]} digits: the component is not defined over the "
-            "rational numbers"
-        )
+        raise _not_rational(degree)
     generators = list(known.generators)
     new = []
     for lead, coefficients in relations:
@@ -158,10 +156,18 @@ def _next_degree(cloud: Cloud, known: Interpolated) -> Interpolated:
     )
 
 
-def _too_many(count: int, degree: int, variables: int) -> TooManyMonomialsError:
+def _too_many(count: int, degree: int, variables: int, most: int) -> TooManyMonomialsError:
     return TooManyMonomialsError(
         f"{count} monomials of degree up to {degree} in {variables} variables are more than "
-        f"{MOST_MONOMIALS}; project to fewer variables or take a lower degree"
+        f"{most}; project to fewer variables or take a lower degree"
+    )
+
+
+def _not_rational(degree: int) -> InterpolationError:
+    return InterpolationError(
+        f"the polynomials of degree {degree} have coefficients that are not recognised as "
+        f"rational numbers in {DIGITS[-1]} digits: the component is not defined over the "
+        "rational numbers"
     )
 
 
@@ -170,7 +176,7 @@ def _split(
 ) -> tuple[list[Exponents], list[tuple[Exponents, list[Fraction]]]]:
     """The candidates that are independent, after those known to be, and the others' relations."""
     together = [*known.standard, *candidates]
-    points = cloud.doubles(_points_for(len(together)), digits)[:, known.coordinates]
+    points = cloud.doubles(cloud.points_for(len(together)), digits)[:, known.coordinates]
     if clearly_independent(monomials_in_doubles(points, together)):
         return together, []
     with flint.ctx.workdps(digits + 20):
@@ -247,3 +253,45 @@ def _rank(polynomials: Sequence[Polynomial], place: dict[Exponents, int]) -> int
             row[place[e]] = int(c)
         entries += row
     return int(flint.fmpz_mat(len(polynomials), len(place), entries).rank())
+
+
+def hypersurface_equation(cloud: Cloud, coordinates: Sequence[int], degree: int) -> Interpolated:
+    """The polynomial of least degree that vanishes on the image, a hypersurface of known degree.
+
+    Up to a factor it is the only one of this degree, so that a random linear form of its
+    coefficients being one makes a regular system of its values at random points: its solution in
+    balls is a proof of that, at these points.
+
+    Raises:
+        TooManyMonomialsError: if there are too many monomials.
+        InterpolationError: if the coefficients are not rational.
+        SourceError: if points cannot be sampled.
+    """
+    k = len(coordinates)
+    total = comb(k + degree, k)
+    if total > MOST_COEFFICIENTS:
+        raise _too_many(total, degree, k, MOST_COEFFICIENTS)
+    monomials = [e for d in range(degree + 1) for e in monomials_of_degree(k, d)]
+    for digits in DIGITS:
+        points = [[p[i] for i in coordinates] for p in cloud.balls((total + 1) // 2, digits)]
+        with flint.ctx.workdps(digits + 20):
+            values = monomial_values(points, monomials)
+            columns = [real_rows(values[e])[: total - 1] for e in monomials]
+            form = [flint.arb(pow(BASE, j, PRIME)) for j in range(total)]
+            entries = [*(column[i] for i in range(total - 1) for column in columns), *form]
+            right = flint.arb_mat(total, 1, [0] * (total - 1) + [1])
+            try:
+                solution = flint.arb_mat(total, total, entries).solve(right).entries()
+                coefficients = [recognised(c) for c in solution]
+            except (ZeroDivisionError, TooFewDigitsError):
+                continue
+        terms = {e: c for e, c in zip(monomials, coefficients, strict=True) if c}
+        found = primitive(Polynomial(k, terms))
+        lead = leading_monomial(found)
+        monic = found / found.terms[lead]
+        standard = tuple(e for e in monomials if not divides(lead, e))
+        counts = tuple(sum(sum(e) <= d for e in standard) for d in range(degree + 1))
+        return Interpolated(
+            tuple(coordinates), degree, (monic,), (monic,), counts, standard, digits
+        )
+    raise _not_rational(degree)

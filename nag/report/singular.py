@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from nag.decomposition.singular_members import SingularParameters
     from nag.decomposition.singular_points import SingularLocus, SingularSet
     from nag.numerics.tangent_cone import TangentCone
     from nag.witness.witness import Decomposition
@@ -21,6 +22,27 @@ def coordinate_text(z: complex) -> str:
     if not imaginary:
         return f"{real:.8g}"
     return f"{real:.8g}{imaginary:+.8g}i" if real else f"{imaginary:.8g}i"
+
+
+# What the equations of a set of parameters rest on.
+PROOFS = {
+    "reduction": "proved by reduction modulo the equations of singular points",
+    "points": "recognised at random points, holds at others to twice the digits",
+    "dimension": "by the rank of tangents",
+}
+
+
+def parameter_rows(found: SingularParameters) -> list[tuple[str, str]]:
+    """For which parameters members are singular, what that rests on, and what is open."""
+    rows = []
+    for each in found.sets:
+        size = f"dimension {each.dimension}, degree {each.degree}"
+        rows.append(("singular", each.text(found.parameters)))
+        rows.append(("", f"{size}; {PROOFS[each.proof]}"))
+    if not rows:
+        answer = "for no parameters" if found.complete else "it is not known for which parameters"
+        rows.append(("singular", answer))
+    return [*rows, *(("open", note) for note in found.notes)]
 
 
 def _count(number: int, noun: str) -> str:

@@ -1,0 +1,106 @@
+"""For which parameters members of a family are singular: conditions against known discriminants."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+import nag
+from nag.cli import main
+from nag.decomposition import singular_parameters
+from nag.decomposition.singular_members import SingularParameters
+from nag.report.singular import parameter_rows
+from nag.witness.witness import PathCounts
+
+# Equations, variables with the parameters last, how many these are, and for each set of parameters
+# its equations.
+FAMILIES = {
+    "the cubic discriminant": (
+        "x^3 + a*x^2 + b*x + c",
+        "x a b c",
+        3,
+        {"4*a^3*c - a^2*b^2 - 18*a*b*c + 4*b^3 + 27*c^2 = 0"},
+    ),
+    "degree 5 in two parameters": (
+        "y^2 - x^4 - a*x^2 - b*x - 1",
+        "x y a b",
+        2,
+        {"4*a^3*b^2 - 16*a^4 + 27*b^4 - 144*a*b^2 + 128*a^2 - 256 = 0"},
+    ),
+    "irrational values": ("y^2 - x^3 + x - a", "x y a", 1, {"27*a^2 - 4 = 0"}),
+    "irrational planes": (
+        "y^2 - x^3 + x - a - b",
+        "x y a b",
+        2,
+        {"27*a^2 + 54*a*b + 27*b^2 - 4 = 0"},
+    ),
+    "values of two kinds": (
+        "y^2 - x^5 + 2*x^2 - a",
+        "x y a",
+        1,
+        {"a = 0", "3125*a^3 - 3456 = 0"},
+    ),
+    "lines that meet": (
+        "x*y*z - a*x - b*y - c",
+        "x y z a b c",
+        3,
+        {"a = 0 and c = 0", "b = 0 and c = 0"},
+    ),
+    "conjugate points of two kinds": (
+        "x*(a^3 - 2) + y*(b - a)*(b^2 + 1)",
+        "x y a b",
+        2,
+        {"a - b = 0 and b^3 - 2 = 0", "b^2 + 1 = 0 and a^3 - 2 = 0"},
+    ),
+    "all members": ("(x^2 - a)*(y - b)", "x y a b", 2, {"all values"}),
+    "no members": ("x*y - 1 + 0*a", "x y a", 1, set()),
+}
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_conditions_are_those_of_exact_elimination(name: str) -> None:
+    equation, variables, count, expected = FAMILIES[name]
+    found = singular_parameters(nag.system(equation, variables), count)
+    assert (set(found.texts()), found.complete, found.notes) == (expected, True, ())
+
+
+def test_a_discriminant_of_degree_twelve_is_found() -> None:
+    """That of ternary cubics has degree 12; with a = b = 0 the member is Fermat's, smooth."""
+    family = nag.system("x^3 + y^3 + 1 + a*(x^2*y + 2*y + x) + b*(x*y^2 + 3*x^2 - 1)", "x y a b")
+    found = singular_parameters(family, 2)
+    assert found.complete
+    assert [(s.dimension, s.degree, s.proof) for s in found.sets] == [(1, 12, "reduction")]
+    ((discriminant,),) = found.conditions
+    assert discriminant([Fraction(0), Fraction(0)]) != 0
+
+
+def test_a_condition_of_too_many_terms_is_open(tmp_path: Path, capsys) -> None:
+    file = tmp_path / "family.toml"
+    file.write_text(
+        'title = "a family"\nkind = "system"\nvariables = ["x", "y"]\n'
+        'equations = ["x^4 + y^2*x + 1 + a*x^2*y + b*x + c*y"]\n[parameters]\na = 1\nb = 1\nc = 1\n'
+    )
+    assert main(["singular", str(file), "--free", "a,b,c", "--quiet"]) == 1
+    out = capsys.readouterr().out
+    assert "singular  it is not known for which parameters\nopen" in out
+    assert "all values" not in out and "= 0" not in out
+
+
+def test_it_is_said_what_conditions_rest_on(tmp_path: Path, capsys) -> None:
+    file = tmp_path / "family.toml"
+    file.write_text(
+        'title = "a family"\nkind = "system"\nvariables = ["x", "y"]\n'
+        'equations = ["y^2 - x^3 + x - a"]\n[parameters]\na = 1\n'
+    )
+    assert main(["singular", str(file), "--free", "a", "--quiet"]) == 0
+    out = capsys.readouterr().out
+    assert "singular  27*a^2 - 4 = 0\n          dimension 0, degree 2; proved by reduction" in out
+
+
+@pytest.mark.parametrize("complete", [False, True])
+def test_no_parameters_are_named_where_nothing_is_known(complete: bool) -> None:
+    notes = () if complete else ("paths failed",)
+    rows = parameter_rows(SingularParameters(("a",), (), PathCounts(), complete, notes))
+    assert (("singular", "for no parameters") in rows) is complete
