@@ -187,6 +187,20 @@ def test_paths_of_a_hypersurface_section_end_on_all_its_points(seed):
     assert distances(homotopy, paths.points[singular[:1]], paths.points[singular[1:]]) < 1e-10
 
 
+def test_a_step_between_two_close_branch_points_does_not_lead_to_the_other_path():
+    # The paths are x = +-sqrt((t - m)^2 + gap^2): a prediction from far away sees them cross at m.
+    x, y = Polynomial.variables(2)
+    gap = Fraction(1, 500)
+    for m in (Fraction(k, 100) for k in range(5, 95, 3)):
+        rows = compile_rows([x**2 - (y - m) ** 2 - gap**2])
+        homotopy = Homotopy(rows, np.array([[0, 0, 1]]), np.array([[-1, 0, 0]]))
+        far, near = (float((t - m) ** 2 + gap**2) ** 0.5 for t in (1, 0))
+        paths = track(homotopy, np.array([[1, far, 1], [1, -far, 1]]))
+        assert (paths.status == PathStatus.REGULAR).all()
+        ends = paths.points[:, 1] / paths.points[:, 0]
+        assert np.abs(ends - [near, -near]).max() < 1e-12
+
+
 def test_results_do_not_depend_on_the_other_paths_nor_on_threads():
     homotopy, starts = total_degree(katsura(7), 2)
     settings = Settings(retries=0)

@@ -66,7 +66,21 @@ def convergence_radius(norms, order, lane):
         return FAR
     second = norms[8 * (order - 1) + lane]
     third = norms[8 * (order - 2) + lane]
-    return min(FAR, max(math.sqrt(second / last), (third / last) ** 0.25))
+    return min(FAR, max(math.sqrt(second / last), math.sqrt(math.sqrt(third / last))))
+
+
+def longest_step(w, order, lane, factor):
+    """The step to a lane's point that the radius of convergence there allows.
+
+    Radii at both ends of a step differ by the step at most, so that the one at its beginning is no
+    larger than that at its end and the step together. Where it seemed to be, the series there did
+    not show branch points beside the step, which may have led past them to another path.
+
+    Args:
+        factor: largest step as part of the radius of convergence at its beginning.
+    """
+    radius = convergence_radius(w.norms, order + 1, lane)
+    return factor * (radius + w.scalars[8 * H_USED + lane])
 
 
 def next_step(w, order, lane, aim, factor):

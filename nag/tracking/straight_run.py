@@ -16,7 +16,14 @@ from nag.machine_code.lanes import fma, load, select_less, splat, store
 from nag.machine_code.records import Complexes, Reals, Wholes
 from nag.tracking.kernel_arrays import System, Work
 from nag.tracking.linear_algebra import factorize, substitute
-from nag.tracking.predictor import CORRECT, PREDICT, next_step, next_t, predict
+from nag.tracking.predictor import (
+    CORRECT,
+    PREDICT,
+    longest_step,
+    next_step,
+    next_t,
+    predict,
+)
 from nag.tracking.taylor import (
     complete_slope,
     complete_slots,
@@ -47,6 +54,8 @@ ROUNDING = 1e-9
 LEAST = 1e-15
 # Steps, relative to t, at which a path is left to others.
 SHORTEST = 1e-10
+# A step is rejected that is so many times as long as the radius of convergence at its end allows.
+OVERLONG = 1.25
 # Corrections as large as this lead nowhere; their squares are still numbers.
 OVERFLOW = 1e100
 
@@ -188,6 +197,12 @@ def _aim(w):
             w.tr[lane] = w.scalars[8 * T + lane]
 
 
+def _too_long(w, lane, b):
+    """Whether the radius of convergence at a lane's point is too small for the step to it."""
+    longest = longest_step(w, b.order, lane, b.radius_factor)
+    return w.scalars[8 * H_USED + lane] > OVERLONG * longest
+
+
 def _judged(w, lane, b):
     """Whether the corrections of a lane let it be accepted; sizes for the next step."""
     f, c = w.scalars, w.counters
@@ -209,6 +224,8 @@ def _judged(w, lane, b):
         c[8 * ROUNDS + lane] += 1
         if first > 0.1 or not (theta <= 0.5 or second <= b.floor):
             return REJECTED
+    if c[8 * STATE + lane] != STARTING and _too_long(w, lane, b):
+        return REJECTED
     # The Taylor coefficients' Jacobian is that before the correction.
     exact = w.tr[lane] == f[8 * GOAL + lane] or c[8 * STATE + lane] == STARTING
     newton = b.newton_end if exact else b.newton
@@ -250,6 +267,8 @@ def _failed(w, lane, b):
     if finite and c[8 * STATE + lane] == STEPPING and first > b.tolerance:
         shrink = (b.safety * b.tolerance / first) ** (1.0 / (b.order + 1))
         shrink = min(max(shrink, 0.1), 0.6)
+    elif finite and _too_long(w, lane, b):
+        shrink = longest_step(w, b.order, lane, b.radius_factor) / f[8 * H_USED + lane]
     c[8 * FAILURES + lane] += 1
     f[8 * H + lane] = f[8 * H_USED + lane] * shrink
     c[8 * STATE + lane] = STEPPING
