@@ -285,6 +285,13 @@ def test_zeros_that_were_left_out_count_for_completeness(tmp_path: Path) -> None
     assert not without.complete
 
 
+def test_more_digits_than_doubles_prove_that_nothing_vanishes_that_must_not() -> None:
+    result = solve(system("x y", "x^2 - 2", "y - x", nonzero=("y^2 - 2 - 1/10^20",)))
+    assert len(result.solutions) == 2
+    certificate = certify_solutions(result)
+    assert certificate.nonzero.all() and certificate.all_proved
+
+
 def test_points_of_a_double_curve_bound_no_degree() -> None:
     certificate = certify_decomposition(components_of(read_case(CASES / "gonzalez.toml").system))
     proofs = [p for c in certificate.components for p in c.points.proofs]

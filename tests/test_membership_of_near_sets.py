@@ -125,7 +125,13 @@ def test_an_exact_point_is_the_isolated_zero_whose_equations_it_satisfies(digits
 
 
 @pytest.mark.parametrize("digits", [16, 40])
-def test_which_zero_of_the_same_equations_a_point_is_may_be_undecided(digits: int) -> None:
+def test_which_zero_of_the_same_equations_a_point_is_takes_exact_coordinates(digits: int) -> None:
     answer = nag.decompose([f"x*(x - 1/10^{digits})*(x - 1)", "y - x/3"])
-    found = memberships(answer, np.zeros(2, complex), accuracy=1e-15, exact=(Fraction(0),) * 2)
+    origin = np.zeros(2, complex)
+    found = memberships(answer, origin, accuracy=1e-15)
     assert sorted(m.value for m in found) == ["foreign", "undecided", "undecided"]
+    found = memberships(answer, origin, accuracy=1e-15, exact=(Fraction(0),) * 2)
+    assert [m is Membership.MEMBER for m in found] == [
+        not c.points.any() for c in answer.components
+    ]
+    assert sum(m is Membership.FOREIGN for m in found) == 2

@@ -117,6 +117,32 @@ def test_an_isolated_configuration_is_none_of_those_that_are_far_off() -> None:
     assert report.components == ((0, 1),) and report.status == "rigid"
 
 
+# Points and axes of a robot arm with a held hand, as they stand in files of doubles.
+ARM = (
+    [
+        "-0.5451183290109842 -0.2828777967976045 0.2648259038808266",
+        "0 0 0",
+        "0 0 0.089159",
+        "-0.1841681936025738 -0.05696989830639916 0.46792212802611005",
+        "-0.5421621410767345 -0.16771040340100046 0.35200432696319967",
+        "-0.5099061105196493 -0.27198538118906035 0.35200432696319967",
+    ],
+    [
+        "-0.5055691960999009 -0.8070621088590519 0.3050418666328928",
+        "0 0 1",
+        *["0.29552020666133955 -0.955336489125606 6.123233995736766e-17"] * 3,
+        "-0.37202555194225967 -0.11508098899676876 -0.9210609940028851",
+    ],
+)
+
+
+def test_an_arm_in_full_doubles_is_at_one_of_its_eight_configurations() -> None:
+    # Right angles and parallels hold to rounding, so that the Jacobian is singular to rounding.
+    points, axes = ([tuple(text.split()) for text in texts] for texts in ARM)
+    report = nag.mobility(loop(points, axes))
+    assert report.components == ((0, 1),) and report.status == "rigid" and not report.open
+
+
 # Local dimension, tangent dimension, status, and what another formulation is.
 GENERAL = {
     "spatial/bennett": (1, 1, "overconstrained", "E"),

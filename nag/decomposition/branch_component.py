@@ -16,15 +16,13 @@ from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import (
     NONZERO,
     WRITTEN,
-    alike,
-    possible_zeros,
     surely_differs,
     vanishes_at_all,
 )
 from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import vanishing
+from nag.witness.exact_points import exact_zeros
 from nag.witness.fibres import Fibre
-from nag.witness.multiplicity import ACCURACY
 from nag.witness.witness import WitnessSet
 
 
@@ -92,17 +90,4 @@ class BranchComponent:
     @cached_property
     def zeros(self) -> tuple[SingularEnd, ...]:
         """The exact zeros on the slice that the first point may stand for."""
-        x, rows = self.witness.points[0], self.witness.slice.rows
-        accuracy: float | np.ndarray = self.witness.accuracy
-        simple = self.witness.multiplicity == 1
-        if self._each_known and simple:
-            accuracy = self.witness.radii[0]
-        elif self.witness.fibres or not (self._each_known or simple):
-            # Of what was sharpened by a deflation no more is known.
-            accuracy = max(self.witness.accuracy, ACCURACY)
-        rng = np.random.default_rng(0)
-        zeros = possible_zeros(self.branch.system.polynomials, x, accuracy, rng, rows)
-        if self._isolated:
-            # Paths end at a zero as many times as its multiplicity says: no other is meant.
-            zeros = tuple(z for z in zeros if z.multiplicity == self.witness.multiplicity)
-        return alike(zeros, x) if len(zeros) > 1 else zeros
+        return exact_zeros(self.branch.system.polynomials, self.witness)

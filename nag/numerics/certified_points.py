@@ -21,7 +21,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.box_relations import fine_box, overlaps
+from nag.numerics.box_relations import fine_box, one_zero, overlaps
 from nag.numerics.close_zeros import close_zeros, matched
 from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
@@ -266,12 +266,18 @@ def joined_boxes(groups: Sequence[CertifiedPoints], *proofs: Proof) -> Boxes:
 
 
 def zero_digits(
-    polynomials: Sequence[Polynomial], equations: Sequence[Polynomial], points: CertifiedPoints
+    polynomials: Sequence[Polynomial],
+    equations: Sequence[Polynomial],
+    points: CertifiedPoints,
+    among: np.ndarray | None = None,
 ) -> np.ndarray:
     """Digits to which one of the polynomials vanishes at each proved zero, shape ``(P,)``.
 
+    They are 0 where it is proved that none does, and where nothing was looked at.
+
     Args:
         equations: whose zeros these are; simple ones of as many as unknowns are sharpened first.
+        among: which zeros are looked at, shape ``(P,)``; all by default.
     """
     P, n = points.points.shape
     none = np.zeros((0, 1 + n), dtype=complex)
@@ -279,14 +285,21 @@ def zero_digits(
     if len(equations) == n:
         square = BallPolynomials.of(equations, none)
     digits = np.zeros(P)
-    for i in np.flatnonzero(points.boxes.proved).tolist():
-        box = None
-        if square is not None and points.proofs[i] is Proof.SIMPLE:
-            start = [flint.acb(complex(z)) for z in points.boxes.centres[i]]
-            box = box_about(square, start, (BITS[-1],))
-        box = box or fine_box(points.boxes, i)
+    chosen = points.boxes.proved if among is None else points.boxes.proved & among
+    for i in np.flatnonzero(chosen).tolist():
+        box = _sharpest_box(square, points, i)
         digits[i] = max((vanishing_digits(row, box) for row in rows), default=0.0)
     return digits
+
+
+def _sharpest_box(square: BallPolynomials | None, points: CertifiedPoints, i: int) -> FineBox:
+    """The box of a proved zero, smaller where as many equations as unknowns make it simple."""
+    known = fine_box(points.boxes, i)
+    if square is None or points.proofs[i] is not Proof.SIMPLE:
+        return known
+    box = box_about(square, known.centre, (BITS[-1],))
+    # Newton's method may have led to another zero.
+    return known if box is None or not one_zero(box, known) else box
 
 
 def _enter(boxes: Boxes, places: np.ndarray, found: Boxes) -> None:

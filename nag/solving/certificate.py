@@ -8,6 +8,7 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -17,7 +18,13 @@ from nag.algebra.combinations import of_lowest_degrees
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.box_relations import overlaps, real_zeros
-from nag.numerics.certified_points import CertifiedPoints, Proof, certify_points, distinct_simple
+from nag.numerics.certified_points import (
+    CertifiedPoints,
+    Proof,
+    certify_points,
+    distinct_simple,
+    zero_digits,
+)
 from nag.numerics.discs import DiscPolynomials, Discs, magnitude
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.start.multihomogeneous import best_groups
@@ -147,9 +154,9 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         not_real=not_real,
         same=tuple(same),
         unknown=tuple(unknown),
-        nonzero=_nonzero(system.nonzero, points),
+        nonzero=_nonzero(system, points),
         excluded=excluded,
-        solutions_left_out=_nonzero(system.nonzero, excluded),
+        solutions_left_out=_nonzero(system, excluded),
         bound=bound,
         bound_name=name,
     )
@@ -184,17 +191,18 @@ def _bezout_number(system: PolynomialSystem, equations: Sequence[Polynomial]) ->
     return total, "Bezout's number"
 
 
-def _nonzero(polynomials: tuple[Polynomial, ...], points: CertifiedPoints) -> np.ndarray:
-    """At which proved zeros none of the polynomials vanishes."""
+def _nonzero(system: PolynomialSystem, points: CertifiedPoints) -> np.ndarray:
+    """At which proved zeros nothing vanishes that must not: in doubles, or in more digits."""
     boxes = points.boxes
-    if not polynomials:
+    if not system.nonzero:
         return boxes.proved.copy()
     n = points.points.shape[1]
-    try:
-        system = DiscPolynomials.of(polynomials, np.zeros((0, 1 + n), dtype=complex))
-    except OverflowError:
-        return np.zeros(len(points.points), dtype=bool)
-    with np.errstate(all="ignore"):
-        values = system(Discs(boxes.centres, boxes.inner))
+    away = np.zeros(len(points.points), dtype=bool)
+    # Coefficients may leave the range of doubles.
+    with suppress(OverflowError), np.errstate(all="ignore"):
+        values = DiscPolynomials.of(system.nonzero, np.zeros((0, 1 + n), dtype=complex))(
+            Discs(boxes.centres, boxes.inner)
+        )
         away = (magnitude(values.mid) > values.rad * 2).all(axis=1)
-    return boxes.proved & away
+    equations = [f for f in system.polynomials if f]
+    return boxes.proved & (away | (zero_digits(system.nonzero, equations, points, ~away) == 0))

@@ -18,13 +18,17 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.high_precision import zero_near
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.singular_point import SingularEnd
+from nag.numerics.zero_values import alike, possible_zeros
 from nag.tracking.newton import Refined, refine
 from nag.witness.close_points import Fine, chosen, zero_from
 from nag.witness.cutting import Cut, sharpen
 from nag.witness.fibres import Fibre, homogeneous
 from nag.witness.frame import EPS, Frame
+from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded
-from nag.witness.witness import DOUBLE
+from nag.witness.witness import DOUBLE, WitnessSet
 
 # Digits that points are known to at least, where their condition allows it.
 FEWEST = 28
@@ -276,6 +280,31 @@ def sharpened(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) 
     rough = CORRECTION * np.maximum(steps, EPS) * (1 + np.linalg.norm(points, axis=1))
     radii[~good] = rough[~good, None]
     return Sharp(fibre, radii, digits)
+
+
+def exact_zeros(
+    equations: Sequence[Polynomial], component: WitnessSet, index: int = 0
+) -> tuple[SingularEnd, ...]:
+    """The zeros on a component's slice that a witness point may stand for, to 100 digits.
+
+    Args:
+        equations: those in whose scheme the component has its multiplicity.
+        index: of the witness point.
+    """
+    x, radii, rows = component.points[index], component.radii[index], component.slice.rows
+    isolated = not component.fibres and not component.dimension
+    each_known, simple = isolated and bool(np.ptp(radii) > 0), component.multiplicity == 1
+    accuracy: float | np.ndarray = component.accuracy
+    if each_known and simple:
+        accuracy = radii
+    elif component.fibres or not (each_known or simple):
+        # Of what was sharpened by a deflation no more is known.
+        accuracy = max(component.accuracy, ACCURACY)
+    zeros = possible_zeros(equations, x, accuracy, np.random.default_rng(0), rows)
+    if isolated:
+        # Paths end at a zero as many times as its multiplicity says: no other is meant.
+        zeros = tuple(z for z in zeros if z.multiplicity == component.multiplicity)
+    return alike(zeros, x) if len(zeros) > 1 else zeros
 
 
 def in_order(points: np.ndarray) -> np.ndarray:

@@ -19,6 +19,7 @@ from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
 from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
+from nag.witness.exact_points import exact_zeros
 from nag.witness.fibres import Fibre, Moved, Tracker
 from nag.witness.given_component import check_decomposition, in_doubles
 from nag.witness.slices import padded, rows_through
@@ -26,6 +27,8 @@ from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # What rounding may do to a point that is close to others, and how much further the next one is.
 SPREAD = 10.0
+# Digits in which exact points are compared with zeros that are known to 100.
+EXACTLY = 150
 
 
 class Membership(Enum):
@@ -232,7 +235,7 @@ def memberships(
             answers.append(Membership.FOREIGN)
             continue
         if component.dimension == 0:
-            answers.append(_at_isolated(system, component, point, accuracy))
+            answers.append(_at_isolated(system, component, point, accuracy, exact))
             continue
         try:
             fibres = component_fibres(system, component)
@@ -252,7 +255,11 @@ def _may_be_on(cut: Cut, point: Sequence[Number]) -> bool:
 
 
 def _at_isolated(
-    system: PolynomialSystem, isolated: WitnessSet, point: np.ndarray, accuracy: float
+    system: PolynomialSystem,
+    isolated: WitnessSet,
+    point: np.ndarray,
+    accuracy: float,
+    exact: Sequence[Number],
 ) -> Membership:
     """Whether a point is one of some isolated ones, which no slice has to move for.
 
@@ -261,8 +268,14 @@ def _at_isolated(
     distances = np.linalg.norm(isolated.points - point, axis=1)
     size = 1 + float(np.linalg.norm(point))
     errors = accuracy * size + np.linalg.norm(isolated.radii, axis=1)
-    if (distances > SPREAD * errors).all():
+    near = np.flatnonzero(distances <= SPREAD * errors).tolist()
+    if not near:
         return Membership.FOREIGN
+    if exact and not all(is_zero(f(exact)) for f in system.polynomials):
+        return Membership.FOREIGN
+    answers = {_is_exactly(system, isolated, i, exact) for i in near} if exact else {None}
+    if None not in answers:
+        return Membership.MEMBER if True in answers else Membership.FOREIGN
     try:
         fibres = component_fibres(system, isolated)
     except ValueError:
@@ -275,6 +288,27 @@ def _at_isolated(
         if apart < SPREAD * float(errors.max()):
             return Membership.UNDECIDED
     return Membership.MEMBER
+
+
+def _is_exactly(
+    system: PolynomialSystem, isolated: WitnessSet, index: int, point: Sequence[Number]
+) -> bool | None:
+    """Whether an exact zero is the one that a witness point stands for; None if that is not known.
+
+    The latter is known to 100 digits, and is the only zero within the error of these.
+    """
+    import flint
+
+    from nag.numerics.digits import number
+    from nag.numerics.digits import point as in_digits
+
+    zeros = exact_zeros(system.polynomials, isolated, index)
+    if len(zeros) != 1 or zeros[0].radii is None:
+        return None
+    with flint.ctx.workdps(EXACTLY):
+        pairs = zip(in_digits(zeros[0].digits), map(number, point), strict=True)
+        gaps = [float(abs(a - b).mid()) for a, b in pairs]
+    return bool((np.array(gaps) <= SPREAD * zeros[0].radii).all())
 
 
 class UndecidedError(ValueError):
