@@ -12,6 +12,7 @@ from nag.algebra.number import is_zero
 from nag.cli import main
 from nag.files.cases import read_case
 from nag.files.dh_case import in_formulation
+from nag.files.export import read_export
 from nag.mechanism.dh import DHModel
 from nag.mechanism.dh_euler import dh_euler_model, euler_closings
 
@@ -103,3 +104,34 @@ def test_what_a_table_has_not_is_refused_with_one_line(arguments, text: str, cap
     assert main([command, str(CASES / "spherical" / "triangle.toml"), *options]) == 2
     lines = capsys.readouterr().err.strip().splitlines()
     assert len(lines) == 1 and text in lines[0]
+
+
+def test_what_is_known_in_a_formulation_is_compared_in_it_and_exported(tmp_path, capsys) -> None:
+    written = (CASES / "spatial" / "bennett.toml").read_text()
+    for degree, text in ((2, "agrees with what is known"), (3, "differs from what is known")):
+        case, export = tmp_path / "case.toml", tmp_path / "export.json"
+        known = f'degree = {degree}\nformulation = "H"\n'
+        case.write_text(written.replace("degree = 2\n", known))
+        assert main(["decompose", str(case), "--json", str(export), "--quiet"]) == 0
+        assert text in capsys.readouterr().out
+        origin = read_export(export).origin
+        assert (origin.kind, origin.formulation) == ("mechanism", "H")
+        assert origin.reason == read_case(case).assembly.reason
+        assert main(["decompose", str(case), "--formulation", "E", "--quiet"]) == 0
+        assert "is known" not in capsys.readouterr().out
+
+
+def test_points_that_are_known_in_a_formulation_are_compared_in_it(tmp_path, capsys) -> None:
+    written = (CASES / "spherical" / "triangle.toml").read_text()
+    case = tmp_path / "case.toml"
+    case.write_text(written.replace("degree = 1\n", 'degree = 1\nformulation = "H"\n'))
+    assert main(["solve", str(case), "--quiet"]) == 0
+    assert "agrees with what is known" in capsys.readouterr().out
+
+
+def test_parts_that_may_be_assembled_are_exported_as_a_mechanism(tmp_path) -> None:
+    export = tmp_path / "export.json"
+    case = CASES / "planar" / "four-bar.toml"
+    assert main(["decompose", str(case), "--json", str(export), "--quiet"]) == 0
+    origin = read_export(export).origin
+    assert (origin.kind, origin.formulation) == ("mechanism", None)

@@ -106,6 +106,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.bench.peers import installed, run_peer
     from nag.bench.table import table
     from nag.files.cases import CaseError, read_case
+    from nag.files.problem import truth_of
     from nag.files.written_file import write_target
     from nag.mechanism.model import ModelError, model
     from nag.solving.start.target import StartError
@@ -117,8 +118,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             made = model(case.mechanism) if case.mechanism is not None else None
         except (CaseError, ModelError) as error:
             raise UsageError(str(error)) from None
-        formulation = made.formulation if made else None
-        known = [t for t in case.truth if t.dimension == 0 and t.formulation in (None, formulation)]
+        known = [t for t in truth_of(case, made) if t.dimension == 0]
         system = made.system if made else case.system
         expected = sum(t.count for t in known) if known else None
         cases.append((path, system, expected, case.family))

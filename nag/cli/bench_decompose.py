@@ -98,7 +98,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
 def _cases(options: argparse.Namespace) -> tuple[list[Decomposed], dict[str, PeerDecomposed]]:
     from nag.bench.decomposition import macaulay2, macaulay2_installed, measure_decomposition
     from nag.files.cases import CaseError, read_case
-    from nag.files.problem import system_of
+    from nag.files.problem import formulation_of, system_of, truth_of
     from nag.mechanism.model import ModelError, model
 
     known = []
@@ -115,8 +115,8 @@ def _cases(options: argparse.Namespace) -> tuple[list[Decomposed], dict[str, Pee
     for path, case, made in known:
         if not options.quiet:
             print(f"{path.stem} ...", file=sys.stderr, flush=True)
-        system, formulation = system_of(case, made), made.formulation if made else None
-        truth = [t for t in case.truth if t.formulation in (None, formulation)]
+        system, truth = system_of(case, made), truth_of(case, made)
+        formulation = formulation_of(case, made)
         rows.append(measure_decomposition(path.stem, system, truth, formulation=formulation))
         if options.peers and macaulay2_installed():
             peers[path.stem] = macaulay2(system, truth, PATIENCE)

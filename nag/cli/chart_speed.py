@@ -134,6 +134,7 @@ def _subject(name: str) -> Subject:
         return Subject(name, problem.system, False, ((0, 1, 16),))
 
     from nag.files.cases import CaseError, read_case
+    from nag.files.problem import truth_of
     from nag.mechanism.model import ModelError, model
 
     path = Path(name)
@@ -147,8 +148,6 @@ def _subject(name: str) -> Subject:
         raise UsageError(str(error)) from None
     except OSError as error:
         raise UsageError(f"{path}: {error.strerror or error}") from None
-    formulation = made.formulation if made else None
-    truth = [t for t in case.truth if t.formulation in (None, formulation)]
-    degrees = tuple((t.dimension, t.degree, t.count) for t in truth)
+    degrees = tuple((t.dimension, t.degree, t.count) for t in truth_of(case, made))
     system = made.system if made else case.system
     return Subject(path.stem, system, any(d for d, _, _ in degrees), degrees)

@@ -47,7 +47,7 @@ def in_formulation(case: Case, formulation: str) -> Case:
     if made.formulation == case.assembly.formulation:  # type: ignore[union-attr]
         return case
     # What is known of half-angles says nothing of Euler parameters.
-    truth = tuple(replace(t, formulation=None) for t in case.truth if t.formulation == formulation)
+    truth = tuple(t for t in case.truth if t.formulation == formulation)
     return replace(case, assembly=made, system=made.system, symmetries=made.symmetries, truth=truth)
 
 

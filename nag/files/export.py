@@ -68,8 +68,8 @@ class Origin:
     Attributes:
         title: title of the case.
         file: name of the case file, without its folder.
-        kind: ``"system"`` or ``"mechanism"``.
-        formulation: formulation of a mechanism's model, ``"E"`` or ``"H"``.
+        kind: ``"system"``, or ``"mechanism"`` where it is the model of one, assembled or not.
+        formulation: of a mechanism's model or a table: ``"E"``, ``"H"`` or ``"S"``.
         reason: why that model was chosen.
     """
 

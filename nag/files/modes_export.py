@@ -7,12 +7,11 @@ The format is ``nag-modes``, version 1: for each class of modes its combinations
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nag.files.export import Origin
 from nag.files.export import document as decomposition_document
 from nag.files.json_values import lay_out
+from nag.files.problem import origin
 from nag.files.written_file import write_target
 
 if TYPE_CHECKING:
@@ -27,17 +26,12 @@ def document(answer: ModesAnswer, case: Case) -> dict[str, Any]:
     """The export as a JSON object."""
     classes = []
     for each in answer.classes:
-        origin = Origin(
-            case.title,
-            Path(case.path).name,
-            case.kind,
-            each.model.formulation,
-            each.model.reason,
-        )
         classes.append(
             {
                 "modes": [dict(modes) for modes in each.modes.members],
-                "decomposition": decomposition_document(each.decomposition, origin),
+                "decomposition": decomposition_document(
+                    each.decomposition, origin(case, each.model)
+                ),
             }
         )
     return {

@@ -18,10 +18,11 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import names_in, nearest, quote
 from nag.files.case_table import CaseError, Table, read_toml, with_values
 from nag.files.cases import read_case
+from nag.files.dh_case import is_table
 from nag.files.export import Origin
 
 if TYPE_CHECKING:
-    from nag.files.cases import Case
+    from nag.files.cases import Case, Truth
     from nag.mechanism.model import Model
     from nag.witness.witness import Decomposition
 
@@ -58,16 +59,31 @@ def points_of(case: Case, model: Model | None) -> list[tuple[str, tuple[Number, 
     return [(point.name, tuple(point.at)) for point in case.points]
 
 
+def formulation_of(case: Case, model: Model | None) -> str | None:
+    """In which formulation of a mechanism the system is; None if it has none.
+
+    Tables by Denavit and Hartenberg have formulations; frameworks and linkages have coordinates.
+    """
+    if model is not None:
+        return model.formulation
+    return case.assembly.formulation if is_table(case) else None  # type: ignore[union-attr]
+
+
+def truth_of(case: Case, model: Model | None) -> tuple[Truth, ...]:
+    """What is known of the system in the formulation in which it is."""
+    formulation = formulation_of(case, model)
+    return tuple(t for t in case.truth if t.formulation in (None, formulation))
+
+
 def origin(case: Case, model: Model | None) -> Origin:
     """What an export says of where the system came from."""
-    from pathlib import Path
-
+    made = case.assembly if model is None else model
     return Origin(
         title=case.title,
         file=Path(case.path).name,
-        kind="system" if model is None else "mechanism",
-        formulation=model.formulation if model else None,
-        reason=model.reason if model else None,
+        kind="system" if made is None else "mechanism",
+        formulation=formulation_of(case, model),
+        reason=None if made is None else made.reason,
     )
 
 

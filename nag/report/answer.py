@@ -11,7 +11,7 @@ from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
 from nag.files.dh_case import is_table
-from nag.files.problem import points_of, system_of
+from nag.files.problem import formulation_of, points_of, system_of
 from nag.report.agreement import agreement_text, compare
 from nag.report.assemblies import assembly_rows, parts_rows
 from nag.report.model import (
@@ -114,7 +114,7 @@ def answer_lines(
         ("paths", paths_text(decomposition.paths)),
         ("run", f"seed {decomposition.seed}, settings {decomposition.settings}, {seconds:.1f} s"),
     ]
-    agreement = compare(decomposition, case.truth, model.formulation if model else None)
+    agreement = compare(decomposition, case.truth, formulation_of(case, model))
     if agreement is not None:
         tail.append(("known", printable(agreement_text(agreement))))
     return sheet(case.title, head, component_table(decomposition), tail)

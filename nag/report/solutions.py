@@ -6,6 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from nag.algebra.system import system_line
+from nag.files.problem import truth_of
 from nag.report.assemblies import real_row
 from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
 from nag.text.table import align, printable, sheet
@@ -59,8 +60,7 @@ def solution_table(result: SolveResult) -> list[str]:
 
 def agreement_text(result: SolveResult, case: Case, model: Model | None) -> str:
     """The answer beside what the case file knows of isolated points; empty if it knows nothing."""
-    formulation = model.formulation if model else None
-    known = [t for t in case.truth if t.dimension == 0 and t.formulation in (None, formulation)]
+    known = [t for t in truth_of(case, model) if t.dimension == 0]
     if not known:
         return ""
     wanted: Counter[int] = Counter()
