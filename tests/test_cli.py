@@ -410,3 +410,21 @@ def test_ctrl_c_ends_a_process_with_status_130_and_one_line(case, tmp_path) -> N
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=30)
     assert (process.returncode, err) == (130, "nag: interrupted\n")
+
+
+def test_paths_are_said_to_be_needless_only_where_none_were_tracked(tmp_path, capsys) -> None:
+    file = tmp_path / "case.toml"
+    equation = 'title = "t"\nkind = "system"\nvariables = ["x", "y", "z"]\n' + (
+        'equations = ["(x + y)^2 - 2*z^2"]\n'
+    )
+    left = "exact linear algebra leaves one equation"
+    for symmetry, paths in (("", False), ('[[symmetry]]\nmap = { z = "-z" }\n', True)):
+        file.write_text(equation + symmetry)
+        assert main(["model", str(file)]) == 0
+        text = " ".join(capsys.readouterr().out.split())
+        assert left in text and "paths" not in text
+        assert main(["decompose", str(file), "--quiet"]) == 0
+        text = " ".join(capsys.readouterr().out.split())
+        assert left in text and "2 components of dimension 2, degree 1" in text
+        assert ("paths 0 tracked" not in text) is paths
+        assert ("without paths" not in text) is paths

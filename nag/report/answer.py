@@ -44,13 +44,16 @@ def _model_rows(model: Model) -> list[tuple[str, str]]:
     return rows
 
 
-def _exact_rows(system: PolynomialSystem) -> list[tuple[str, str]]:
+def _exact_rows(system: PolynomialSystem, tracked: int | None = None) -> list[tuple[str, str]]:
+    """That one equation is left; whether paths were needed to part it is known afterwards."""
     if not is_one_equation(Reduction.of(system, scaled=True)):
         return []
     text = (
         "exact linear algebra leaves one equation: its factors over the complex numbers are the "
-        "components, by algebra alone, without paths"
+        "components"
     )
+    if tracked == 0:
+        text += ", by algebra alone, without paths"
     return [("exact", text)]
 
 
@@ -98,8 +101,7 @@ def answer_lines(
 ) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
-    if decomposition.paths.tracked == 0:
-        head[1:1] = _exact_rows(decomposition.system)
+    head[1:1] = _exact_rows(decomposition.system, decomposition.paths.tracked)
     if model is not None:
         head = _model_rows(model) + head
     if case.assembly is not None:
