@@ -43,6 +43,7 @@ from nag.witness.membership import Membership, is_member
 from nag.witness.moving import witness_at
 from nag.witness.multiplicity import multiplicity
 from nag.witness.slices import padded, random_rows, to_slice
+from nag.witness.units import Units
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
@@ -160,6 +161,8 @@ def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchCo
     """A linear space, which may be a point, by a point of it."""
     system, elimination = branch.system, branch.elimination
     frame, d = Frame.of(elimination), elimination.system.n
+    sizes = Units.of(system.polynomials, system.n).sizes
+    frame = frame.scaled(sizes[list(frame.positions)])
     rows = random_rows(rng, d, d)
     point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
     sharp = sharpened(Fibre(Cut(d, 0, ()), d, point), rows)
@@ -350,7 +353,8 @@ def _orbits(
     """
     options = {"seed": seed, "threads": threads, "settings": settings}
     whole = [c for c in components if c.status is Status.IRREDUCIBLE]
-    flag = random_rows(np.random.default_rng([seed, 12]), system.n, system.n)
+    units = Units.of(system.polynomials, system.n)
+    flag = units.random_rows(np.random.default_rng([seed, 12]), system.n)
     whole = [
         witness_at(system, c, to_slice(flag[: c.dimension]), **options) if c.dimension else c
         for c in whole

@@ -26,7 +26,7 @@ from nag.numerics.zero_values import possible_zeros, vanishes_at
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
-from nag.witness.moving import orthonormal_rows
+from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.slices import padded, random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
@@ -133,7 +133,12 @@ def intersected(
     product, result = _Product(first, second), Intersected()
     flag = random_rows(rng, product.n, product.n)
     equations = product.differences(rng)
-    fibres, rows = product.fibres(rng)
+    try:
+        fibres, rows = product.fibres(rng)
+    except SliceError:
+        # Drawn in the units of one component, it may hardly depend on some coordinates in others.
+        result.notes.append("a component's slice is too far from generic beside the other one")
+        return result
     moved, result.counts = on_flag(fibres, rows, flag, rng, tracker)
     if moved is None:
         result.notes.append(NOT_MOVED)

@@ -54,7 +54,9 @@ def _cut(
     """
     near = []
     for branch in apart:
-        residuals = Evaluator.of(branch.polynomials, system.n).residuals(component.points)
+        units = Units.of(branch.polynomials, system.n)
+        own = Evaluator.of(units.of_system(branch.system(system)).polynomials, system.n)
+        residuals = own.residuals(component.points / units.sizes)
         if residuals.max(initial=0.0) < ON:
             near.append((residuals.max(initial=0.0), branch.system(system)))
     # Of branches that come near to each other the nearest one is meant.

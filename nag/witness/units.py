@@ -18,6 +18,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
+from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, Slice, WitnessSet
 
 # Sizes that differ by less than this factor are comparable.
@@ -61,6 +62,11 @@ class Units:
     def inverse(self) -> Units:
         """The way back."""
         return Units(-self.powers)
+
+    def random_rows(self, rng: np.random.Generator, codimension: int) -> np.ndarray:
+        """A slice of ``x`` that is generic in the coordinates ``y``, as rows on ``(1, x)``."""
+        rows = random_rows(rng, codimension, len(self.powers))
+        return rows / np.concatenate([[1.0], self.sizes])
 
     def of_system(self, system: PolynomialSystem) -> PolynomialSystem:
         """The equations of ``y``, each over the power of two next to its largest coefficient."""
