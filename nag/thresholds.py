@@ -315,8 +315,6 @@ decomposition.trace.ROUND_NUMBERS           6       Digits of coefficients that 
                                                     each further asks for one more: what is nearly
                                                     reducible has long ones. Points get 28 to 240
                                                     digits for it.
-decomposition.trace.SMALL                   1e-9    Sums of traces, beside their terms in doubles,
-                                                    that are looked at in those digits.
 decomposition.splitting.MOST_LOOPS *        100     Loops before points are left undecided; 23 were
                                                     the most needed.
 decomposition.superset.IN_PASSING           0.02    Part of the usual work after which a multiple
@@ -376,8 +374,8 @@ FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, ARRIVED, NEARLY; witness.real_
 SHORTEST, STILL; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE,
 SHRINK, LEAST_RADIUS; decomposition.discovery: ROUNDED, DEEP, MULTIPLE; decomposition.given_points:
 ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
-decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; interpolation.precise_samples:
-ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE; mechanism.parts_decomposition: ROUNDED;
-files.close_points: ROUNDED; check.four_way: ROUNDING; report.singular: NOTHING; cli.bench:
-PATIENCE; cli.bench_decompose: PATIENCE; cli.running: INTERVAL.
+decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; decomposition.zero_sums: SPARE;
+interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
+mechanism.parts_decomposition: ROUNDED; files.close_points: ROUNDED; check.four_way: ROUNDING;
+report.singular: NOTHING; cli.bench: PATIENCE; cli.bench_decompose: PATIENCE; cli.running: INTERVAL.
 """

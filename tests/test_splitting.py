@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
 from itertools import combinations
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,11 +13,15 @@ from cuts import curve, fibre, points_on
 from systems import system
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.decomposition import monodromy, splitting
 from nag.decomposition.components import decompose
 from nag.decomposition.final_checks import Examined, checked_witness_set
+from nag.decomposition.monodromy import Looped, loop
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class, split
 from nag.decomposition.trace import EVIDENCE, Trace
+from nag.files.cases import read_case
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
@@ -23,6 +30,7 @@ from nag.witness.witness import Status, WitnessSet
 CIRCLE, LINE, CUBIC = "x^2 + y^2 - 1", "x - 2*y - 3", "y^2 - x^3 + x - 2"
 UNION = f"({CIRCLE})*({LINE})"
 TRACKER = Tracker()
+CASES = Path(__file__).parent.parent / "cases"
 ROWS = random_rows(np.random.default_rng(6), 1, 2)
 
 
@@ -63,7 +71,7 @@ def test_the_smallest_unions_of_classes_with_linear_traces_are_found() -> None:
     trace = trace_of(points, rng)
     circle, line = np.flatnonzero(on(points.x, CIRCLE)), np.flatnonzero(on(points.x, LINE))
     classes = [circle[:1], line, circle[1:]]
-    assert trace.smallest_unions(points, classes)[0] == [[1], [0, 2]]
+    assert trace.smallest_unions(points, classes)[0] == [[0, 2], [1]]
     assert trace.smallest_unions(points, classes[:2])[0] == [[1]]
 
 
@@ -79,6 +87,71 @@ def test_points_fall_into_the_irreducible_curves(seed: int) -> None:
     assert [int(found.labels[c.indices].min()) for c in found.classes] == [
         min(c.indices) for c in found.classes
     ]
+
+
+def test_few_points_fall_into_components_without_loops(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(splitting, "loop", None)
+    rng = np.random.default_rng(4)
+    points = on_line(f"{UNION}*({CUBIC})*(x + y - 7)*(y^4 - x - 2)", rng)
+    found = split(points, (), EVIDENCE, rng, TRACKER)
+    assert sorted(len(c.indices) for c in found.classes) == [1, 1, 2, 3, 4]
+    assert found.counts.tracked == 2 * len(points)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("first", "second"), [(CIRCLE, LINE), (CIRCLE, CUBIC), (LINE, CUBIC)])
+def test_what_a_loop_joined_wrongly_is_taken_back(
+    monkeypatch: pytest.MonkeyPatch, first: str, second: str, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    points = on_line(f"{UNION}*({CUBIC})", rng)
+    swapped = [int(np.flatnonzero(on(points.x, e))[0]) for e in (first, second)]
+    tracked = []
+
+    def swaps_first(*arguments):
+        found, counts = loop(*arguments)
+        tracked.append(found)
+        if len(tracked) > 1:
+            return found, counts
+        places = np.arange(len(points))
+        places[swapped] = swapped[::-1]
+        return Looped(np.arange(len(points)), points, places), counts
+
+    monkeypatch.setattr(splitting, "loop", swaps_first)
+    monkeypatch.setattr(splitting, "MOST_CLASSES", 3)
+    found = split(points, (), EVIDENCE, rng, TRACKER)
+    curves = {frozenset(np.flatnonzero(on(points.x, e)).tolist()) for e in (CIRCLE, LINE, CUBIC)}
+    assert {frozenset(c.indices.tolist()) for c in found.classes} == curves
+    assert not any(c.reason for c in found.classes)
+    assert found.discarded == 1 and len(tracked) > 1
+
+
+def test_a_loop_whose_ends_are_no_permutation_joins_nothing() -> None:
+    rng = np.random.default_rng(8)
+    points = on_line(CUBIC, rng)
+    ends = points.only([0, 1, 1])
+    assert monodromy.ends_are_distinct(points, np.array([-1, -1, -1]))
+    assert not monodromy.ends_are_distinct(ends, np.array([-1, -1, -1]))
+    assert not monodromy.ends_are_distinct(ends, np.array([0, 1, 1]))
+    assert monodromy.ends_are_distinct(ends, np.array([2, 1, -1]))
+
+
+# Far from the origin 50 loops were needed, which took one path for another once in a hundred.
+SHIFTS = (-14, 0.25, -187.5, 8.75, 30, -66, 120, 1.5, 93, -150.25, 77, 181, -3.5, 0)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_components_far_from_the_origin_are_found_with_as_few_paths(seed: int) -> None:
+    case = read_case(CASES / "rhombus-chain-2.toml")
+    x = Polynomial.variables(case.system.n)
+    forms = [v + Fraction(shift) for v, shift in zip(x, SHIFTS, strict=True)]
+    moved = replace(
+        case.system, polynomials=tuple(f.compose(forms) for f in case.system.polynomials)
+    )
+    near, far = decompose(case.system, seed=seed), decompose(moved, seed=seed)
+    assert far.complete
+    assert [(c.dimension, c.degree) for c in far.components] == [(2, 4)] * 9
+    assert far.paths.tracked <= 1.1 * near.paths.tracked
 
 
 def test_a_point_that_is_missing_is_found_by_loops() -> None:

@@ -146,7 +146,23 @@ def loop(
     half, origins, counts = moved_points(points, start, middle, out, tracker)
     again, order, spent = moved_points(half, range(len(half)), points.rows, back, tracker)
     places = located(again, points)
-    # Two paths in one place: one of them has jumped.
-    if places is not None and len(np.unique(places[places >= 0])) < (places >= 0).sum():
+    if places is not None and not ends_are_distinct(again, places):
         places = None
     return Looped(origins[order], again, places), counts + spent
+
+
+def ends_are_distinct(ends: Points, places: np.ndarray) -> bool:
+    """Whether no two ends are one point; where they are, a path has jumped.
+
+    Args:
+        places: indices of the points that the ends are, -1 for new ones.
+    """
+    known, new = places[places >= 0], np.flatnonzero(places < 0)
+    if len(np.unique(known)) < len(known):
+        return False
+    for k in range(1, len(new)):
+        earlier, last = ends.only(new[:k]), ends.only(new[k : k + 1])
+        among = located(last, earlier)
+        if among is None or (among >= 0).any():
+            return False
+    return True

@@ -1,9 +1,11 @@
 """Orbits: components that symmetries of the system carry into each other.
 
 A symmetry g carries the points on the slice L to points on g(L); moved back to L, they are a
-permutation of all points. Points of one component stay together under it. So a loop is tracked from
-one point of each orbit of points only: what it joins, the permutations join elsewhere as well. One
-component of each orbit of components is confirmed by its traces, and thereby all of them.
+permutation of all points. Points of one component stay together under it. Where loops are tracked,
+it is from one point of each orbit of points only: what they join, the permutations join elsewhere
+as well. One component of each orbit of components is confirmed by its traces, and thereby all of
+them. Where points are so few that components are found without loops, one point of each component
+shows where that goes.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.splitting import Class, split
+from nag.decomposition.trace import MOST_CLASSES
 from nag.witness.fibres import Tracker
 from nag.witness.frame import Frame
 from nag.witness.points import Points, moved_points
@@ -94,29 +97,27 @@ def irreducible_orbits(
     Args:
         evidence: digits to which traces must be linear.
     """
-    counts, notes = PathCounts(), []
-    used: list[tuple[SignedPermutation, np.ndarray]] = []
-    for action in actions:
-        images, spent = _permutation(points, action, rng, tracker)
-        counts += spent
-        if images is not None and (images < 0).any():
-            missing = int((images < 0).sum())
-            notes.append(f"{missing} images of points under a symmetry are not among the points")
-        elif images is not None and not np.array_equal(images, np.arange(len(images))):
-            used.append((action.symmetry, images))
-    if notes:
-        used = []
-    permutations = [images for _, images in used]
-    found = split(points, permutations, evidence, rng, tracker)
+    # Loops need the images of all points; components that are known, that of a point each.
+    many = len(points) > MOST_CLASSES
+    everywhere, counts, notes = _images_of(
+        points, range(len(points)) if many else (), actions, rng, tracker
+    )
+    permutations = [images.places for images in everywhere] if not notes else []
+    found = split(points, permutations if many else [], evidence, rng, tracker)
     counts += found.counts
+    used = everywhere
+    if not many:
+        used, spent, notes = _images_of(
+            found.points, np.unique(found.labels).tolist(), actions, rng, tracker
+        )
+        counts += spent
     # Loops that add points leave symmetries alone: then nothing is known of the images.
-    if len(found.points) > len(points):
-        used, permutations = [], []
-    if not _carried_to_each_other(found.labels, permutations):
+    elif len(found.points) > len(points):
+        used = []
+    if not notes and not all(_carries_classes(found.labels, images) for images in used):
         notes.append("a symmetry carries a component to something else than a component")
     # Nothing follows by symmetry from a component that is not confirmed.
-    reasons = {int(c.indices[0]): c.reason for c in found.classes}
-    if notes or any(reasons.values()):
+    if notes or any(c.reason for c in found.classes):
         used = []
     classes = {int(c.indices[0]): c for c in found.classes}
     orbits = [
@@ -126,39 +127,78 @@ def irreducible_orbits(
     return Orbits(found.points, tuple(orbits), counts, tuple(notes))
 
 
-def _carried_to_each_other(labels: np.ndarray, permutations: Sequence[np.ndarray]) -> bool:
-    """Whether each permutation carries every class of points to exactly one class."""
-    number = len(np.unique(labels))
-    return all(
-        len(np.unique(np.stack([labels, labels[p]]), axis=1).T) == number for p in permutations
-    )
+@dataclass(frozen=True, eq=False)
+class _Images:
+    """Where a symmetry takes some points, by index; those are all points, or one of each class."""
+
+    symmetry: SignedPermutation
+    indices: np.ndarray
+    places: np.ndarray
 
 
-def _permutation(
-    points: Points, action: Action, rng: np.random.Generator, tracker: Tracker
+def _images_of(
+    points: Points,
+    indices: Sequence[int],
+    actions: Sequence[Action],
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> tuple[list[_Images], PathCounts, list[str]]:
+    """Where actions take some points, back on the slice, and what is wrong.
+
+    Actions for which that does not become clear, or that move no point, are left out.
+    """
+    counts, found, notes = PathCounts(), [], []
+    for action in actions if len(indices) else ():
+        places, spent = _places(points, indices, action, rng, tracker)
+        counts += spent
+        if places is not None and (places < 0).any():
+            missing = int((places < 0).sum())
+            notes.append(f"{missing} images of points under a symmetry are not among the points")
+        elif places is not None and not np.array_equal(places, indices):
+            found.append(_Images(action.symmetry, np.array(indices), places))
+    return found, counts, notes
+
+
+def _carries_classes(labels: np.ndarray, images: _Images) -> bool:
+    """Whether a symmetry carries every class of points to one class, of as many points."""
+    pairs = np.unique(np.stack([labels[images.indices], labels[images.places]]), axis=1)
+    sizes = np.bincount(labels)
+    single = all(len(np.unique(side)) == pairs.shape[1] for side in pairs)
+    return single and np.array_equal(sizes[pairs[0]], sizes[pairs[1]])
+
+
+def _places(
+    points: Points,
+    indices: Sequence[int],
+    action: Action,
+    rng: np.random.Generator,
+    tracker: Tracker,
 ) -> tuple[np.ndarray | None, PathCounts]:
-    """Where an action takes every point, back on the slice; -1 where no point is there.
+    """Where an action takes some points, back on the slice; -1 where no point is there.
 
     None if that does not become clear; the symmetry is then of no use.
     """
-    counts, everything = PathCounts(), range(len(points))
-    target = action.pulled_back(points.rows)
-    there = points
+    counts, there = PathCounts(), points.x[indices]
     if points.dimension:
-        gamma = complex(unit_complex(rng))
-        there, _, counts = moved_points(points, everything, target, gamma, tracker)
-    if len(there) < len(points):
+        target, gamma = action.pulled_back(points.rows), complex(unit_complex(rng))
+        moved, _, counts = moved_points(points, indices, target, gamma, tracker)
+        there = moved.x
+    if len(there) < len(indices):
         return None, counts
-    images = places_among(action(there.x), points.x)
-    if images is None or len(np.unique(images[images >= 0])) < (images >= 0).sum():
+    places = places_among(action(there), points.x)
+    if places is None or len(np.unique(places[places >= 0])) < (places >= 0).sum():
         return None, counts
-    return images, counts
+    return places, counts
 
 
 def _orbits_of_classes(
-    labels: np.ndarray, symmetries: Sequence[tuple[SignedPermutation, np.ndarray]]
+    labels: np.ndarray, images: Sequence[_Images]
 ) -> list[tuple[int, tuple[SignedPermutation, ...]]]:
     """For each orbit of classes its first class, and what carries it into each of the others."""
+    carried = [
+        (each.symmetry, dict(zip(labels[each.indices], labels[each.places], strict=True)))
+        for each in images
+    ]
     result, done = [], set()
     for first in np.unique(labels).tolist():
         if first in done:
@@ -166,8 +206,8 @@ def _orbits_of_classes(
         done.add(first)
         orbit: list[tuple[int, SignedPermutation | None]] = [(first, None)]
         for current, carrier in orbit:
-            for symmetry, permutation in symmetries:
-                other = int(labels[permutation[current]])
+            for symmetry, there in carried:
+                other = int(there[current])
                 if other not in done:
                     done.add(other)
                     orbit.append((other, symmetry.after(carrier) if carrier else symmetry))

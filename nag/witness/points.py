@@ -115,6 +115,12 @@ class Points:
                 found.append((Fibre(cut, self.dimension, points, chosen(self.fine, own)), own))
         return found
 
+    def only(self, indices: Sequence[int]) -> Points:
+        """Some of the points, in this order."""
+        which = tuple(self.which[i] for i in indices)
+        z = tuple(self.z[i] for i in indices)
+        return Points(self.rows, self.cuts, which, z, chosen(self.fine, np.asarray(indices)))
+
     @cached_property
     def exact(self) -> ExactPoints:
         """All points in the fewest digits that are of use, in their order."""
