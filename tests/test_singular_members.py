@@ -6,6 +6,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from discriminants import disagreement_with_discriminant, family
 
 import nag
 from nag.cli import main
@@ -104,3 +105,11 @@ def test_no_parameters_are_named_where_nothing_is_known(complete: bool) -> None:
     notes = () if complete else ("paths failed",)
     rows = parameter_rows(SingularParameters(("a",), (), PathCounts(), complete, notes))
     assert (("singular", "for no parameters") in rows) is complete
+
+
+@pytest.mark.parametrize("number", [3, 6, 14, 18])
+def test_conditions_are_the_factors_of_discriminants(number: int) -> None:
+    of = family(number, seed=7)
+    found = singular_parameters(of.system, of.count, seed=7)
+    assert found.complete
+    assert disagreement_with_discriminant(of, found) == ""

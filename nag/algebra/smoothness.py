@@ -38,7 +38,7 @@ def is_regular_everywhere(polynomials: Sequence[Polynomial], rank: int) -> bool:
         return False
     jacobian = [[f.derivative(i) for i in range(n)] for f in given]
     minors = [
-        _determinant([[row[j] for j in columns] for row in rows])
+        determinant([[row[j] for j in columns] for row in rows])
         for rows in combinations(jacobian, rank)
         for columns in combinations(range(n), rank)
     ]
@@ -50,7 +50,7 @@ def is_regular_everywhere(polynomials: Sequence[Polynomial], rank: int) -> bool:
     return found.whole
 
 
-def _determinant(matrix: Sequence[Sequence[Polynomial]]) -> Polynomial:
+def determinant(matrix: Sequence[Sequence[Polynomial]]) -> Polynomial:
     """By the first row; matrices are small."""
     first, *rest = matrix
     if not rest:
@@ -58,6 +58,6 @@ def _determinant(matrix: Sequence[Sequence[Polynomial]]) -> Polynomial:
     total = Polynomial(first[0].n, {})
     for j, entry in enumerate(first):
         if entry:
-            minor = _determinant([[*row[:j], *row[j + 1 :]] for row in rest])
+            minor = determinant([[*row[:j], *row[j + 1 :]] for row in rest])
             total = total + entry * minor * (-1) ** j
     return total
