@@ -207,3 +207,13 @@ def test_sheets_too_close_to_be_told_apart_are_left_open(equations: list[str], d
     answer = nag.decompose(equations)
     found = sum(c.degree * c.multiplicity for c in answer.components)
     assert answer.complete == (found == degree)
+
+
+@pytest.mark.parametrize("k", [6, 9, 12, 20, 25])
+def test_double_curves_on_close_planes_are_as_many_and_as_multiple(k: int) -> None:
+    # Both planes hold a conic, each twice; a third one, on x = -3, is simple.
+    conic, plane = "(x^2 + y^2 - 1 + (x - y)*z)", f"(z - 1/10^{k})"
+    answer = nag.decompose([f"{plane}*{conic}", f"z*{conic} - z^2*(x + 3)*{plane}"])
+    assert answer.complete
+    found = sorted((c.dimension, c.degree, c.multiplicity) for c in answer.components)
+    assert found == [(1, 2, 1), (1, 2, 2), (1, 2, 2)]

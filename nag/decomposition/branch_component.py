@@ -59,7 +59,8 @@ class BranchComponent:
         if fibre is None:
             # Doubles do not see that the points are regular, or are of a zero known to 100 digits.
             return vanishes_at_all(self.zeros, f)
-        answer = vanishing(fibre.cut, f, self.witness.slice.rows, fibre.points[:1])[0]
+        first = fibre.only(np.arange(len(fibre)) == 0)
+        (answer,) = vanishing(first.cut, f, self.witness.slice.rows, first.points, first.fine)
         return vanishes_at_all(self.zeros, f) if answer is None else answer
 
     @property

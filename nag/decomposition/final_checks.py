@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement, permutations
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.numerics.zero_values import ON, SINGULAR
-from nag.witness.confirm import confirmed
+from nag.witness.confirm import confirmed, zero_in_digits
 from nag.witness.cutting import Equations, numerical_corank
 from nag.witness.exact_points import Sharp, framed, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
@@ -21,6 +22,9 @@ from nag.witness.multiplicity import multiplicity
 from nag.witness.points import Points
 from nag.witness.slices import complex_normal, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
+
+if TYPE_CHECKING:
+    import flint
 
 # Multidegrees are counted only where so many choices of groups are enough.
 MOST_MULTIDEGREES = 100
@@ -185,6 +189,16 @@ def _lifted(fibre: Fibre, reduction: Reduction) -> Fibre:
     return Fibre(reduction.lifted(fibre.cut), fibre.dimension, points, fine)
 
 
+def _smallest(fibres: Sequence[Fibre], rows: np.ndarray) -> np.ndarray | list[flint.acb]:
+    """The smallest point of fibres on a slice, in digits where it is close to others."""
+    sizes = [np.linalg.norm(fibre.x, axis=1) for fibre in fibres]
+    k = int(np.argmin([own.min() for own in sizes]))
+    fibre, i = fibres[k], int(sizes[k].argmin())
+    fine = fibre.fine.get(i)
+    digits = zero_in_digits(fibre.cut, rows, fibre.points[i], fine) if fine is not None else None
+    return fibre.x[i] if digits is None else digits[: fibre.cut.n]
+
+
 def checked_witness_set(
     found: Class,
     examined: Examined,
@@ -203,7 +217,6 @@ def checked_witness_set(
         part for part in (each.only(found.indices) for each in examined.parts) if len(part.own)
     ]
     chosen, lifted = [part.sharp.fibre for part in parts], [part.lifted for part in parts]
-    y = np.vstack([fibre.x for fibre in chosen])
     residual = float(max(part.residuals.max(initial=0.0) for part in parts))
     coranks = [int(k) for part in parts for k in part.coranks]
     first = chosen[0].points[0], chosen[0].fine.get(0)
@@ -216,8 +229,7 @@ def checked_witness_set(
         reasons.append("the corank of the Jacobian differs between its points")
     multiple = int(coranks[0] == d)
     if scheme and not multiple:
-        nearest = y[np.linalg.norm(y, axis=1).argmin()]
-        multiple = multiplicity(reduced.polynomials, rows, nearest, rng)
+        multiple = multiplicity(reduced.polynomials, rows, _smallest(chosen, rows), rng)
     if scheme and coranks[0] != d and not chosen[0].cut.deflated:
         reasons.append("its points are regular and singular at once: zeros too close")
     if scheme and coranks[0] != d and multiple == 1:

@@ -10,12 +10,16 @@ is the same at all of them is known.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nag.algebra.high_precision import BallValues, vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, SingularEnd, analyse
+
+if TYPE_CHECKING:
+    import flint
 
 # Zeros lie below 2.5e-13 at sharpened points, others above 2e-6 in all systems measured.
 ON = 1e-9
@@ -44,7 +48,7 @@ BITS = 128
 
 def possible_zeros(
     equations: Sequence[Polynomial],
-    x: np.ndarray,
+    x: np.ndarray | Sequence[tuple[str, str] | flint.acb],
     accuracy: float | np.ndarray,
     rng: np.random.Generator,
     slices: np.ndarray | None = None,

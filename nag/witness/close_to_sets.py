@@ -13,14 +13,14 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
-from nag.algebra.high_precision import sharp_zero
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import coincident
 from nag.numerics.digits import log_norm, middle, point
 from nag.numerics.pivots import pivots
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.witness.close_points import in_words, rated, zero_from
+from nag.witness.close_points import in_words, rated
+from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Cut, Equations
 from nag.witness.fibres import Fibre
 from nag.witness.slices import padded
@@ -94,7 +94,7 @@ def among(zero: SingularEnd, fibres: Sequence[Fibre], rows: np.ndarray) -> bool 
         here = point(zero.digits)
     for fibre in fibres:
         for i in np.flatnonzero(coincident(fibre.x, zero.point, CLOSE)).tolist():
-            there = _digits(fibre, i, rows)
+            there = zero_in_digits(fibre.cut, rows, fibre.points[i], fibre.fine.get(i))
             if there is not None and _same(here, there[: len(here)]):
                 return True
             unknown |= there is None
@@ -103,16 +103,6 @@ def among(zero: SingularEnd, fibres: Sequence[Fibre], rows: np.ndarray) -> bool 
 
 def _same(x: Sequence[flint.acb], y: Sequence[flint.acb]) -> bool:
     return log_norm(a - b for a, b in zip(x, y, strict=True)) < SAME
-
-
-def _digits(fibre: Fibre, i: int, rows: np.ndarray) -> list[flint.acb] | None:
-    """A regular point of a fibre in digits; None where Newton's method does not lead to it."""
-    cut, z = fibre.cut, fibre.points[i]
-    if i in fibre.fine:
-        with flint.ctx.workdps(2 * DIGITS):
-            found = zero_from(cut.polynomials, rows, fibre.fine[i], DIGITS)
-        return None if found is None else found[0]
-    return sharp_zero(cut.polynomials, padded(rows, 1 + len(z)), cut.evaluator.jacobian(z), z)
 
 
 def regular_fibre(zero: SingularEnd, equations: Equations, rows: np.ndarray) -> Fibre | None:

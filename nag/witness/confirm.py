@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import DIGITS, vanish, vanish_in_balls
+from nag.algebra.high_precision import DIGITS, sharp_zero, vanish, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import ON, vanishes_at
@@ -16,6 +17,9 @@ from nag.witness.close_points import Fine, zero_from
 from nag.witness.cutting import Cut
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded
+
+if TYPE_CHECKING:
+    import flint
 
 # Above this singular value a zero of as many equations as unknowns needs no confirmation.
 REGULAR = 1e-5
@@ -88,12 +92,31 @@ def _at_close_zero(
     cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, fine: Fine
 ) -> bool | None:
     """Whether equations vanish at a zero that is close to others; None if it was not found."""
+    found = zero_in_digits(cut, rows, fine.rounded, fine)
+    return None if found is None else vanish_in_balls(equations, found)
+
+
+def zero_in_digits(
+    cut: Cut, rows: np.ndarray, z: np.ndarray, fine: Fine | None = None
+) -> list[flint.acb] | None:
+    """A regular zero of ``cut`` on the slice, added unknowns included, to `DIGITS` digits.
+
+    Args:
+        z: the zero in doubles, shape ``(n + aux,)``.
+        fine: more digits of a zero that is close to others; it is then known to as many more as
+            these differ by.
+
+    Returns:
+        None where Newton's method does not lead to it.
+    """
+    if fine is None:
+        return sharp_zero(cut.polynomials, padded(rows, 1 + len(z)), cut.evaluator.jacobian(z), z)
     import flint
 
     more = int(2 * np.log10(max(fine.curvature, 1.0)))
     with flint.ctx.workdps(DIGITS + 10 + 2 * more):
         found = zero_from(cut.polynomials, rows, fine, DIGITS + more)
-        return None if found is None else vanish_in_balls(equations, found[0])
+        return None if found is None else found[0]
 
 
 def _at_zero(

@@ -13,22 +13,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from nag.algebra.high_precision import zero_near
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.zero_values import alike, possible_zeros
+from nag.numerics.zero_values import WRITTEN, alike, possible_zeros
 from nag.tracking.newton import Refined, refine
 from nag.witness.close_points import Fine, chosen, zero_from
+from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Cut, sharpen
 from nag.witness.fibres import Fibre, homogeneous
 from nag.witness.frame import EPS, Frame
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded
 from nag.witness.witness import DOUBLE, WitnessSet
+
+if TYPE_CHECKING:
+    import flint
 
 # Digits that points are known to at least, where their condition allows it.
 FEWEST = 28
@@ -292,6 +296,9 @@ def exact_zeros(
         index: of the witness point.
     """
     x, radii, rows = component.points[index], component.radii[index], component.slice.rows
+    digits = _close_in_digits(component, index)
+    if digits is not None:
+        return possible_zeros(equations, digits, WRITTEN, np.random.default_rng(0), rows)
     isolated = not component.fibres and not component.dimension
     each_known, simple = isolated and bool(np.ptp(radii) > 0), component.multiplicity == 1
     accuracy: float | np.ndarray = component.accuracy
@@ -305,6 +312,18 @@ def exact_zeros(
         # Paths end at a zero as many times as its multiplicity says: no other is meant.
         zeros = tuple(z for z in zeros if z.multiplicity == component.multiplicity)
     return alike(zeros, x) if len(zeros) > 1 else zeros
+
+
+def _close_in_digits(component: WitnessSet, index: int) -> list[flint.acb] | None:
+    """A witness point that is close to others, to 100 digits; None of one that is not known so."""
+    for fibre in component.fibres:
+        if index < len(fibre):
+            fine, n = fibre.fine.get(index), fibre.cut.n
+            rows, z = component.slice.rows, fibre.points[index]
+            found = None if fine is None else zero_in_digits(fibre.cut, rows, z, fine)
+            return None if found is None else found[:n]
+        index -= len(fibre)
+    return None
 
 
 def in_order(points: np.ndarray) -> np.ndarray:

@@ -11,15 +11,19 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import compared
-from nag.numerics.zero_values import multiplicity_of_all, possible_zeros
+from nag.numerics.zero_values import WRITTEN, multiplicity_of_all, possible_zeros
 from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.slices import padded, rows_through
+
+if TYPE_CHECKING:
+    import flint
 
 # How well points are known that were sharpened in doubles, by a deflation that may be badly
 # conditioned.
@@ -29,14 +33,19 @@ MULTIPLE = 1e-7
 
 
 def multiplicity(
-    polynomials: Sequence[Polynomial], rows: np.ndarray, x: np.ndarray, rng: np.random.Generator
+    polynomials: Sequence[Polynomial],
+    rows: np.ndarray,
+    x: np.ndarray | Sequence[flint.acb],
+    rng: np.random.Generator,
 ) -> int:
     """Multiplicity of the zero ``x`` of ``polynomials`` on the slice ``rows``; 0 if not found.
 
-    ``x`` must be known to rounding. Where it may stand for any of several zeros, it is what they
-    all have. See `nag.numerics.singular_point.analyse`.
+    ``x`` must be known to rounding, or to `WRITTEN` where it is given in balls. Where it may stand
+    for any of several zeros, it is what they all have. See
+    `nag.numerics.singular_point.analyse`.
     """
-    zeros = possible_zeros(polynomials, x, ACCURACY, rng, padded(rows, 1 + len(x)))
+    accuracy = ACCURACY if isinstance(x, np.ndarray) else WRITTEN
+    zeros = possible_zeros(polynomials, x, accuracy, rng, padded(rows, 1 + len(x)))
     return multiplicity_of_all(zeros) or 0
 
 

@@ -63,14 +63,17 @@ def weigh(s, r):
         store(r.weights, j, select_less(splat(0.0), size, size, splat(1.0)))
 
 
-def linearize(s, r, rough):
-    """The factorised Jacobian at the points, Newton's correction and its measures."""
+def linearize(s, r, rough, close):
+    """The factorised Jacobian at the points, Newton's correction and its measures.
+
+    ``rough, close``: see `newton_correction`.
+    """
     products(s, r, s.products)
     values(s, r)
     jacobian(s, r)
     equilibrate(s, r)
     factorize(s, r)
-    newton_correction(s, r, rough)
+    newton_correction(s, r, rough, close)
 
 
 def correct(s, r, f, b):
@@ -88,10 +91,11 @@ def correct(s, r, f, b):
     # What vanishes along a path is as large, at points from doubles, as their rounding errors are.
     from_doubles = load(f, ROUGH) - load(f, BASE)
     rough = select_less(half, from_doubles, splat(DOUBLES / number.EPSILON), splat(0.0))
+    close = splat(1.0) if b.close > 0 else splat(0.0)
     lay_floors(s, r, f)
     weigh(s, r)
     for k in range(MOST_CORRECTIONS):
-        linearize(s, r, rough)
+        linearize(s, r, rough, close)
         for lane in range(8):
             if f[8 * SETTLED + lane] < 0.5:
                 f[8 * EVALUATED + lane] += 1.0
@@ -110,7 +114,7 @@ def correct(s, r, f, b):
         if busy == 0:
             break
     weigh(s, r)
-    linearize(s, r, rough)
+    linearize(s, r, rough, close)
     for lane in range(8):
         excess = r.measures[8 + lane]
         f[8 * EVALUATED + lane] += 1.0

@@ -159,7 +159,20 @@ def make_noise(s, r):
         z.write(r.noise, i, z.exact(size * splat(re), size * splat(im)))
 
 
-def newton_correction(s, r, rough):
+def _lay_errors(s, r, beside):
+    """Rounding errors of the coordinates, and the largest of them."""
+    most = splat(1e-300)
+    for j in range(s.N):
+        size, step = z.magnitude(z.read(r.slots, j)), z.magnitude(z.read(r.right, j))
+        error = fma(size, splat(number.EPSILON), z.magnitude(z.read(r.noise, j)) + splat(1e-300))
+        gone = _gone(z.read(r.slots, j), z.read(r.right, j), beside)
+        error = select_less(splat(0.5), gone, z.largest(error, step), error)
+        store(r.errors, j, error)
+        most = z.largest(most, error)
+    return most
+
+
+def newton_correction(s, r, rough, close):
     """Newton's correction into the right-hand side, rounding errors of the point, and measures.
 
     Measures of each lane: the largest correction over its coordinate's weight; the largest over
@@ -167,6 +180,10 @@ def newton_correction(s, r, rough):
     it a thousandfold; and 1 if the largest coordinate of a group does not. Corrections of
     coordinates smaller than their ``floors``, or than ``rough`` rounding errors and `ROUGHEST`,
     count as if they were of that size.
+
+    Where paths run beside others, ``close`` is 1: a coordinate that is known no better than the
+    others, beside the whole point, counts as if it were as large. How near the next path runs is
+    known in that measure, and Newton's method cannot know the coordinate in its own.
     """
     n = s.N
     substitute(s, r, r.right)
@@ -180,22 +197,24 @@ def newton_correction(s, r, rough):
     known = zero
     whole = zero
     beside = _vanishing_step(s, r)
+    # Points have about unit norm.
+    share = close * (splat(1.0) / _lay_errors(s, r, beside))
     for j in range(n):
         size = z.magnitude(z.read(r.slots, j))
         step = z.magnitude(z.read(r.right, j))
         whole = whole + step
-        error = fma(size, splat(number.EPSILON), z.magnitude(z.read(r.noise, j)) + splat(1e-300))
+        error = load(r.errors, j)
+        least = share * error
+        size = z.largest(size, least)
         # What does not exceed its rounding error may be zero along the whole path; then its
         # Taylor coefficients are rounding errors as well, and larger.
         unresolved = z.largest(thousand * error, splat(number.SMALL))
         weight = select_less(thousand * error, size, size, unresolved)
         gone = _gone(z.read(r.slots, j), z.read(r.right, j), beside)
         weight = select_less(half, gone, splat(number.SMALL), weight)
-        error = select_less(half, gone, z.largest(error, step), error)
         most = rough * error
         most = select_less(splat(ROUGHEST), most, splat(ROUGHEST), most)
-        weight = z.largest(z.largest(weight, load(r.floors, j)), most)
-        store(r.errors, j, error)
+        weight = z.largest(z.largest(weight, z.largest(least, load(r.floors, j))), most)
         store(r.weights, j, weight)
         eta = z.largest(eta, step / weight)
         excess = z.largest(excess, step / error)

@@ -48,7 +48,7 @@ def newton_batch(s: Equations, r: Room, b: Steps) -> None:
         factors_at(s, r)
         for _ in range(b.steps):
             weigh(s, r)
-            linearize(s, r, splat(0.0))
+            linearize(s, r, splat(0.0), splat(0.0))
             for j in range(s.N):
                 z.write(r.slots, j, z.add(z.read(r.slots, j), z.read(r.right, j)))
         for lane in range(min(8, b.count - first)):
