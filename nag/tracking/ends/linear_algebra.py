@@ -172,6 +172,22 @@ def _lay_errors(s, r, beside):
     return most
 
 
+def _lost_group(s, r):
+    """1 in the lanes where the largest coordinate of a group does not exceed its error enough."""
+    zero = splat(0.0)
+    unknown = zero
+    for g in range(s.groups):
+        # Coordinates have about unit norm in each group.
+        total = zero
+        for j in range(s.N):
+            if s.group_of[j] == g:
+                error = load(r.errors, j)
+                total = fma(error, error, total)
+        lost = select_less(splat(1.0 / RESOLVED), square_root(total), splat(1.0), zero)
+        unknown = z.largest(unknown, lost)
+    return unknown
+
+
 def newton_correction(s, r, rough, close):
     """Newton's correction into the right-hand side, rounding errors of the point, and measures.
 
@@ -220,16 +236,7 @@ def newton_correction(s, r, rough, close):
         excess = z.largest(excess, step / error)
         resolved = select_less(thousand * error, size, error / size, zero)
         known = z.largest(known, resolved)
-    unknown = zero
-    for g in range(s.groups):
-        # Coordinates have about unit norm in each group.
-        total = zero
-        for j in range(n):
-            if s.group_of[j] == g:
-                error = load(r.errors, j)
-                total = fma(error, error, total)
-        lost = select_less(splat(1.0 / RESOLVED), square_root(total), splat(1.0), zero)
-        unknown = z.largest(unknown, lost)
+    unknown = _lost_group(s, r)
     # What is not a number is not less than anything.
     huge = splat(1e300)
     eta = select_less(whole, huge, eta, huge)
