@@ -11,17 +11,20 @@ import pytest
 from evaluated import values
 from systems import family
 
+import nag
 from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.cli import main
+from nag.files.solutions_export import export_text
 from nag.solving import solve_classes
 from nag.solving.kantorovich import Confirmation
 from nag.solving.parameter import solve_family, solve_generic
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solve_classes import ClassEnds, track_classes
 from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
+from nag.solving.start.target import StartError
 
 # Symmetric in x and y, and even.
 EVEN = family(
@@ -239,12 +242,56 @@ def test_the_command_solves_by_way_of_the_family(
 ) -> None:
     path = tmp_path / "case.toml"
     path.write_text(CASE)
-    assert main(["solve", str(path)]) == 0
+    assert main(["solve", str(path), "--start", "parameter"]) == 0
     text = capsys.readouterr().out
     assert "4 isolated solutions, 4 real" in text and "2 classes of 2" in text
     path.write_text(CASE.replace("solutions = 4", "solutions = 6"))
-    assert main(["solve", str(path)]) == 1
+    assert main(["solve", str(path), "--start", "parameter"]) == 1
     assert main(["solve", str(path), "--start", "total"]) == 0
     path.write_text(CASE.partition("[family]")[0])
     assert main(["solve", str(path), "--start", "parameter"]) == 2
     assert "has no [family]" in capsys.readouterr().err
+
+
+THREE_QUADRICS = """
+title = "Three quadrics"
+kind = "system"
+variables = ["x", "y", "z"]
+equations = ["x^2 + y*z - p", "y^2 + x*z - 2", "z^2 + x*y - q*x - 3"]
+[parameters]
+p = 1
+q = "1/2"
+[family]
+parameters = ["p", "q"]
+"""
+
+
+@pytest.mark.parametrize("known", ["", "solutions = 8\n"])
+@pytest.mark.parametrize("start", ["auto", "parameter", "total"])
+def test_a_case_with_a_family_is_solved_the_same_way_by_command_and_function(
+    known: str, start: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, export = tmp_path / "case.toml", tmp_path / "export.json"
+    path.write_text(THREE_QUADRICS + known)
+    status = main(["solve", str(path), "--start", start, "--json", str(export), "--quiet"])
+    by_function = nag.solve(nag.read_case(path), start=start)
+    assert export.read_text() == export_text(by_function, "Three quadrics", path.name)
+    assert status == (0 if by_function.complete else 1)
+    by_loops = start == "parameter" or (start == "auto" and bool(known))
+    assert by_function.reason.startswith("parameter homotopy") is by_loops
+    assert by_function.system == nag.read_case(path).system
+
+
+@pytest.mark.parametrize("claimed", [2, 4, 6])
+def test_what_algebra_decides_needs_no_number_of_solutions_that_a_case_claims(
+    claimed: int, tmp_path: Path
+) -> None:
+    path = tmp_path / "case.toml"
+    path.write_text(CASE.replace("solutions = 4", f"solutions = {claimed}"))
+    result = nag.solve(nag.read_case(path))
+    assert result.complete and len(result.solutions) == 4
+
+
+def test_loops_of_parameters_are_refused_where_there_is_no_family() -> None:
+    with pytest.raises(StartError, match=r"the system has no \[family\]; leave out start"):
+        nag.solve(["x^2 - 2"], start="parameter")

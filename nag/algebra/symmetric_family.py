@@ -18,6 +18,7 @@ from functools import cached_property
 import numpy as np
 
 from nag.algebra.family import Family
+from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapError, MapGroup
 
@@ -138,3 +139,18 @@ def _cartesian(points: np.ndarray, pairs: Sequence[tuple[int, int]]) -> np.ndarr
     result[:, [i for i, _ in pairs]] = (points[:, :m] + points[:, m:]) / 2
     result[:, [j for _, j in pairs]] = (points[:, :m] - points[:, m:]) / 2j
     return result
+
+
+@dataclass(frozen=True, eq=False)
+class FamilyMember:
+    """One system of a family.
+
+    Attributes:
+        symmetric: the family and its symmetries.
+        values: its parameters in the system.
+        solutions: number of isolated solutions for general parameters, if it is known.
+    """
+
+    symmetric: SymmetricFamily
+    values: tuple[Number, ...]
+    solutions: int | None

@@ -23,7 +23,7 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.settings import Settings
 
 if TYPE_CHECKING:
-    from nag.files.case_family import CaseFamily
+    from nag.algebra.symmetric_family import FamilyMember
 
 Solver = Callable[[int], SolveResult]
 
@@ -143,7 +143,7 @@ def _best(solver: Solver, threads: int) -> tuple[float, Any]:
     return best, result
 
 
-def _generic(family: CaseFamily, seed: int, threads: int) -> Solved:
+def _generic(family: FamilyMember, seed: int, threads: int) -> Solved:
     return solve_generic(
         family.symmetric,
         start="parameter",
@@ -173,7 +173,7 @@ def measure(
     expected: int | None,
     seed: int,
     rate: float,
-    family: CaseFamily | None = None,
+    family: FamilyMember | None = None,
 ) -> Measured:
     """Solve ``system`` warm with one and with two threads, and in a process of its own.
 

@@ -3,33 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from nag.algebra.family import Family
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapError, MapGroup, RationalMap
-from nag.algebra.symmetric_family import SymmetricFamily
+from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.tokens import is_name, nearest, quote
 from nag.files.case_table import Table, kind_of, shown
 
 Parse = Callable[[str, Sequence[str]], Polynomial]
-
-
-@dataclass(frozen=True, eq=False)
-class CaseFamily:
-    """The family that a case's system belongs to.
-
-    Attributes:
-        symmetric: the family and its symmetries.
-        values: its parameters in the case.
-        solutions: number of isolated solutions for general parameters, if it is known.
-    """
-
-    symmetric: SymmetricFamily
-    values: tuple[Number, ...]
-    solutions: int | None
 
 
 def family_parameters(table: Table, parameters: Mapping[str, Number]) -> list[str]:
@@ -48,7 +32,9 @@ def family_parameters(table: Table, parameters: Mapping[str, Number]) -> list[st
     return names
 
 
-def read_family(table: Table, family: Family, values: Sequence[Number], parse: Parse) -> CaseFamily:
+def read_family(
+    table: Table, family: Family, values: Sequence[Number], parse: Parse
+) -> FamilyMember:
     """The family with what its table says of it; ``parse`` reads polynomials in given names."""
     names = [*family.variables, *family.parameters]
     plane = table.table("plane")
@@ -69,7 +55,7 @@ def read_family(table: Table, family: Family, values: Sequence[Number], parse: P
         _ = symmetric.family
     except MapError as error:
         table.fail("plane", str(error))
-    return CaseFamily(symmetric, tuple(values), solutions)
+    return FamilyMember(symmetric, tuple(values), solutions)
 
 
 def _pairs(plane: Table, names: list[str]) -> list[tuple[int, int]]:

@@ -28,7 +28,7 @@ from nag.files.case_table import CaseError, Table, kind_of, read_parameters, rea
 from nag.mechanism.formulation_names import FORMULATIONS
 
 if TYPE_CHECKING:
-    from nag.files.case_family import CaseFamily
+    from nag.algebra.symmetric_family import FamilyMember
     from nag.mechanism.assembly import AssemblyModel
     from nag.mechanism.graph import Mechanism
 
@@ -113,7 +113,7 @@ class Case:
     points: tuple[NamedPoint, ...] = ()
     truth: tuple[Truth, ...] = ()
     symmetries: tuple[SignedPermutation, ...] = ()
-    family: CaseFamily | None = None
+    family: FamilyMember | None = None
     assembly: AssemblyModel | None = None
 
 
@@ -230,7 +230,7 @@ class _Numbers:
         return parse_polynomial(text, variables, known, self.budget)
 
 
-def _read_system(top: Table, numbers: _Numbers) -> tuple[PolynomialSystem, CaseFamily | None]:
+def _read_system(top: Table, numbers: _Numbers) -> tuple[PolynomialSystem, FamilyMember | None]:
     variables = top.texts("variables", "names of variables")
     for i, name in enumerate(variables, 1):
         if not is_name(name):
@@ -260,7 +260,7 @@ def _read_equations(top: Table, numbers: _Numbers, names: list[str]) -> tuple[Po
     return tuple(equations)
 
 
-def _read_family(top: Table, numbers: _Numbers, variables: list[str]) -> CaseFamily:
+def _read_family(top: Table, numbers: _Numbers, variables: list[str]) -> FamilyMember:
     from nag.files.case_family import family_parameters, read_family
 
     table = top.table("family")

@@ -16,12 +16,14 @@ from nag.algebra.system import PolynomialSystem
 class Problem:
     """An exact system, signed permutations of its variables that keep it, and the parts it is of.
 
-    `parts` is the model of a case whose parts are not assembled.
+    `parts` is the model of a case whose parts are not assembled; `family` is the one that a case
+    says its system belongs to, a `nag.algebra.symmetric_family.FamilyMember`.
     """
 
     system: PolynomialSystem
     symmetries: tuple[SignedPermutation, ...] = ()
     parts: Any = None
+    family: Any = None
 
 
 def problem_of(given: Any, variables: Any = None) -> Problem:
@@ -43,7 +45,7 @@ def problem_of(given: Any, variables: Any = None) -> Problem:
         problem = (
             problem_of(given.mechanism)
             if given.system is None
-            else Problem(given.system, given.symmetries, given.assembly)
+            else Problem(given.system, given.symmetries, given.assembly, given.family)
         )
     elif is_a(given, "networkx", "Graph"):
         raise ValueError(

@@ -7,16 +7,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.family import Family
 from nag.algebra.number import Number
-from nag.algebra.symmetric_family import SymmetricFamily
+from nag.algebra.rational_map import MapError
+from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
+from nag.algebra.system import PolynomialSystem
+from nag.solving.branch_solutions import solve_apart
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solutions import SolveResult
-from nag.solving.solve import ends_of
+from nag.solving.solve import ends_of, solve_whole
 from nag.solving.solve_classes import (
     SolvedClasses,
     line_of_classes,
@@ -28,10 +31,10 @@ from nag.solving.start.family_monodromy import Progress
 from nag.solving.start.target import Start, StartError, Target, unit
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import PathStatus
-from nag.tracking.settings import Settings
+from nag.tracking.settings import Settings, named
 from nag.tracking.track import track
 
-__all__ = ["Family", "Solved", "solve_family", "solve_generic"]
+__all__ = ["Family", "Solved", "solve_family", "solve_generic", "solve_member"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,6 +142,58 @@ def solve_family(
         rng = np.random.default_rng([seed, number])
         results.append(ends_of(family.at(values), begin, paths, reason, rng, seed, name))
     return results
+
+
+def solve_member(
+    system: PolynomialSystem,
+    member: FamilyMember,
+    *,
+    exact_first: bool = True,
+    seed: int = 0,
+    threads: int = 1,
+    settings: Settings | str = "default",
+    progress: Progress | None = None,
+) -> SolveResult:
+    """All isolated solutions of one member of a family, by way of random parameters.
+
+    What exact algebra decides needs neither paths nor the family, as in `nag.solving.solve.solve`.
+
+    Args:
+        system: what to solve.
+        member: which one of which family it is. Where no number of solutions is known, an answer
+            is complete only if exact algebra gives it.
+        exact_first: whether exact algebra is asked before paths are tracked.
+        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
+        threads: number of threads.
+        settings: tracking settings.
+        progress: called with a stage, the work done and the whole work or 0.
+
+    Raises:
+        StartError: if loops have nothing to begin with, there would be too many paths, or the
+            symmetries do not fit the family.
+    """
+    named(settings)
+    name = settings if isinstance(settings, str) else "custom"
+
+    def branch(part: PolynomialSystem) -> SolveResult:
+        return solve_whole(part, "auto", seed, threads, settings, progress, False)
+
+    exact = solve_apart(system, branch, seed, name, True) if exact_first else None
+    if exact is not None:
+        return exact
+    common = {"seed": seed, "threads": threads, "settings": settings}
+    try:
+        generic = solve_generic(
+            member.symmetric,
+            start="parameter",
+            count=member.solutions,
+            progress=progress,
+            **common,
+        )
+    except MapError as error:
+        raise StartError(f"[family]: {error}") from None
+    (result,) = solve_family(generic, [member.values], **common)
+    return replace(result, system=system)
 
 
 def begin_of_family(

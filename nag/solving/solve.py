@@ -70,13 +70,13 @@ def solve(
     name = settings if isinstance(settings, str) else "custom"
 
     def tracked(part: PolynomialSystem) -> SolveResult:
-        return _solve_whole(part, start, seed, threads, settings, progress, finite)
+        return solve_whole(part, start, seed, threads, settings, progress, finite)
 
     # Who names a start system wants its paths.
     return solve_apart(system, tracked, seed, name, start == "auto") or tracked(system)
 
 
-def _solve_whole(
+def solve_whole(
     system: PolynomialSystem,
     start: str,
     seed: int,

@@ -19,9 +19,8 @@ import numpy as np
 from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
-from nag.algebra.symmetric_family import SymmetricFamily
+from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.bench.atlas.changes import combined, power, small
-from nag.files.case_family import CaseFamily
 from nag.numerics.coincidence import overlapping
 from nag.solving.kantorovich import Confirmation
 from nag.solving.solutions import SolveResult
@@ -105,14 +104,14 @@ class NinePoints:
         order: which of the complex unknowns become the first, second and so on; factors: of these.
     """
 
-    case: CaseFamily
+    case: FamilyMember
     motion: Motion
     family: SymmetricFamily
     order: tuple[int, ...]
     factors: tuple[Fraction, ...]
 
     @classmethod
-    def random(cls, case: CaseFamily, rng: np.random.Generator) -> NinePoints:
+    def random(cls, case: FamilyMember, rng: np.random.Generator) -> NinePoints:
         """The family and the points of ``case``, changed at random."""
         symmetric = case.symmetric
         count = symmetric.original.n // 2
