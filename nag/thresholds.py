@@ -46,6 +46,8 @@ numerics.certified_points.SLACK             1e3     Errors of a point within whi
 numerics.certified_points.NEAR              1e-6    The same as a distance, if errors are unknown.
 numerics.certified_points.EVIDENCE          60      Digits to which equations vanish that a proof
                                                     did not need: said to be evidence, not proof.
+numerics.point_claims.SAME                  1e-140  Distance in 150 digits from zeros of coordinates
+                                                    that are said to be exact: evidence.
 numerics.clusters.ALIKE                     1e-5    Starts nearer to each other, beside the
                                                     cluster's size, are followed once; their ends
                                                     are compared in all digits.
@@ -376,6 +378,7 @@ SHRINK, LEAST_RADIUS; decomposition.discovery: ROUNDED, DEEP, MULTIPLE; decompos
 ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
 decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
-mechanism.parts_decomposition: ROUNDED; files.close_points: ROUNDED; check.four_way: ROUNDING;
-report.singular: NOTHING; cli.bench: PATIENCE; cli.bench_decompose: PATIENCE; cli.running: INTERVAL.
+mechanism.parts_decomposition: ROUNDED; files.close_points: ROUNDED; files.json_values: AGREES;
+check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE;
+cli.bench_decompose: PATIENCE; cli.running: INTERVAL.
 """

@@ -6,16 +6,22 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
 from nag.decomposition import decompose
+from nag.files import export, solutions_export
 from nag.files.export import write_decomposition
+from nag.files.json_values import schema
+from nag.numerics.claims import Standing
 from nag.solving.certificate import certify_solutions
 from nag.solving.solve import solve
 from nag.witness.certificate import certify_decomposition
+from nag.witness.certified_loops import prove_all
+from nag.witness.witness import Slice
 
 x, y = Polynomial.variables(2)
 LINE_AND_CIRCLE = PolynomialSystem(("x", "y"), (x**2 + y**2 - 2, x - y))
@@ -65,10 +71,145 @@ def test_a_component_listed_twice_is_found_out(equations) -> None:
 
 @pytest.mark.parametrize("row", [[[0, 0], [0, 0]], [[None, 0], [1, 0]]])
 def test_a_slice_that_is_none_is_refused_in_one_line(row, tmp_path: Path, capsys) -> None:
-    export = tmp_path / "export.json"
-    write_decomposition(decompose(PolynomialSystem(("x", "y"), (x * y - 1,))), export)
-    document = json.loads(export.read_text())
+    file = tmp_path / "export.json"
+    write_decomposition(decompose(PolynomialSystem(("x", "y"), (x * y - 1,))), file)
+    document = json.loads(file.read_text())
     document["components"][0]["slice"]["A"] = [row]
-    export.write_text(json.dumps(document))
-    assert main(["certify", str(export)]) == 2
+    file.write_text(json.dumps(document))
+    assert main(["certify", str(file)]) == 2
     assert "components[0].slice" in capsys.readouterr().err
+
+
+def tampered(document: dict, tmp_path: Path, *options: str) -> tuple[int, dict[str, set[str]]]:
+    """Exit status of ``nag certify`` of an export, and the standings of statements by field."""
+    file, target = tmp_path / "export.json", tmp_path / "certificate.json"
+    file.write_text(json.dumps(document))
+    status = main(["certify", str(file), "--json", str(target), *options])
+    certificate = json.loads(target.read_text())
+    jsonschema.validate(certificate, schema("nag-certificate"))
+    standings: dict[str, set[str]] = {}
+    for statement in certificate["statements"]:
+        standings.setdefault(statement["field"], set()).add(statement["standing"])
+    return status, standings
+
+
+def test_a_component_that_is_excluded_is_refuted_and_not_counted() -> None:
+    system = PolynomialSystem(("x", "y"), ((x**2 + y**2 - 1) * (x - 2 * y),))
+    answer = decompose(system)
+    assert certify_decomposition(answer).bounds == {1: 3}
+    certificate = certify_decomposition(
+        replace(answer, system=replace(system, nonzero=(x - 2 * y,)))
+    )
+    assert certificate.bounds == {1: 2}
+    refuted = [c.text for c in certificate.claims if c.standing is Standing.REFUTED]
+    assert refuted == ["that nothing that must not vanish does so on it: component 1"]
+    assert not certificate.all_proved
+
+
+def test_a_point_that_is_no_zero_is_not_proved_to_lie_on_a_component() -> None:
+    answer = decompose(PolynomialSystem(("x", "y"), (x - 2 * y,)))
+    assert prove_all(answer)[0].connected
+    line = answer.components[0]
+    off = replace(answer, components=(replace(line, points=line.points + 0.5, fibres=()),))
+    assert not prove_all(off)[0].connected
+
+
+@pytest.mark.parametrize("equation", [x * y - 1, (x - 2 * y) ** 2])
+def test_a_component_listed_twice_on_a_rescaled_slice_is_found_out(equation) -> None:
+    answer = decompose(PolynomialSystem(("x", "y"), (equation,)))
+    (curve,) = answer.components
+    scaled = replace(curve, slice=Slice(3j * curve.slice.A, 3j * curve.slice.b), fibres=())
+    certificate = certify_decomposition(replace(answer, components=(curve, scaled)))
+    assert (0, 1) in (*certificate.same, *certificate.unknown)
+    assert not certificate.all_proved
+
+
+def test_components_are_told_apart_on_slices_that_are_not_generic_for_each_other() -> None:
+    # x = 0 and y = 0, each on a slice through points of the other at infinity.
+    answer = decompose(PolynomialSystem(("x", "y"), (x * y,)))
+    assert certify_decomposition(answer).all_proved
+    assert certify_decomposition(answer).bounds == {1: 2}
+
+
+@pytest.mark.parametrize("multiplicity, standing", [(1, Standing.REFUTED), (3, Standing.DOUBTED)])
+def test_a_wrong_multiplicity_of_an_isolated_point_is_refuted(multiplicity, standing) -> None:
+    answer = decompose(PolynomialSystem(("x", "y"), (x**2 + y**2 - 2, x * y - 1)))
+    first, second = answer.components
+    wrong = replace(answer, components=(replace(first, multiplicity=multiplicity), second))
+    said = {c.field: c.standing for c in certify_decomposition(wrong).claims if "1" in c.text}
+    assert said["components[].multiplicity"] is standing
+    said = {c.field: c.standing for c in certify_decomposition(answer).claims if "1" in c.text}
+    assert said["components[].multiplicity"] is Standing.EVIDENCE
+
+
+@pytest.mark.parametrize("options", [(), ("--paths",)])
+def test_a_list_of_five_of_nine_solutions_is_not_complete(options, tmp_path: Path) -> None:
+    result = solve(PolynomialSystem(("x", "y"), (x**3 - 2 * y**2 + 1, y**3 + x * y - 3)))
+    whole = solutions_export.document(result)
+    status, standings = tampered(whole, tmp_path, *options)
+    assert (status, standings["complete"]) == (0, {"proved"})
+    status, standings = tampered(whole | {"solutions": whole["solutions"][:5]}, tmp_path, *options)
+    assert (status, standings["complete"]) == (1, {"refuted" if options else "refuted by evidence"})
+
+
+def test_a_component_without_one_of_its_points_has_no_linear_trace(tmp_path: Path) -> None:
+    answer = decompose(PolynomialSystem(("x", "y"), (x**3 + y**2 - 3,)))
+    (curve,) = answer.components
+    cut = replace(
+        curve,
+        points=curve.points[:2],
+        radii=curve.radii[:2],
+        digits=curve.digits[:2],
+        fibres=(),
+    )
+    whole, less = (export.document(replace(answer, components=(c,))) for c in (curve, cut))
+    status, standings = tampered(whole, tmp_path, "--paths")
+    assert (status, standings["components[].degree"]) == (0, {"on evidence"})
+    status, standings = tampered(less, tmp_path, "--paths")
+    assert (status, standings["components[].degree"]) == (1, {"refuted by evidence"})
+
+
+def test_two_components_as_one_and_points_that_are_two_are_refuted() -> None:
+    answer = decompose(PolynomialSystem(("x", "y"), (x**2 - 2, y - x)))
+    one, other = answer.components
+    both = replace(
+        one,
+        points=[*one.points, *other.points],
+        radii=[*one.radii, *other.radii],
+        digits=[16, 16],
+        fibres=(),
+    )
+    said = {c.field: c for c in certify_decomposition(replace(answer, components=(both,))).claims}
+    assert said["components[].status"].standing is Standing.REFUTED
+
+
+@pytest.mark.parametrize("edit", ["accuracy", "precision", "exact", "more"])
+def test_what_the_rest_of_a_file_contradicts_and_what_is_not_read_is_named(edit, tmp_path) -> None:
+    document = export.document(decompose(PolynomialSystem(("x", "y"), (x * y - 1,))))
+    inside = {"exact": document["system"], "more": document}.get(edit, document["components"][0])
+    inside[edit] = {"accuracy": 1e-20, "precision": "99 digits", "exact": False, "more": 1}[edit]
+    status, standings = tampered(document, tmp_path)
+    own = next(found for field, found in standings.items() if field.endswith(edit) and found)
+    assert own & {"refuted", "not looked at"}
+    assert status == (edit != "more")
+
+
+def fields_of(value: object, place: str = "") -> set[str]:
+    if isinstance(value, list):
+        return {place}.union(*(fields_of(v, f"{place}[]") for v in value if isinstance(v, dict)))
+    if not isinstance(value, dict) or place == "components[].orbit":
+        return {place}
+    return set().union(*(fields_of(v, f"{place}.{k}".lstrip(".")) for k, v in value.items()))
+
+
+def test_there_is_a_statement_about_every_field_of_an_export(tmp_path: Path) -> None:
+    system = PolynomialSystem(("x", "y"), ((x**2 - 2) * y, (x - y) * y), (), [[0], [1]])
+    result = solve(replace(LINE_AND_CIRCLE, nonzero=(x + 1,)))
+    for written in (export.document(decompose(system)), solutions_export.document(result)):
+        _, standings = tampered(written, tmp_path)
+        for field in fields_of(written) - {"format", "version", "components", "solutions"}:
+            whole = field.replace("[]", "").split(".")
+            # What nobody looks at may be named as a whole, components and solutions may not.
+            least = 2 if whole[0] in ("components", "solutions") else 1
+            said = [name.replace("[]", "").split(".") for name in standings]
+            assert any(whole[: len(f)] == f and len(f) >= least for f in said), field

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError
 from nag.cli.running import writing_json
 
 if TYPE_CHECKING:
+    from nag.numerics.claims import Claim
     from nag.solving.certificate import SolutionsCertificate
     from nag.solving.certified_paths import ProvedPaths
     from nag.solving.solutions import SolveResult
@@ -43,11 +45,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.files.certificate_export import write_certificate
     from nag.text.table import labelled, printable
 
-    found, title = _read(options.export)
-    proved = certified(found, options.paths)
+    found, title, lost = _read(options.export)
+    proved = certified(found, options.paths, lost)
     if options.json is not None:
         with writing_json():
-            write_certificate(proved.certificate, options.json, proved.paths)
+            write_certificate(proved.certificate, options.json, proved.claims, proved.paths)
     rows = [("system", system_line(found.system)), *proved.rows]
     return [printable(title), "", *labelled(rows)], proved.all_proved
 
@@ -57,19 +59,28 @@ class Certified:
     """What was proved of a result.
 
     Attributes:
-        rows: labelled lines; all_proved: whether nothing was left open.
+        rows: labelled lines; all_proved: whether nothing was refuted or left open.
         certificate, paths: of the points, and of the paths or loops, if they were asked for.
+        claims: how every statement of an export of the result stands.
     """
 
     rows: list[tuple[str, str]]
     all_proved: bool
     certificate: SolutionsCertificate | DecompositionCertificate
-    paths: ProvedPaths | tuple[ProvedMonodromy, ...] | None = None
+    paths: ProvedPaths | tuple[ProvedMonodromy, ...] | None
+    claims: tuple[Claim, ...]
 
 
-def certified(found: SolveResult | Decomposition, paths: bool = False) -> Certified:
-    """The certificate of a result, with ``paths`` also of the paths that lead to it."""
-    from nag.report.certificate import decomposition_rows, solution_rows
+def certified(
+    found: SolveResult | Decomposition, paths: bool = False, lost: Sequence[Claim] = ()
+) -> Certified:
+    """The certificate of a result, with ``paths`` also of the paths that lead to it.
+
+    Args:
+        lost: fields of an export that are not in what was read of it.
+    """
+    from nag.numerics.claims import nothing_against
+    from nag.report.certificate import claims_rows, decomposition_rows, solution_rows
     from nag.solving.certificate import certify_solutions
     from nag.solving.solutions import SolveResult
     from nag.witness.certificate import certify_decomposition
@@ -78,60 +89,80 @@ def certified(found: SolveResult | Decomposition, paths: bool = False) -> Certif
     if isinstance(found, SolveResult):
         certificate = certify_solutions(found)
         rows = solution_rows(certificate, time.perf_counter() - started)
-        more = _paths(found) if paths else None
+        more = _paths(certificate) if paths else None
     else:
         certificate = certify_decomposition(found)
         rows = decomposition_rows(certificate, time.perf_counter() - started)
-        more = _loops(found) if paths else None
-    if more is None:
-        return Certified(rows, certificate.all_proved, certificate)
-    proved, further, good = more
-    return Certified([*rows, *further], certificate.all_proved and good, certificate, proved)
+        more = _loops(certificate) if paths else None
+    proved, further, good, claims = more or (None, [], True, certificate.claims)
+    claims = (*claims, *lost)
+    good = good and certificate.all_proved and nothing_against(claims)
+    return Certified([*rows, *further, *claims_rows(claims)], good, certificate, proved, claims)
 
 
-def _paths(found: SolveResult) -> tuple[ProvedPaths | None, list[tuple[str, str]], bool]:
-    """The proof of the paths to solutions, its lines, and whether nothing was left open."""
+Further = tuple[Any, list[tuple[str, str]], bool, tuple["Claim", ...]]
+
+
+def _paths(certificate: SolutionsCertificate) -> Further:
+    """The proof of the paths to solutions, its lines, whether nothing was left open, statements."""
     from nag.report.certificate import paths_rows
     from nag.solving.certified_paths import PathsError, prove_paths
+    from nag.solving.solution_claims import claims_of_paths
 
-    started = time.perf_counter()
+    found, started = certificate.result, time.perf_counter()
     try:
         proved = prove_paths(found)
     except PathsError as error:
-        return None, [("paths", f"not proved: {error}")], False
+        return None, [("paths", f"not proved: {error}")], False, certificate.claims
     rows = paths_rows(proved, len(found.solutions), time.perf_counter() - started)
     simple = sum(s.multiplicity == 1 for s in found.solutions)
-    return proved, rows, proved.distinct and not proved.lost and len(proved.solutions) >= simple
+    good = proved.distinct and not proved.lost and len(proved.solutions) >= simple
+    return proved, rows, good, claims_of_paths(certificate, proved.others)
 
 
-def _loops(
-    found: Decomposition,
-) -> tuple[tuple[ProvedMonodromy, ...], list[tuple[str, str]], bool]:
-    """The proof of the loops of all components, its lines, and whether nothing was left open."""
+def _loops(certificate: DecompositionCertificate) -> Further:
+    """The proof of the loops of all components, its lines, whether all is proved, statements."""
+    from nag.decomposition.trace import linear_traces
     from nag.report.certificate import loops_rows
     from nag.witness.certified_loops import prove_all
+    from nag.witness.component_claims import claims_of_loops
 
-    started = time.perf_counter()
+    found, started = certificate.decomposition, time.perf_counter()
     proved = prove_all(found)
+    connected = [m.connected for m in proved]
+    claims = claims_of_loops(certificate, connected, linear_traces(found))
     rows = loops_rows(proved, time.perf_counter() - started)
-    return proved, rows, all(m.connected for m in proved)
+    return proved, rows, all(connected), claims
 
 
-def _read(path: str) -> tuple[SolveResult | Decomposition, str]:
-    """What an export of either kind holds, and the title of its case."""
-    from nag.files.export import FORMAT, Export, export_of
+def _read(path: str) -> tuple[SolveResult | Decomposition, str, list[Claim]]:
+    """What an export of either kind holds, the title of its case, and what is lost of the file."""
     from nag.files.json_values import ExportError, read_file
-    from nag.files.solutions_export import SolutionsExport, solutions_of
-
-    def convert(value: object) -> Export | SolutionsExport:
-        of_components = isinstance(value, dict) and value.get("format") == FORMAT
-        return export_of(value) if of_components else solutions_of(value)
 
     try:
-        found = read_file(path, convert)
+        return read_file(path, _converted)
     except ExportError as error:
         raise UsageError(str(error)) from None
+
+
+def _converted(value: Any) -> tuple[SolveResult | Decomposition, str, list[Claim]]:
+    from nag.files import export, solutions_export
+    from nag.files.json_values import FOLLOWS, read_differently
+    from nag.numerics.claims import Claim, Standing
+
     memory = "a system built in memory"
-    if isinstance(found, SolutionsExport):
-        return found.result, found.title or memory
-    return found.decomposition, found.origin.title if found.origin else memory
+    if isinstance(value, dict) and value.get("format") == export.FORMAT:
+        read = export.export_of(value)
+        found, title = read.decomposition, read.origin.title if read.origin else memory
+        # Files of version 1 say some things in other words.
+        again = export.document(found, read.origin) if value["version"] > 1 else value
+    else:
+        solved = solutions_export.solutions_of(value)
+        found, title = solved.result, solved.title or memory
+        again = solutions_export.document(found, solved.title, solved.file)
+    lost = read_differently(value, again)
+    standings = {
+        field: Standing.UNSEEN if field.rpartition(".")[2] not in FOLLOWS else Standing.REFUTED
+        for field in lost
+    }
+    return found, title, [Claim(field, why, standings[field]) for field, why in lost.items()]

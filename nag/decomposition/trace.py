@@ -14,13 +14,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
 from nag.decomposition.zero_sums import smallest_zero_sums
+from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.points import Points
 from nag.witness.slices import padded, unit_complex
-from nag.witness.witness import PathCounts
+from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # Digits to which a trace must be linear, beside the points' motion: so many, and one more for each
 # digit of the system's coefficients beyond those of round numbers.
@@ -230,6 +232,44 @@ class Trace:
         if not np.isfinite(error):
             return None
         return smallest_zero_sums(totals, _integer(error, bits), self.weights)
+
+
+def has_linear_trace(
+    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
+) -> bool | None:
+    """Whether the trace of a component's points is linear, as it is of all its points on a slice.
+
+    The points are cut by equations found anew from the system.
+
+    Returns:
+        None where a path fails, or digits do not say.
+
+    Raises:
+        ValueError: if the points are not regular zeros of the system or of a deflation of it.
+    """
+    fibres = component_fibres(system, replace(component, fibres=()))
+    points = Points.of(fibres, component.slice.rows)
+    trace = Trace.of(points, digits_of_evidence(system.polynomials), rng)
+    carried, _ = trace.carried(points, range(len(points)), tracker)
+    return None if carried is None else carried.linear(points, range(len(points)))[0]
+
+
+def linear_traces(decomposition: Decomposition, seed: int = 0) -> list[bool | None]:
+    """Whether the traces of all components are linear; None also where no equations cut one.
+
+    Points have no traces: nothing is said of them either.
+    """
+    found: list[bool | None] = []
+    for k, component in enumerate(decomposition.components):
+        if not component.dimension or not component.degree:
+            found.append(None)
+            continue
+        rng = np.random.default_rng([seed, 23, k])
+        try:
+            found.append(has_linear_trace(decomposition.system, component, rng, Tracker()))
+        except (ValueError, OverflowError):
+            found.append(None)
+    return found
 
 
 def _numbered(fibre: Fibre, numbers: Sequence[float]) -> Fibre:

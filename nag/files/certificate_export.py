@@ -14,6 +14,7 @@ import flint
 from nag.files.json_values import lay_out, pairs, real_or_null, system_document
 from nag.files.written_file import write_target
 from nag.numerics.certified_points import CertifiedPoints
+from nag.numerics.claims import Claim, nothing_against
 from nag.numerics.krawczyk import BITS, FineBox
 from nag.solving.certificate import SolutionsCertificate
 from nag.solving.certified_paths import ProvedPaths
@@ -94,7 +95,7 @@ def decomposition_document(certificate: DecompositionCertificate) -> dict[str, A
             "distinct": c.distinct,
             "slice": {"A": pairs(c.component.slice.A), "b": pairs(c.component.slice.b)},
             "points": _points(c.points),
-            "images": [_points(points) for points in c.images],
+            "images": [_points(points) for points in c.images if points is not None],
         }
         for c in certificate.components
     ]
@@ -135,11 +136,13 @@ def _loops(proved: ProvedMonodromy) -> dict[str, Any]:
 def write_certificate(
     certificate: SolutionsCertificate | DecompositionCertificate,
     path: str | os.PathLike[str],
+    claims: Sequence[Claim] | None = None,
     paths: ProvedPaths | Sequence[ProvedMonodromy] | None = None,
 ) -> None:
     """Write the certificate to ``path`` in one step.
 
     Args:
+        claims: how the statements of an export stand, if paths say more than the certificate.
         paths: what is proved of the paths to solutions, or of loops, one for each component.
 
     Raises:
@@ -152,4 +155,9 @@ def write_certificate(
     elif paths is not None:
         for component, proved in zip(document["components"], paths, strict=True):
             component["loops"] = _loops(proved)
+    document["all_proved"] = document["all_proved"] and nothing_against(claims or ())
+    document["statements"] = [
+        {"field": c.field, "says": c.text, "standing": str(c.standing)}
+        for c in (certificate.claims if claims is None else claims)
+    ]
     write_target(path, lay_out(document) + "\n")

@@ -232,3 +232,41 @@ def schema(name: str, version: int = 1) -> dict[str, Any]:
     """
     file = resources.files("nag.files") / "schema" / f"{name}-{version}.json"
     return json.loads(file.read_text("utf-8"))
+
+
+# What a document says that follows from the rest of it; relative difference that rounding makes.
+FOLLOWS = ("accuracy", "precision", "exact")
+AGREES = 1e-9
+
+
+def read_differently(given: Any, again: Any, place: str = "") -> dict[str, str]:
+    """Fields of a document that are lost, or come out otherwise, when it is read and written again.
+
+    Args:
+        given: the document, or a part of it; again: what is written of what was read.
+
+    Returns:
+        For each such field, ``list[].key`` in lists, why.
+
+    >>> read_differently({"a": 1, "more": 2, "accuracy": 0.5}, {"a": 1, "accuracy": 0.25})
+    {'more': 'it is no field of the format', 'accuracy': 'the rest of the file says 0.25'}
+    """
+    found: dict[str, str] = {}
+    if isinstance(given, dict) and isinstance(again, dict):
+        for key, value in given.items():
+            here = f"{place}.{key}" if place else key
+            if key not in again:
+                found[here] = "it is no field of the format"
+            elif key in FOLLOWS and not _agree(value, again[key]):
+                found[here] = f"the rest of the file says {json.dumps(again[key])}"
+            else:
+                found |= read_differently(value, again[key], here)
+    elif isinstance(given, list) and isinstance(again, list):
+        for one, other in zip(given, again, strict=False):
+            found |= read_differently(one, other, f"{place}[]")
+    return found
+
+
+def _agree(one: Any, other: Any) -> bool:
+    numbers = [isinstance(value, float) for value in (one, other)]
+    return math.isclose(one, other, rel_tol=AGREES) if all(numbers) else one == other

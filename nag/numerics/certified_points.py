@@ -21,7 +21,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.box_relations import fine_box, one_zero, overlaps
+from nag.numerics.box_relations import overlaps
 from nag.numerics.close_zeros import close_zeros, matched
 from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
@@ -71,6 +71,8 @@ class CertifiedPoints:
         real: which zeros are proved to be real though they are singular, shape ``(P,)``.
         refuted: indices of points next to a zero of as many equations as unknowns that is proved
             to be none of all of them.
+        multiplicities: how often each zero counts, 0 where that is not known, shape ``(P,)``: one
+            where it is simple, else the dimension of its local ring, on evidence.
     """
 
     points: np.ndarray
@@ -79,6 +81,7 @@ class CertifiedPoints:
     digits: np.ndarray
     real: np.ndarray
     refuted: tuple[int, ...]
+    multiplicities: np.ndarray
 
     def having(self, *proofs: Proof) -> np.ndarray:
         """Indices of the points with one of these proofs."""
@@ -127,16 +130,12 @@ def certify_points(
             where doubles do not tell them apart.
     """
     equations = [f for f in polynomials if f]
-    P, n = points.shape
-    blank = np.full((P, n), np.inf)
-    boxes = Boxes(points.copy(), blank, blank.copy(), np.zeros(P, dtype=bool), {})
-    found = CertifiedPoints(points, (), boxes, np.full(P, np.inf), np.zeros(P, dtype=bool), ())
-    proofs: list[Proof] = [Proof.NONE] * P
-    refuted: set[int] = set()
-    reach = np.maximum(NEAR, SLACK * np.nan_to_num(accuracy, nan=0.0))
+    found, proofs = _nothing_proved(points), [Proof.NONE] * len(points)
+    boxes, n = found.boxes, points.shape[1]
+    reach = _reach(accuracy)
     finite = np.isfinite(points).all(axis=1)
     tested = np.flatnonzero(~singular & finite)
-    refuted |= _regular(equations, slices, found, proofs, tested, reach)
+    refuted = _regular(equations, slices, found, proofs, tested, reach)
     if len(equations) + len(slices) == n:
         _close_together(
             BallPolynomials.of(equations, slices), found, proofs, tested, accuracy, real
@@ -147,6 +146,36 @@ def certify_points(
         simple = _singular(equations, slices, found, proofs, i, float(accuracy[i]))
         if simple and singular[i]:
             refuted |= _regular(equations, slices, found, proofs, np.array([i]), reach)
+    return _with_proofs(found, proofs, refuted)
+
+
+def certify_regular_points(
+    polynomials: Sequence[Polynomial], slices: np.ndarray, points: np.ndarray, accuracy: np.ndarray
+) -> CertifiedPoints:
+    """The same of points that are simple zeros; nothing is proved of others."""
+    equations = [f for f in polynomials if f]
+    found, proofs = _nothing_proved(points), [Proof.NONE] * len(points)
+    tested = np.flatnonzero(np.isfinite(points).all(axis=1))
+    refuted = _regular(equations, slices, found, proofs, tested, _reach(accuracy))
+    return _with_proofs(found, proofs, refuted)
+
+
+def _nothing_proved(points: np.ndarray) -> CertifiedPoints:
+    P, n = points.shape
+    blank = np.full((P, n), np.inf)
+    boxes = Boxes(points.copy(), blank, blank.copy(), np.zeros(P, dtype=bool), {})
+    real, counts = np.zeros(P, dtype=bool), np.zeros(P, dtype=np.int64)
+    return CertifiedPoints(points, (), boxes, np.full(P, np.inf), real, (), counts)
+
+
+def _reach(accuracy: np.ndarray) -> np.ndarray:
+    return np.maximum(NEAR, SLACK * np.nan_to_num(accuracy, nan=0.0))
+
+
+def _with_proofs(
+    found: CertifiedPoints, proofs: Sequence[Proof], refuted: set[int]
+) -> CertifiedPoints:
+    found.multiplicities[[p in (Proof.SIMPLE, Proof.PART) for p in proofs]] = 1
     return replace(found, proofs=tuple(proofs), refuted=tuple(sorted(refuted)))
 
 
@@ -265,43 +294,6 @@ def joined_boxes(groups: Sequence[CertifiedPoints], *proofs: Proof) -> Boxes:
     )
 
 
-def zero_digits(
-    polynomials: Sequence[Polynomial],
-    equations: Sequence[Polynomial],
-    points: CertifiedPoints,
-    among: np.ndarray | None = None,
-) -> np.ndarray:
-    """Digits to which one of the polynomials vanishes at each proved zero, shape ``(P,)``.
-
-    They are 0 where it is proved that none does, and where nothing was looked at.
-
-    Args:
-        equations: whose zeros these are; simple ones of as many as unknowns are sharpened first.
-        among: which zeros are looked at, shape ``(P,)``; all by default.
-    """
-    P, n = points.points.shape
-    none = np.zeros((0, 1 + n), dtype=complex)
-    rows, square = [BallPolynomials.of([f], none) for f in polynomials], None
-    if len(equations) == n:
-        square = BallPolynomials.of(equations, none)
-    digits = np.zeros(P)
-    chosen = points.boxes.proved if among is None else points.boxes.proved & among
-    for i in np.flatnonzero(chosen).tolist():
-        box = _sharpest_box(square, points, i)
-        digits[i] = max((vanishing_digits(row, box) for row in rows), default=0.0)
-    return digits
-
-
-def _sharpest_box(square: BallPolynomials | None, points: CertifiedPoints, i: int) -> FineBox:
-    """The box of a proved zero, smaller where as many equations as unknowns make it simple."""
-    known = fine_box(points.boxes, i)
-    if square is None or points.proofs[i] is not Proof.SIMPLE:
-        return known
-    box = box_about(square, known.centre, (BITS[-1],))
-    # Newton's method may have led to another zero.
-    return known if box is None or not one_zero(box, known) else box
-
-
 def _enter(boxes: Boxes, places: np.ndarray, found: Boxes) -> None:
     boxes.centres[places], boxes.outer[places] = found.centres, found.outer
     boxes.inner[places], boxes.proved[places] = found.inner, found.proved
@@ -378,6 +370,7 @@ def _singular(
             return True
         enter_box(boxes, i, _rational_box(end.rational))
         proofs[i], result.digits[i], result.real[i] = Proof.EXACT, np.inf, True
+        result.multiplicities[i] = end.multiplicity
         return False
     found = deflated_zero(equations, slices, end.digits, rng)
     if found is None or found.vanishing < EVIDENCE:
@@ -385,6 +378,7 @@ def _singular(
     if not found.rounds:
         return True
     proofs[i], result.real[i] = Proof.DEFLATED, found.real
+    result.multiplicities[i] = end.multiplicity
     result.digits[i] = found.vanishing if found.left else np.inf
     box, n = found.box, len(point)
     # Of the deflated equations the zero is the only one in its box, of the given ones it need not.

@@ -7,7 +7,9 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from nag.numerics.certified_points import CertifiedPoints, Proof, zero_digits
+from nag.numerics.certified_points import CertifiedPoints, Proof
+from nag.numerics.claims import Claim, Standing
+from nag.numerics.point_claims import zero_digits
 from nag.solving.certificate import SolutionsCertificate
 from nag.solving.certified_paths import ProvedPaths
 from nag.text.table import magnitude, printable
@@ -15,8 +17,9 @@ from nag.witness.certificate import DecompositionCertificate
 from nag.witness.certified_loops import ProvedMonodromy
 
 Rows = list[tuple[str, str]]
-# What is seen of points as they are written: doubles do not tell all zeros apart.
-ONE_ZERO = "lead to one zero: they are the same, or nearer than doubles tell"
+# Fields of one line, and what stands before statements that are not true, or not known to be.
+FIELDS_IN_A_LINE = 6
+LABELS = {Standing.REFUTED: "refuted", Standing.DOUBTED: "doubt", Standing.OPEN: "open"}
 
 WORDS = {
     Proof.SIMPLE: "simple zeros of all equations, one in each box",
@@ -42,18 +45,8 @@ def solution_rows(certificate: SolutionsCertificate, seconds: float) -> Rows:
     if evidence.any():
         real, complex_ = (int((side & evidence).sum()) for side in sides)
         rows.append(("", f"on evidence {real} real, {complex_} not real"))
-    rows += _pairs_rows(
-        "solutions", "are the same zero", certificate.same, certificate.unknown
-    ) or [("distinct", "the zeros in the boxes are proved to be distinct")]
-    for what, count in certificate.contradicted.items():
-        text = f"{count} of the solutions that are said to be {what} are proved not to be"
-        rows.append(("refuted", text))
-    for what, count in certificate.doubted.items():
-        text = f"{count} of the solutions that are said to be {what} are not, by evidence"
-        rows.append(("doubt", text))
-    lost = int((proved & ~certificate.nonzero).sum())
-    if lost:
-        rows.append(("doubt", f"{lost} may be zeros of what must not vanish"))
+    if certificate.distinct:
+        rows.append(("distinct", "the zeros in the boxes are proved to be distinct"))
     rows += _excluded_rows(certificate)
     if certificate.bound is not None:
         number = f"{certificate.bound_name}, {certificate.bound}"
@@ -85,15 +78,8 @@ def _excluded_rows(certificate: SolutionsCertificate) -> Rows:
 def decomposition_rows(certificate: DecompositionCertificate, seconds: float) -> Rows:
     """What is proved of a decomposition, as labelled lines."""
     groups = [c.points for c in certificate.components]
-    images = [g for c in certificate.components for g in c.images]
+    images = [g for c in certificate.components for g in c.images if g is not None]
     rows = _points_rows(groups, "witness points", images)
-    together = [c for c in certificate.components if not c.distinct]
-    if together:
-        rows.append(("doubt", f"points of {len(together)} components were not told apart"))
-    if certificate.multiple:
-        text = f"{len(certificate.multiple)} components that are said to be multiple are not"
-        rows.append(("refuted", text))
-    rows += _pairs_rows("components", ONE_ZERO, certificate.same, certificate.unknown)
     for dimension, bound in sorted(certificate.bounds.items(), reverse=True):
         if bound:
             text = (
@@ -138,6 +124,8 @@ def loops_rows(proved: Sequence[ProvedMonodromy], seconds: float) -> Rows:
         if not m.connected:
             sets = len(set(m.orbits.tolist()))
             text = f"component {k + 1}: its {len(m.orbits)} points are in {sets} sets still"
+            if not m.zeros:
+                text = f"component {k + 1}: not all of its points are proved to be zeros"
             rows.append(("doubt", text))
     rows.append(("", f"{loops} loops, {sum(m.steps for m in proved)} tubes, {seconds:.2f} s"))
     return rows
@@ -163,9 +151,6 @@ def _points_rows(
         points = sum(len(g.points) for g in images)
         text = f"besides {there} of {points} on {len(images)} more components, by symmetries"
         rows.append(("", text))
-    refuted = sum(len(g.refuted) for g in groups)
-    if refuted:
-        rows.append(("refuted", f"{refuted} {what} are proved to be no zeros of all equations"))
     errors = [g.errors()[g.boxes.proved] for g in groups]
     largest = max((float(e.max()) for e in errors if len(e)), default=0.0)
     if proved:
@@ -183,19 +168,22 @@ def _least_digits(groups: Iterable[CertifiedPoints], proof: Proof) -> str:
     return f"{least:.0f} digits, which is evidence and no proof"
 
 
-def _pairs_rows(
-    what: str, one: str, same: tuple[tuple[int, int], ...], unknown: tuple[tuple[int, int], ...]
-) -> Rows:
-    rows = []
-    for label, pairs, text in (
-        ("repeated", same, one),
-        ("doubt", unknown, "were not told apart"),
-    ):
-        if pairs:
-            i, j = pairs[0]
-            more = f", and {len(pairs) - 1} more pairs" if len(pairs) > 1 else ""
-            rows.append((label, f"{what} {i + 1} and {j + 1} {text}{more}"))
-    return rows
+def claims_rows(claims: Iterable[Claim]) -> Rows:
+    """How the statements of an export stand that are not proved, as labelled lines."""
+    claims = list(claims)
+    rows = [
+        (label, f"{c.field}: {c.text}{', by evidence' if standing is Standing.DOUBTED else ''}")
+        for standing, label in LABELS.items()
+        for c in claims
+        if c.standing is standing
+    ]
+    for standing, label in ((Standing.EVIDENCE, "evidence"), (Standing.UNSEEN, "unseen")):
+        fields = list(dict.fromkeys(c.field for c in claims if c.standing is standing))
+        for first in range(0, len(fields), FIELDS_IN_A_LINE):
+            text = ", ".join(fields[first : first + FIELDS_IN_A_LINE])
+            what = "by evidence only: " if standing is Standing.EVIDENCE else "not looked at: "
+            rows.append(("" if first else label, text if first else what + text))
+    return [(label, printable(text)) for label, text in rows]
 
 
 def _cost(groups: list[CertifiedPoints], seconds: float) -> tuple[str, str]:

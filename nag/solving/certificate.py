@@ -1,5 +1,7 @@
 """What is proved of solutions: a zero in a box about each, distinct, real or not, and all of them.
 
+Each statement of an export of solutions is proved, refuted, or said not to have been looked at.
+
 References:
     Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken, 1969;
     Breiding, Rose & Timme, Certifying zeros of polynomial systems using interval arithmetic, 2023.
@@ -8,7 +10,6 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -23,9 +24,12 @@ from nag.numerics.certified_points import (
     Proof,
     certify_points,
     distinct_simple,
-    zero_digits,
 )
-from nag.numerics.discs import DiscPolynomials, Discs, magnitude
+from nag.numerics.claims import Claim, nothing_against
+from nag.numerics.point_claims import (
+    nonvanishing,
+)
+from nag.solving.solution_claims import claims_of_solutions
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.start.multihomogeneous import best_groups
 from nag.solving.start.target import Target
@@ -115,7 +119,13 @@ class SolutionsCertificate:
     @property
     def all_proved(self) -> bool:
         """Whether each is proved a solution, as is said of it, and all differ; not on evidence."""
-        return self.points.all_proved and self._borne_out and bool(self.nonzero.all())
+        proved = self.points.all_proved and self._borne_out and bool(self.nonzero.all())
+        return proved and nothing_against(self.claims)
+
+    @cached_property
+    def claims(self) -> tuple[Claim, ...]:
+        """Every statement of an export of the solutions, and how it stands."""
+        return claims_of_solutions(self)
 
     @property
     def _borne_out(self) -> bool:
@@ -133,6 +143,7 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
     """Prove what can be proved of the solutions of a system."""
     system = result.system
     none = np.zeros((0, 1 + system.n), dtype=complex)
+    equations = [f for f in system.polynomials if f]
 
     def proved(solutions: Sequence[Solution]) -> CertifiedPoints:
         places = np.array([s.point for s in solutions], dtype=complex).reshape(-1, system.n)
@@ -154,9 +165,9 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         not_real=not_real,
         same=tuple(same),
         unknown=tuple(unknown),
-        nonzero=_nonzero(system, points),
+        nonzero=nonvanishing(system.nonzero, equations, none, points),
         excluded=excluded,
-        solutions_left_out=_nonzero(system, excluded),
+        solutions_left_out=nonvanishing(system.nonzero, equations, none, excluded),
         bound=bound,
         bound_name=name,
     )
@@ -189,20 +200,3 @@ def _bezout_number(system: PolynomialSystem, equations: Sequence[Polynomial]) ->
         sizes = ", ".join(str(len(g)) for g in groups)
         return number, f"Bezout's number in groups of {sizes}"
     return total, "Bezout's number"
-
-
-def _nonzero(system: PolynomialSystem, points: CertifiedPoints) -> np.ndarray:
-    """At which proved zeros nothing vanishes that must not: in doubles, or in more digits."""
-    boxes = points.boxes
-    if not system.nonzero:
-        return boxes.proved.copy()
-    n = points.points.shape[1]
-    away = np.zeros(len(points.points), dtype=bool)
-    # Coefficients may leave the range of doubles.
-    with suppress(OverflowError), np.errstate(all="ignore"):
-        values = DiscPolynomials.of(system.nonzero, np.zeros((0, 1 + n), dtype=complex))(
-            Discs(boxes.centres, boxes.inner)
-        )
-        away = (magnitude(values.mid) > values.rad * 2).all(axis=1)
-    equations = [f for f in system.polynomials if f]
-    return boxes.proved & (away | (zero_digits(system.nonzero, equations, points, ~away) == 0))

@@ -6,6 +6,7 @@ exact system, in scaled variables.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,6 +48,7 @@ class ProvedPaths:
         ends: for each path that got to t = 0 the solution that it ends in, -1 for none of them and
             for other paths.
         steps: number of tubes.
+        others: the ends that are none of the solutions, and not at infinity, shape ``(k, n)``.
     """
 
     start: str
@@ -54,6 +56,7 @@ class ProvedPaths:
     reached: np.ndarray
     ends: np.ndarray
     steps: int
+    others: np.ndarray
 
     @property
     def arrived(self) -> int:
@@ -109,7 +112,9 @@ def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
             break
         # Solutions far out, or near infinity, are nobody's until t is very small.
         paths = certified_paths(system, paths.ends, paths.reached, endgame)
-    return ProvedPaths(start.name, distinct(starts), paths.reached, ends, steps)
+    arrived = (paths.reached == 0) & (ends < 0)
+    others = _affine(problem.target, start, homotopy.groups, paths.ends.centres[arrived])
+    return ProvedPaths(start.name, distinct(starts), paths.reached, ends, steps, others)
 
 
 def _identified(paths: CertifiedPaths, known: Located) -> np.ndarray:
@@ -148,6 +153,21 @@ def _coordinates(target: Target, start: Start, result: SolveResult) -> np.ndarra
         points = (points - origins) / np.exp2(target.scales)
     shift = len(start.groups)
     return np.hstack([np.ones((len(points), shift)), points]).astype(complex)
+
+
+def _affine(
+    target: Target, start: Start, groups: Sequence[Sequence[int]], ends: np.ndarray
+) -> np.ndarray:
+    """Points in the homotopy's coordinates as solutions; those at infinity are left out."""
+    shift = len(start.groups)
+    points = np.array(ends, dtype=complex)
+    with np.errstate(all="ignore"):
+        for places in map(list, groups):
+            points[:, places] /= points[:, [min(places)]]
+        points = points[:, shift:]
+        if target.scales:
+            points = points * np.exp2(target.scales) + [float(c) for c in target.centres]
+    return points[np.isfinite(points).all(axis=1)]
 
 
 def _charted(points: np.ndarray, patches: np.ndarray) -> np.ndarray:

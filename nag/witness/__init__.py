@@ -7,6 +7,6 @@ Read in this order: `witness` (the data; `at_prompt` and `shown` for users), `sl
 for), `close_points`, `confirm`, `multiplicity` and `close_to_sets` (what is known of them); then
 the operations on a set as it is given (`given_component`): `moving`, `membership`, `sampling`,
 `projection`, `real_points` by `gauss_newton`. `units` leads to coordinates of comparable sizes and
-back, `frame` back to the coordinates and the components that the user has; `certificate` and
-`certified_loops` prove.
+back, `frame` back to the coordinates and the components that the user has; `certificate` with
+`component_claims`, and `certified_loops` prove.
 """

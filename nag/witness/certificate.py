@@ -2,8 +2,13 @@
 
 A simple zero of all equations on a slice of codimension d lies on a component of dimension d, and
 on no other, so that as many distinct ones as there are on a slice are a lower bound of the sum of
-the degrees in that dimension. On different slices only points of different factors of the equations
-are counted together. Which of them lie on one component rests on paths, not on proof.
+the degrees in that dimension. Components of one dimension are moved to one slice, to be told apart
+there; points of those that cannot be are counted together only if other factors of the equations
+vanish at them. Which points lie on one component rests on paths, not on proof.
+
+Each statement of an export of components is proved, refuted, or said not to have been looked at.
+Nothing is taken from the equations that an export says cut its components: the points are proved to
+be zeros of the system.
 
 Reference: Fulton, Intersection theory, 1998, example 8.4.6: the degrees of all components together
 are at most the product of the equations' degrees.
@@ -12,7 +17,8 @@ are at most the product of the equations' degrees.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from math import prod
 
 import numpy as np
@@ -28,11 +34,19 @@ from nag.numerics.certified_points import (
     distinct_simple,
     joined_boxes,
 )
-from nag.numerics.discs import DiscPolynomials, Discs
+from nag.numerics.claims import Claim, nothing_against
+from nag.numerics.point_claims import (
+    is_away,
+    nonvanishing,
+)
+from nag.witness.component_claims import claims_of_components
 from nag.witness.frame import image
-from nag.witness.moving import SliceError, witness_at
+from nag.witness.moving import witness_at
+from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import Decomposition, Slice, WitnessSet
 
+# Number of the stream of random slices.
+SLICES = 29
 # The factor of each equation that a component lies in.
 Signature = tuple[Polynomial, ...]
 
@@ -45,14 +59,17 @@ class ComponentCertificate:
         component: the component, one of its orbit.
         points: what is proved of each point.
         distinct: whether all proved zeros are proved distinct.
-        images: what is proved of the points of other components of its orbit, moved to its slice;
-            those that could not be moved are missing.
+        moved: the same points where the components of its dimension are compared; None where they
+            could not be moved there.
+        images: what is proved of the points of other components of its orbit, moved there; None
+            for those that could not be.
     """
 
     component: WitnessSet
     points: CertifiedPoints
     distinct: bool
-    images: tuple[CertifiedPoints, ...] = ()
+    moved: CertifiedPoints | None
+    images: tuple[CertifiedPoints | None, ...] = ()
 
     @property
     def all_proved(self) -> bool:
@@ -85,7 +102,13 @@ class DecompositionCertificate:
     def all_proved(self) -> bool:
         """Whether each point of each component is proved, and nothing against a component."""
         good = not self.same and not self.unknown and not self.multiple
-        return good and all(c.all_proved for c in self.components)
+        good = good and all(c.all_proved for c in self.components)
+        return good and nothing_against(self.claims)
+
+    @cached_property
+    def claims(self) -> tuple[Claim, ...]:
+        """Every statement of an export of the decomposition, and how it stands."""
+        return claims_of_components(self)
 
     @property
     def multiple(self) -> tuple[int, ...]:
@@ -110,18 +133,20 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
     system = decomposition.system
     equations = [f for f in system.polynomials if f]
     certificates = []
+    common = _common_slices(decomposition)
     # Components of different factors are distinct; points on one slice are compared.
     apart: dict[tuple[int, Signature], dict[bytes, list[CertifiedPoints]]] = {}
     for component in decomposition.components:
-        points = _proved(equations, component, component.slice)
-        images = tuple(_proved(equations, c, component.slice) for c in _others(system, component))
-        same, unknown = overlaps(points.boxes)
-        distinct = not same and not unknown
-        certificates.append(ComponentCertificate(component, points, distinct, images))
-        for each in (points, *images):
-            key = component.dimension, _signature(equations, each)
-            on_slice = apart.setdefault(key, {}).setdefault(component.slice.rows.tobytes(), [])
-            on_slice.append(each)
+        target = common[component.dimension]
+        certificates.append(_certified(system, component, target))
+        last = certificates[-1]
+        here = last.points if last.moved is None else last.moved
+        place = component.slice if last.moved is None else target
+        counted = [(here, place), *((g, target) for g in last.images if g is not None)]
+        for points, cut in counted:
+            key = component.dimension, _signature(equations, points)
+            on_slice = apart.setdefault(key, {}).setdefault(cut.rows.tobytes(), [])
+            on_slice.append(_allowed(system, points, cut))
     bounds = dict.fromkeys((c.dimension for c in decomposition.components), 0)
     for (dimension, signature), slices in apart.items():
         if signature is not None:
@@ -131,47 +156,100 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
     return DecompositionCertificate(decomposition, tuple(certificates), *repeated, bounds, most)
 
 
+def _common_slices(decomposition: Decomposition) -> dict[int, Slice]:
+    """For each dimension a slice on which its components are compared: theirs, if all have one.
+
+    A slice that is generic for one component need not be so for another.
+    """
+    slices: dict[int, list[Slice]] = {}
+    for component in decomposition.components:
+        slices.setdefault(component.dimension, []).append(component.slice)
+    rng = np.random.default_rng([decomposition.seed, SLICES])
+    return {
+        d: found[0]
+        if all(np.array_equal(cut.rows, found[0].rows) for cut in found)
+        else to_slice(random_rows(rng, d, decomposition.system.n))
+        for d, found in slices.items()
+    }
+
+
+def _certified(
+    system: PolynomialSystem, component: WitnessSet, target: Slice
+) -> ComponentCertificate:
+    """What is proved of a component, on its slice and on that of its dimension."""
+    points = certify_witness_points(system, component)
+    same, unknown = overlaps(points.boxes)
+    bare = replace(component, fibres=())
+    there = [_moved(system, bare, target, points)]
+    for symmetry in component.images:
+        there.append(_moved(system, image(bare, symmetry), target))
+    return ComponentCertificate(
+        component, points, not (same or unknown), there[0], tuple(there[1:])
+    )
+
+
+def _moved(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    target: Slice,
+    points: CertifiedPoints | None = None,
+) -> CertifiedPoints | None:
+    """What is proved of a component's points on another slice; None where they are not found there.
+
+    Nothing is taken from where it was but where to begin: its points are proved there.
+
+    Args:
+        points: what is proved of it on its own slice, where that is known.
+    """
+    if not component.dimension or np.array_equal(component.slice.rows, target.rows):
+        return certify_witness_points(system, component) if points is None else points
+    try:
+        there = witness_at(system, component, target)
+    except ValueError:
+        return None
+    return certify_witness_points(system, there)
+
+
+def _allowed(system: PolynomialSystem, points: CertifiedPoints, cut: Slice) -> CertifiedPoints:
+    """The points, those unproved where something may vanish that must not."""
+    if not system.nonzero:
+        return points
+    equations = [f for f in system.polynomials if f]
+    away = nonvanishing(system.nonzero, equations, cut.rows, points)
+    proofs = [p if a else Proof.NONE for p, a in zip(points.proofs, away, strict=True)]
+    return replace(points, proofs=tuple(proofs))
+
+
 def _repeated(
     certificates: Sequence[ComponentCertificate],
 ) -> tuple[tuple[tuple[int, int], ...], ...]:
-    """Pairs of components with a zero in common that lies on one only, and perhaps with one."""
+    """Pairs of components with a zero in common on one slice, and perhaps with one."""
     same, unknown = set(), set()
-    slices: dict[bytes, list[int]] = {}
+    dimensions: dict[int, list[int]] = {}
     for i, c in enumerate(certificates):
-        slices.setdefault(c.component.slice.rows.tobytes(), []).append(i)
-    for members in slices.values():
-        # A singular zero on a slice may lie on two components, an isolated one is one itself.
-        isolated = not certificates[members[0]].component.dimension
-        proofs = [Proof.SIMPLE, Proof.PART]
-        proofs += [Proof.DEFLATED, Proof.EXACT] if isolated else []
-        groups = [certificates[i].points for i in members]
-        owners = [i for i, g in zip(members, groups, strict=True) for _ in g.having(*proofs)]
+        dimensions.setdefault(c.component.dimension, []).append(i)
+    # On a generic slice components of one dimension have no point in common.
+    proofs = [p for p in Proof if p is not Proof.NONE]
+    for members in dimensions.values():
+        there = [(i, g) for i in members for g in (certificates[i].moved, *certificates[i].images)]
+        there = [(i, g) for i, g in there if g is not None]
+        if not there:
+            continue
+        owners = [(i, k) for k, (i, g) in enumerate(there) for _ in g.having(*proofs)]
         for pairs, found in zip(
-            (same, unknown), overlaps(joined_boxes(groups, *proofs)), strict=True
+            (same, unknown), overlaps(joined_boxes([g for _, g in there], *proofs)), strict=True
         ):
-            pairs |= {(owners[i], owners[j]) for i, j in found if owners[i] != owners[j]}
+            pairs |= {
+                (owners[i][0], owners[j][0]) for i, j in found if owners[i][1] != owners[j][1]
+            }
     return tuple(sorted(same)), tuple(sorted(unknown))
 
 
-def _proved(equations: Sequence[Polynomial], component: WitnessSet, cut: Slice) -> CertifiedPoints:
+def certify_witness_points(system: PolynomialSystem, component: WitnessSet) -> CertifiedPoints:
+    """What is proved of a component's points on its slice."""
     singular = np.full(component.degree, component.corank > component.dimension)
-    return certify_points(equations, cut.rows, component.points, component.errors, singular)
-
-
-def _others(system: PolynomialSystem, component: WitnessSet) -> list[WitnessSet]:
-    """The other components of an orbit, on the slice of the one that is reported.
-
-    Nothing is taken from their symmetries but where to begin: their points are proved there.
-    """
-    found = []
-    for symmetry in component.images:
-        there = image(component, symmetry)
-        try:
-            moved = witness_at(system, there, component.slice) if component.dimension else there
-        except SliceError:
-            continue
-        found.append(moved)
-    return found
+    rows, errors = component.slice.rows, component.errors
+    return certify_points(system.polynomials, rows, component.points, errors, singular)
 
 
 def _signature(equations: Sequence[Polynomial], points: CertifiedPoints) -> Signature | None:
@@ -179,25 +257,13 @@ def _signature(equations: Sequence[Polynomial], points: CertifiedPoints) -> Sign
 
     Only that of the component can, where the points are not on another one as well.
     """
-    boxes, chosen = points.boxes, points.having(Proof.SIMPLE)
-    inner = Discs(boxes.centres[chosen], boxes.inner[chosen])
+    chosen = points.having(Proof.SIMPLE)
     signature = []
     for f in equations:
         factors = [p for p, _ in factored(f)]
         if len(factors) > 1:
-            factors = [p for p in factors if not _away(p, inner)]
+            factors = [p for p in factors if not is_away(p, points, chosen)]
         if len(factors) != 1:
             return None
         signature.append(factors[0])
     return tuple(signature)
-
-
-def _away(f: Polynomial, boxes: Discs) -> bool:
-    """Whether a polynomial is proved to have no zero in any of the boxes."""
-    try:
-        system = DiscPolynomials.of([f], np.zeros((0, 1 + f.n), dtype=complex))
-    except OverflowError:
-        return False
-    with np.errstate(all="ignore"):
-        values = system(boxes)
-        return bool((np.abs(values.mid) > 2 * values.rad).all())

@@ -1,7 +1,9 @@
 """Monodromy that is proved: loops of slices along which no path can have jumped.
 
 Points that such loops carry into each other lie on one irreducible component: the smooth part of
-one is connected, and the paths are proved to stay on it.
+one is connected, and the paths are proved to stay on it. They follow equations that are found anew
+from the system, not such as a component is said to be cut by; and points are on a component of the
+system only where they are proved to be zeros of it.
 
 References:
     Guillemot & Lairez, Validated numerics for algebraic path tracking, 2024, section 1; Sommese &
@@ -10,15 +12,16 @@ References:
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.certified_points import NEAR
+from nag.numerics.certified_points import NEAR, Proof
 from nag.numerics.discs import Terms
 from nag.tracking.certified_paths import Located, certified_paths, located
 from nag.tracking.moving_discs import MovingPart, MovingSystem
+from nag.witness.certificate import certify_witness_points
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre
 from nag.witness.slices import padded, random_rows, unit_complex
@@ -36,16 +39,18 @@ class ProvedMonodromy:
         permutations: for each loop where each point's path leads, -1 where that is not proved.
         orbits: for each point the smallest index of those that it is connected with.
         steps: number of tubes.
+        zeros: whether all points are proved, or by evidence, to be zeros of all equations.
     """
 
     permutations: tuple[np.ndarray, ...]
     orbits: np.ndarray
     steps: int
+    zeros: bool
 
     @property
     def connected(self) -> bool:
         """Whether all points are proved to lie on one component."""
-        return not self.orbits.any()
+        return self.zeros and len(self.orbits) > 0 and not self.orbits.any()
 
 
 def prove_monodromy(
@@ -62,7 +67,9 @@ def prove_monodromy(
     """
     orbits = np.arange(component.degree)
     permutations, steps = [], 0
+    component = replace(component, fibres=())
     fibres = component_fibres(system, component) if component.degree > 1 else []
+    zeros = Proof.NONE not in certify_witness_points(system, component).proofs
     for _ in range(most if component.dimension else 0):
         if not orbits.any():
             break
@@ -72,7 +79,7 @@ def prove_monodromy(
         steps += spent
         permutations.append(places)
         orbits = _joined(orbits, places)
-    return ProvedMonodromy(tuple(permutations), orbits, steps)
+    return ProvedMonodromy(tuple(permutations), orbits, steps, zeros)
 
 
 def prove_all(decomposition: Decomposition, seed: int = 0) -> tuple[ProvedMonodromy, ...]:
@@ -83,7 +90,7 @@ def prove_all(decomposition: Decomposition, seed: int = 0) -> tuple[ProvedMonodr
             rng = np.random.default_rng([seed, 19, k])
             found.append(prove_monodromy(decomposition.system, component, rng))
         except (ValueError, OverflowError):
-            found.append(ProvedMonodromy((), np.arange(component.degree), 0))
+            found.append(ProvedMonodromy((), np.arange(component.degree), 0, False))
     return tuple(found)
 
 

@@ -1,0 +1,237 @@
+"""What an export of solutions says, field by field, and what is proved of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.system import PolynomialSystem
+from nag.algebra.zero_count import most_zeros
+from nag.numerics.box_relations import overlaps, real_zeros
+from nag.numerics.certified_points import (
+    CertifiedPoints,
+    Proof,
+    certify_regular_points,
+    joined_boxes,
+)
+from nag.numerics.claims import Claim, Standing, claims_of_each, unseen
+from nag.numerics.point_claims import (
+    error_standings,
+    multiplicity_standings,
+    nonvanishing,
+    nonzero_standings,
+    zero_standings,
+)
+from nag.solving.judged_ends import NEARLY
+from nag.solving.solutions import Solution, SolveResult
+
+if TYPE_CHECKING:
+    from nag.solving.certificate import SolutionsCertificate
+
+# What an export says of how the solutions came about, and of their arithmetic: nothing that is
+# proved rests on it.
+OF_THE_RUN = ("case", "seed", "settings", "start", "reason", "notes", "paths")
+OF_ARITHMETIC = ("residual", "condition", "precision")
+LISTS = ("solutions", "excluded_solutions")
+
+
+def claims_of_solutions(certificate: SolutionsCertificate) -> tuple[Claim, ...]:
+    """Every statement of an export of solutions, and how it stands."""
+    result = certificate.result
+    claims = _claims_of_points("solutions", certificate.points, result.solutions, result.system)
+    claims += _claims_of_points(
+        "excluded_solutions", certificate.excluded, result.excluded_solutions, result.system
+    )
+    claims += [*_pairs(certificate), *_exclusions(certificate), *_ends(result)]
+    claims.append(_completeness(certificate))
+    claims += unseen(["system"], "that these are the equations of the case")
+    claims += unseen(OF_THE_RUN, "how the solutions were found")
+    for key in LISTS:
+        if getattr(result, key):
+            fields = [f"{key}[].{name}" for name in OF_ARITHMETIC]
+            claims += unseen(fields, "what doubles made of the points")
+    return tuple(claims)
+
+
+def _claims_of_points(
+    key: str, points: CertifiedPoints, solutions: Sequence[Solution], system: PolynomialSystem
+) -> list[Claim]:
+    """What is said of each of the solutions in a list."""
+    equations = [f for f in system.polynomials if f]
+    none = np.zeros((0, 1 + system.n), dtype=complex)
+    # Points that are no solutions may be of any size.
+    with np.errstate(all="ignore"):
+        sizes = 1 + np.linalg.norm(points.points, axis=1, keepdims=True)
+        radii = np.array([s.accuracy for s in solutions]).reshape(-1, 1) * sizes
+    radii = np.broadcast_to(radii, points.points.shape)
+    said = {
+        "point": ("that it is a zero of the equations", zero_standings(points)),
+        "multiplicity": (
+            "its multiplicity",
+            multiplicity_standings(points, [s.multiplicity for s in solutions]),
+        ),
+        "accuracy": ("its error", error_standings(equations, none, points, radii)),
+        "real": (
+            "whether it is real",
+            _reality(points, [s.real for s in solutions]),
+        ),
+    }
+    name = {"solutions": "solution", "excluded_solutions": "excluded solution"}[key]
+    return [
+        claim
+        for field, (text, standings) in said.items()
+        for claim in claims_of_each(f"{key}[].{field}", text, standings, name)
+    ]
+
+
+def _reality(points: CertifiedPoints, said: Sequence[bool]) -> list[Standing]:
+    """That zeros are real, or are not."""
+    real, not_real = real_zeros(points.boxes)
+    real |= points.real
+    found = []
+    for i, (claimed, evidence) in enumerate(zip(said, points.on_evidence, strict=True)):
+        # Of deflated equations the zero is the only one in its box, of the given ones it need not.
+        rests = evidence and points.proofs[i] is Proof.DEFLATED
+        if (real if claimed else not_real)[i]:
+            found.append(Standing.EVIDENCE if evidence else Standing.PROVED)
+        elif (not_real if claimed else real)[i]:
+            found.append(Standing.DOUBTED if rests else Standing.REFUTED)
+        else:
+            found.append(Standing.OPEN)
+    return found
+
+
+def _pairs(certificate: SolutionsCertificate) -> list[Claim]:
+    """That the entries of each list are distinct."""
+    claims = []
+    for key, (same, unknown) in {
+        "solutions": (certificate.same, certificate.unknown),
+        "excluded_solutions": overlaps(certificate.excluded.boxes),
+    }.items():
+        for pairs, standing in ((same, Standing.REFUTED), (unknown, Standing.OPEN)):
+            if pairs:
+                i, j = pairs[0]
+                text = f"that its entries are distinct: {i + 1} and {j + 1}"
+                claims.append(Claim(f"{key}[].point", text, standing))
+    return claims
+
+
+def _exclusions(certificate: SolutionsCertificate) -> list[Claim]:
+    """That nothing that must not vanish does so at solutions, and something at those left out."""
+    result, system, claims = certificate.result, certificate.result.system, []
+    equations = [f for f in system.polynomials if f]
+    none = np.zeros((0, 1 + system.n), dtype=complex)
+    if system.nonzero and result.solutions:
+        standings = nonzero_standings(system.nonzero, equations, none, certificate.points)
+        text = "that nothing that must not vanish does so there"
+        claims += claims_of_each("system.nonzero", text, standings, "solution")
+    opposite = {
+        Standing.PROVED: Standing.REFUTED,
+        Standing.REFUTED: Standing.PROVED,
+        Standing.DOUBTED: Standing.EVIDENCE,
+    }
+    if result.excluded_solutions:
+        standings = nonzero_standings(system.nonzero, equations, none, certificate.excluded)
+        standings = [opposite.get(each, each) for each in standings]
+        text = "that something that must not vanish does so there"
+        claims += claims_of_each("excluded_solutions", text, standings, "excluded solution")
+    known = len(result.excluded_solutions)
+    if result.excluded and not known:
+        claims += unseen(["excluded"], f"{result.excluded} solutions left out are not in the file")
+    else:
+        agree = Standing.PROVED if result.excluded == known else Standing.REFUTED
+        claims.append(Claim("excluded", f"{result.excluded} where {known} are listed", agree))
+    return claims
+
+
+def _ends(result: SolveResult) -> list[Claim]:
+    """What is said of ends that are no isolated solutions, or may not be."""
+    evaluator = Evaluator.of([f for f in result.system.polynomials if f], result.system.n)
+    none = np.zeros((0, 1 + result.system.n), dtype=complex)
+    claims = []
+    for key, text in (
+        ("on_components", "that it is on a set of positive dimension"),
+        ("undecided", "that it is a solution, isolated or not"),
+    ):
+        ends = np.asarray(getattr(result, key), dtype=complex)
+        if not len(ends):
+            claims += unseen([key], "that there are no such ends of paths")
+            continue
+        zeros = evaluator.residuals(ends).max(axis=1, initial=0.0) <= NEARLY
+        found = certify_regular_points(result.system.polynomials, none, ends, np.zeros(len(ends)))
+        isolated = found.boxes.proved if key == "on_components" else np.zeros(len(ends), dtype=bool)
+        standings = [
+            Standing.UNSEEN if zero and not alone else Standing.DOUBTED
+            for zero, alone in zip(zeros, isolated, strict=True)
+        ]
+        claims += claims_of_each(key, text, standings, "point")
+    return claims
+
+
+def _completeness(certificate: SolutionsCertificate) -> Claim:
+    """That the solutions are all isolated ones, by Bezout's number or a count of all zeros."""
+    result = certificate.result
+    text = "that there are no more isolated solutions"
+    if not result.complete:
+        return Claim("complete", "the solutions are not said to be all", Standing.UNSEEN)
+    if certificate.complete:
+        return Claim("complete", text, Standing.PROVED)
+    left_out = result.excluded and not result.excluded_solutions
+    listed = _zeros_by_multiplicity(certificate)
+    count = None if left_out or listed is None else most_zeros(result.system.polynomials, -1, False)
+    if count is not None and listed == count.bound:
+        return Claim("complete", f"{text}: {listed} modulo two primes", Standing.EVIDENCE)
+    if count is not None and count.exact:
+        known = f"{text}: {count.bound} modulo two primes, {listed} are listed"
+        return Claim("complete", known, Standing.DOUBTED)
+    return Claim("complete", text, Standing.UNSEEN)
+
+
+def _zeros_by_multiplicity(certificate: SolutionsCertificate) -> int | None:
+    """The number of the zeros that are listed, if they are known to be zeros, and distinct."""
+    groups = certificate.points, certificate.excluded
+    known = all((g.multiplicities > 0).all() for g in groups)
+    if not (known and certificate.distinct):
+        return None
+    return sum(int(g.multiplicities.sum()) for g in groups)
+
+
+def claims_of_paths(certificate: SolutionsCertificate, others: np.ndarray) -> tuple[Claim, ...]:
+    """The statements again, where proved paths are known to end in other points as well.
+
+    Args:
+        others: these, shape ``(k, n)``.
+    """
+    system = certificate.result.system
+    none = np.zeros((0, 1 + system.n), dtype=complex)
+    found = certify_regular_points(system.polynomials, none, others, np.zeros(len(others)))
+    equations = [f for f in system.polynomials if f]
+    away = nonvanishing(system.nonzero, equations, none, found)
+    missing = {
+        Standing.REFUTED: _distinct_from(certificate, found, away, Proof.SIMPLE),
+        Standing.DOUBTED: _distinct_from(certificate, found, away, Proof.PART),
+    }
+    for standing, count in missing.items():
+        if count and certificate.result.complete:
+            text = f"that there are no more isolated solutions: paths lead to {count} more"
+            rest = [c for c in certificate.claims if c.field != "complete"]
+            return (*rest, Claim("complete", text, standing))
+    return certificate.claims
+
+
+def _distinct_from(
+    certificate: SolutionsCertificate, found: CertifiedPoints, away: np.ndarray, proof: Proof
+) -> int:
+    """Number of zeros with a proof that are distinct, and none of those listed, by proof."""
+    known = [certificate.points, certificate.excluded]
+    proofs = [p for p in Proof if p is not Proof.NONE]
+    listed = joined_boxes(known, *proofs)
+    first, chosen = len(listed.centres), found.having(proof)
+    together = joined_boxes([*known, found], *proofs)
+    everything = found.having(*proofs).tolist()
+    same, unknown = overlaps(together)
+    taken = {max(pair) for pair in [*same, *unknown]}
+    return sum(bool(away[i]) and first + everything.index(i) not in taken for i in chosen.tolist())

@@ -1,0 +1,193 @@
+"""What an export of components says, field by field, and what is proved of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from nag.algebra.system import PolynomialSystem
+from nag.algebra.zero_count import most_zeros
+from nag.numerics.certified_points import Proof
+from nag.numerics.claims import Claim, Standing, claims_of_each, unseen
+from nag.numerics.point_claims import (
+    combined,
+    corank_standings,
+    error_standings,
+    multiplicity_standings,
+    nonzero_standings,
+    zero_standings,
+)
+from nag.numerics.zero_values import ON
+from nag.witness.witness import Status, WitnessSet
+
+if TYPE_CHECKING:
+    from nag.witness.certificate import ComponentCertificate, DecompositionCertificate
+
+ONE_COMPONENT = "that its points lie on one irreducible component"
+ALL_POINTS = "that it has no more points on its slice"
+# What an export says of how the components came about, and what doubles made of the points:
+# nothing that is proved rests on it.
+OF_THE_RUN = ("case", "formulation", "reason", "seed", "settings", "paths", "order", "notes")
+OF_ARITHMETIC = ("residual", "precision", "digits")
+
+
+def claims_of_components(certificate: DecompositionCertificate) -> tuple[Claim, ...]:
+    """Every statement of an export of a decomposition, and how it stands."""
+    decomposition = certificate.decomposition
+    claims = [
+        claim
+        for k, c in enumerate(certificate.components)
+        for claim in _claims_of(decomposition.system, c, k)
+    ]
+    pairs = ((certificate.same, Standing.DOUBTED), (certificate.unknown, Standing.OPEN))
+    for found, standing in pairs:
+        if found:
+            i, j = found[0]
+            text = f"that each component is listed once: {i + 1} and {j + 1}"
+            claims.append(Claim("components", text, standing))
+    claims.append(_completeness(certificate))
+    claims += unseen(["equations"], "whether they follow from the system: no proof rests on them")
+    claims += unseen(["system"], "that these are the equations of the case")
+    claims += unseen(OF_THE_RUN, "how the components were found")
+    return tuple(claims)
+
+
+def _claims_of(system: PolynomialSystem, certificate: ComponentCertificate, k: int) -> list[Claim]:
+    """What is said of one component."""
+    component, points = certificate.component, certificate.points
+    equations, rows = [f for f in system.polynomials if f], component.slice.rows
+    zeros = zero_standings(points)
+    errors = error_standings(equations, rows, points, component.radii)
+    said = {
+        "points": ("that they are zeros on the slice", zeros),
+        "dimension": ("its dimension", zeros),
+        "multiplicity": (
+            "its multiplicity",
+            multiplicity_standings(points, [component.multiplicity] * component.degree),
+        ),
+        "radii": ("the errors of its points", errors),
+        "accuracy": ("the largest of these errors", errors),
+        "corank": ("its corank", corank_standings(equations, rows, points, component.corank)),
+    }
+    if system.nonzero:
+        standings = nonzero_standings(system.nonzero, equations, rows, points)
+        said["nonzero"] = ("that nothing that must not vanish does so on it", standings)
+    name = f"component {k + 1}"
+    claims = [
+        Claim(f"components[].{field}", f"{text}: {name}", combined(standings))
+        for field, (text, standings) in said.items()
+    ]
+    claims += [*_irreducibility(certificate, name), *_orbit(certificate, name)]
+    if certificate.moved is None:
+        text = f"that it is none of the others of its dimension: {name}"
+        claims.append(Claim("components", text, Standing.OPEN))
+    claims.append(_cut_by(component, name))
+    claims += unseen(["components[].slice"], f"that it is a generic one: {name}")
+    if component.multidegree is not None and component.dimension:
+        claims += unseen(["components[].multidegree"], name)
+    fields = [f"components[].{field}" for field in (*OF_ARITHMETIC, "note")]
+    return [*claims, *unseen(fields, f"what doubles made of the points: {name}")]
+
+
+def _irreducibility(certificate: ComponentCertificate, name: str) -> list[Claim]:
+    """That all points lie on one irreducible component, and are all its points on the slice."""
+    component, claims = certificate.component, []
+    if not certificate.distinct:
+        text = f"that its points are distinct: {name}"
+        claims.append(Claim("components[].degree", text, Standing.OPEN))
+    one, every = f"{ONE_COMPONENT}: {name}", f"{ALL_POINTS}: {name}"
+    if component.dimension and component.degree:
+        status, degree = Standing.UNSEEN, Standing.UNSEEN
+    elif component.degree == 1:
+        status = degree = combined(zero_standings(certificate.points))
+    else:
+        distinct = certificate.distinct and Proof.NONE not in certificate.points.proofs
+        status = degree = Standing.REFUTED if distinct else Standing.OPEN
+    if component.status is Status.UNDECIDED:
+        one, status = f"it is not said to be irreducible: {name}", Standing.UNSEEN
+    claims.append(Claim("components[].status", one, status))
+    return [*claims, Claim("components[].degree", every, degree)]
+
+
+def claims_of_loops(
+    certificate: DecompositionCertificate,
+    connected: Sequence[bool],
+    linear: Sequence[bool | None],
+) -> tuple[Claim, ...]:
+    """The statements again, where loops and traces of the components are known.
+
+    Args:
+        connected: whether the points of a component are proved to lie on one; linear: whether their
+            trace is linear, to many digits, so that no point of it is missing; None where that was
+            not decided.
+    """
+    fields = "components[].status", "components[].degree"
+    claims = list(certificate.claims)
+    for k, c in enumerate(certificate.components):
+        if not (c.component.dimension and c.component.degree):
+            continue
+        name = f": component {k + 1}"
+        own = [x for x in claims if x.field in fields and x.text.endswith(name)]
+        claims = [x for x in claims if x not in own]
+        zeros = combined(zero_standings(c.points))
+        if c.component.status is Status.IRREDUCIBLE:
+            status = zeros if connected[k] else Standing.OPEN
+            own = [x for x in own if x.field != "components[].status"]
+            claims.append(Claim("components[].status", ONE_COMPONENT + name, status))
+        trace = {True: Standing.EVIDENCE, False: Standing.DOUBTED, None: Standing.OPEN}[linear[k]]
+        own = [x for x in own if not x.text.startswith(ALL_POINTS)]
+        claims += [*own, Claim("components[].degree", ALL_POINTS + name, trace)]
+    return tuple(claims)
+
+
+def _orbit(certificate: ComponentCertificate, name: str) -> list[Claim]:
+    """That symmetries carry the component into others of its orbit."""
+    component, field = certificate.component, "components[].orbit"
+    if component.orbit == 1:
+        return [Claim(field, f"that symmetries carry it into no other: {name}", Standing.UNSEEN)]
+    if not component.images:
+        return unseen([field], f"its {component.orbit - 1} images are not in the file: {name}")
+    standings = [
+        Standing.UNSEEN if points is None else combined(zero_standings(points))
+        for points in certificate.images
+    ]
+    text = f"that its orbit's other components are such: {name}"
+    return claims_of_each(field, text, standings, "image")
+
+
+def _cut_by(component: WitnessSet, name: str) -> Claim:
+    """That equations cut the component: that they vanish at its points is seen in doubles only."""
+    for fibre in component.fibres:
+        values = fibre.cut.evaluator.residuals(fibre.points)
+        if not (values <= ON).all():
+            text = f"that these equations cut it: {name}"
+            return Claim("components[].cut_by", text, Standing.DOUBTED)
+    text = f"the equations that cut it, on which no proof rests: {name}"
+    return Claim("components[].cut_by", text, Standing.UNSEEN)
+
+
+def _completeness(certificate: DecompositionCertificate) -> Claim:
+    """That the components are all, by the bound of their degrees."""
+    if not certificate.decomposition.complete:
+        return Claim("complete", "the components are not said to be all", Standing.UNSEEN)
+    text = "that there are no more components"
+    if certificate.complete:
+        return Claim("complete", text, Standing.PROVED)
+    return _counted(certificate, text) or Claim("complete", text, Standing.UNSEEN)
+
+
+def _counted(certificate: DecompositionCertificate, text: str) -> Claim | None:
+    """The same where there are finitely many zeros, by their number."""
+    if any(c.component.dimension or c.component.orbit > 1 for c in certificate.components):
+        return None
+    system = certificate.decomposition.system
+    known = [m for c in certificate.components for m in c.points.multiplicities.tolist()]
+    if system.nonzero or certificate.same or certificate.unknown or not all(known):
+        return None
+    count = most_zeros(system.polynomials, -1, False)
+    if count is None:
+        return None
+    if sum(known) == count.bound:
+        return Claim("complete", f"{text}: {count.bound} modulo two primes", Standing.EVIDENCE)
+    text = f"{text}: {count.bound} modulo two primes, {sum(known)} are listed"
+    return Claim("complete", text, Standing.DOUBTED) if count.exact else None
