@@ -135,3 +135,26 @@ def test_which_zero_of_the_same_equations_a_point_is_takes_exact_coordinates(dig
         not c.points.any() for c in answer.components
     ]
     assert sum(m is Membership.FOREIGN for m in found) == 2
+
+
+@pytest.mark.parametrize("digits", [6, 8, 10])
+@pytest.mark.parametrize("off", [0.0, 1e-13])
+def test_rounded_points_beside_conjugate_sheets_are_told_apart(digits: int, off: float) -> None:
+    # The same equations cut both sheets, y = x^2 + a and y = x^2 - a with a = sqrt(2)/10^digits.
+    a = 2**0.5 * 10.0**-digits
+    whole = nag.decompose([f"(y - x^2)^2 = 2*(1/10^{digits})^2", "z = x*y"])
+    assert whole.complete and len(whole.components) == 2
+    (upper,) = [i for i, c in enumerate(whole.components) if _is_above(c, a)]
+    for x in (0.7, -0.3, 3.1):
+        y = x * x + a
+        point = np.array([x, y, x * y + off], dtype=complex)
+        answers = memberships(whole, point)
+        assert answers[1 - upper] is not Membership.MEMBER
+        assert answers[upper] is not Membership.FOREIGN
+        if digits < 10:
+            assert answers[upper] is Membership.MEMBER
+
+
+def _is_above(sheet: nag.WitnessSet, a: float) -> bool:
+    (x, y, _), *_ = sheet.points
+    return abs(y - x * x - a) < a

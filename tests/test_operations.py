@@ -59,9 +59,11 @@ def test_a_component_that_is_not_reduced_knows_its_points() -> None:
 
 def test_what_was_found_is_kept_when_one_membership_is_undecided(monkeypatch) -> None:
     answers = iter([MEMBER, UNDECIDED, FOREIGN])
-    monkeypatch.setattr(
-        membership_module, "is_member", lambda *_, **__: (next(answers), PathCounts(tracked=1))
-    )
+
+    def find_members(point, accuracy, sets, *_, **__):
+        return [next(answers) for _ in sets], PathCounts(tracked=1)
+
+    monkeypatch.setattr(membership_module, "find_members", find_members)
     planes = decompose(system("x y z", "x*y*z"))
     answers = iter([MEMBER, UNDECIDED, FOREIGN])
     assert memberships(planes, np.zeros(3)) == (MEMBER, UNDECIDED, FOREIGN)

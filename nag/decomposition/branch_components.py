@@ -160,9 +160,9 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
 def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchComponent:
     """A linear space, which may be a point, by a point of it."""
     system, elimination = branch.system, branch.elimination
-    frame, d = Frame.of(elimination), elimination.system.n
     sizes = Units.of(system.polynomials, system.n).sizes
-    frame = frame.scaled(sizes[list(frame.positions)])
+    frame = Frame.of(elimination).scaled(sizes[list(elimination.kept)])
+    d = elimination.system.n
     rows = random_rows(rng, d, d)
     point = np.linalg.solve(rows[:, 1:], -rows[:, 0])[None]
     sharp = sharpened(Fibre(Cut(d, 0, ()), d, point), rows)
@@ -353,8 +353,8 @@ def _orbits(
     """
     options = {"seed": seed, "threads": threads, "settings": settings}
     whole = [c for c in components if c.status is Status.IRREDUCIBLE]
-    units = Units.of(system.polynomials, system.n)
-    flag = units.random_rows(np.random.default_rng([seed, 12]), system.n)
+    rng, units = np.random.default_rng([seed, 12]), Units.of(system.polynomials, system.n)
+    flag = units.random_rows(rng, system.n)
     whole = [
         witness_at(system, c, to_slice(flag[: c.dimension]), **options) if c.dimension else c
         for c in whole

@@ -19,7 +19,7 @@ from nag.decomposition.zero_sums import smallest_zero_sums
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Fibre, Tracker, join_fibres, move
 from nag.witness.points import Points
 from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
@@ -118,7 +118,7 @@ class Trace:
             middle = _numbered(fibre, (0.0,))
             for k, i in enumerate(own.tolist()):
                 sides = there.fibre(starts.cut, fibre.dimension, [2 * k, 2 * k + 1])
-                ends[i] = _joined([middle.only(np.arange(len(own)) == k), sides])
+                ends[i] = join_fibres([middle.only(np.arange(len(own)) == k), sides])
         return replace(self, ends=ends)._found(points, new, DIGITS[0]), counts
 
     def _slices(self, rows: np.ndarray, cut: Cut) -> np.ndarray:
@@ -131,7 +131,7 @@ class Trace:
         """Second differences of some points, found in so many digits."""
         known, exact = dict(self.known), dict(self.exact)
         for _, own in points.fibres(indices):
-            ends = _joined([self.ends[i] for i in own.tolist()])
+            ends = join_fibres([self.ends[i] for i in own.tolist()])
             found = exact_points(ends, self._slices(points.rows, ends.cut), digits)
             x, sides = found.values[::3], (found.values[1::3], found.values[2::3])
             total = sides[0] + sides[1] - 2 * x
@@ -278,16 +278,6 @@ def _numbered(fibre: Fibre, numbers: Sequence[float]) -> Fibre:
     points = np.column_stack([several, np.tile(numbers, len(fibre))])
     fine = {m * i + j: z.with_last(u) for i, z in fibre.fine.items() for j, u in enumerate(numbers)}
     return Fibre(fibre.cut.numbered, fibre.dimension, points, fine)
-
-
-def _joined(parts: Sequence[Fibre]) -> Fibre:
-    """Points of several fibres of one cut in one."""
-    fine, first = {}, 0
-    for part in parts:
-        fine |= {first + i: each for i, each in part.fine.items()}
-        first += len(part)
-    points = np.vstack([part.points for part in parts])
-    return Fibre(parts[0].cut, parts[0].dimension, points, fine)
 
 
 def _float(value: int, bits: int) -> float:

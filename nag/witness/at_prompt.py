@@ -66,7 +66,7 @@ def contains(
         if residual > max(ROUNDED, accuracy or 0.0):
             return False
         accuracy = max(INEXACT, 10 * residual) if accuracy is None else accuracy
-    alone = Decomposition(system, (component,), PathCounts(), 0, "default", (), True)
+    alone = Decomposition(system, (component,), PathCounts(), 0, "default", (), False)
     known = entries if exact else ()
     (answer,) = memberships(alone, at, accuracy=accuracy, exact=known, **running)
     if answer is Membership.UNDECIDED:

@@ -316,6 +316,16 @@ def joined(places: Mapping[int, np.ndarray], parts: Sequence[Moved]) -> Moved:
     return Moved(**arrays, counts=sum((p.counts for p in parts), PathCounts()), fine=fine)
 
 
+def join_fibres(parts: Sequence[Fibre]) -> Fibre:
+    """Points of several fibres of one cut in one."""
+    fine, first = {}, 0
+    for part in parts:
+        fine |= {first + i: each for i, each in part.fine.items()}
+        first += len(part)
+    points = np.vstack([part.points for part in parts])
+    return Fibre(parts[0].cut, parts[0].dimension, points, fine)
+
+
 def carried(
     fibres: Sequence[Fibre],
     source: np.ndarray,

@@ -20,9 +20,11 @@ from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
-from nag.witness.fibres import Fibre, Moved, Tracker
+from nag.witness.fibres import Fibre, Moved, Tracker, join_fibres
+from nag.witness.gauss_newton import polish
 from nag.witness.given_component import check_decomposition, in_doubles
 from nag.witness.slices import padded, rows_through
+from nag.witness.units import Units
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # What rounding may do to a point that is close to others, and how much further the next one is.
@@ -60,32 +62,82 @@ def is_member(
             point than this and its own error explain is another one then. None of a point that
             paths led to.
     """
+    (answer,), counts = find_members(point, accuracy, [fibres], flag, rng, tracker, given)
+    return answer, counts
+
+
+def find_members(
+    point: np.ndarray,
+    accuracy: float,
+    sets: Sequence[Sequence[Fibre]],
+    flag: np.ndarray,
+    rng: np.random.Generator,
+    tracker: Tracker,
+    given: Sequence[Number] | None = None,
+) -> tuple[list[Membership], PathCounts]:
+    """`is_member` for several sets of one dimension on one slice, which moves once.
+
+    Sets that the same equations cut may come near to each other where the slice moves to. Their
+    paths are tracked together, so that two that end at one point are known to have gone astray.
+    """
     counts, bounded = PathCounts(), given is not None
-    fibres = [fibre for fibre in fibres if len(fibre)]
-    if not fibres:
-        return Membership.FOREIGN, counts
-    dimension = fibres[0].dimension
-    scale = 1 + float(np.linalg.norm(point))
-    target = rows_through(rng, dimension, point, coordinate_sizes(fibres[0]))
-    unclear = False
-    rows = flag[:dimension], target
-    for fibre, ends in move_together(fibres, *rows, rng, tracker, through=given or ()):
+    together = _united(sets)
+    answers = [{Membership.FOREIGN} for _ in sets]
+    if not together:
+        return [Membership.FOREIGN for _ in sets], counts
+    first = together[0][0]
+    target = rows_through(rng, first.dimension, point, coordinate_sizes(first))
+    rows, fibres = (flag[: first.dimension], target), [fibre for fibre, _ in together]
+    moves = move_together(fibres, *rows, rng, tracker, through=given or ())
+    for (fibre, ends), (_, owners) in zip(moves, together, strict=True):
         counts += ends.counts.judged_elsewhere
         if bounded:
             ends = _near_ones_rated(point, accuracy, fibre, ends, target)
-        if ends.fine:
-            error = accuracy * scale
-            answers = [_at_end(point, error, fibre, ends, i, target, bounded) for i in ends.fine]
-            if Membership.MEMBER in answers:
-                return Membership.MEMBER, counts
-            unclear |= Membership.UNDECIDED in answers
-            ends = ends.without(ends.fine)
-        distances = _distances(point, ends, coordinate_sizes(fibre)[1:])[ends.finite]
-        if compared(distances, accuracy)[0].any():
-            return Membership.MEMBER, counts
-        errors = np.maximum(accuracy, ends.accuracy[ends.finite])
-        unclear |= bool(ends.failed.any() or np.any(compared(distances, errors)))
-    return Membership.UNDECIDED if unclear else Membership.FOREIGN, counts
+        for k in np.unique(owners).tolist():
+            own = ends.without(np.flatnonzero(owners != k))
+            answers[k].add(_among_ends(point, accuracy, fibre, own, target, bounded))
+    order = Membership.MEMBER, Membership.UNDECIDED, Membership.FOREIGN
+    return [next(word for word in order if word in found) for found in answers], counts
+
+
+def _united(sets: Sequence[Sequence[Fibre]]) -> list[tuple[Fibre, np.ndarray]]:
+    """The fibres of all sets, those of one cut as one, with the set that each point is of."""
+    parts: dict[tuple[object, ...], list[tuple[int, Fibre]]] = {}
+    for k, fibres in enumerate(sets):
+        for fibre in fibres:
+            if len(fibre):
+                key = (fibre.cut.polynomials, fibre.cut.n)
+                parts.setdefault(key, []).append((k, fibre))
+    return [
+        (
+            join_fibres([fibre for _, fibre in several]),
+            np.repeat([k for k, _ in several], [len(fibre) for _, fibre in several]),
+        )
+        for several in parts.values()
+    ]
+
+
+def _among_ends(
+    point: np.ndarray,
+    accuracy: float,
+    fibre: Fibre,
+    ends: Moved,
+    target: np.ndarray,
+    bounded: bool,
+) -> Membership:
+    """Whether a point is one of the ends of a set, on a slice through it."""
+    answers = set[Membership]()
+    if ends.fine:
+        error = accuracy * (1 + float(np.linalg.norm(point)))
+        answers = {_at_end(point, error, fibre, ends, i, target, bounded) for i in ends.fine}
+        ends = ends.without(ends.fine)
+    distances = _distances(point, ends, coordinate_sizes(fibre)[1:])[ends.finite]
+    if Membership.MEMBER in answers or compared(distances, accuracy)[0].any():
+        return Membership.MEMBER
+    errors = np.maximum(accuracy, ends.accuracy[ends.finite])
+    unclear = ends.failed.any() or np.any(compared(distances, errors))
+    unclear |= Membership.UNDECIDED in answers
+    return Membership.UNDECIDED if unclear else Membership.FOREIGN
 
 
 def _distances(point: np.ndarray, ends: Moved, sizes: np.ndarray) -> np.ndarray:
@@ -106,10 +158,13 @@ def _near_ones_rated(
     same, doubtful = compared(_distances(point, ends, coordinate_sizes(fibre)[1:]), accuracy)
     # Where sizes are unequal, what is little beside the largest may be much for the point.
     away = _distances(point, ends, np.ones(len(point))) > np.maximum(accuracy, ends.accuracy)
+    # What is known of fine ones is relative to their sizes in the coordinates of their paths.
+    away[list(ends.fine)] = True
     near = ends.regular & (same | doubtful) & away
     fine = dict(ends.fine)
-    for i in set(np.flatnonzero(near).tolist()) - fine.keys():
-        fine[i] = rated(fibre.cut.polynomials, rows, Fine.of_doubles(ends.points[i]))
+    for i in np.flatnonzero(near).tolist():
+        end = fine[i] if i in fine else Fine.of_doubles(ends.points[i])
+        fine[i] = rated(fibre.cut.polynomials, rows, end)
     return replace(ends, fine=fine)
 
 
@@ -228,24 +283,58 @@ def memberships(
     point = in_doubles(point, system.variables)
     if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > NONZERO:
         return (Membership.FOREIGN,) * len(decomposition.components)
-    answers = []
-    for component in decomposition.components:
+    answers = _by_components(decomposition, point, accuracy, exact, rng, tracker)
+    nowhere = all(answer is Membership.FOREIGN for answer in answers)
+    if nowhere and not exact and _surely_on_one(decomposition, point, accuracy):
+        return (Membership.UNDECIDED,) * len(answers)
+    return answers
+
+
+def _by_components(
+    decomposition: Decomposition,
+    point: np.ndarray,
+    accuracy: float,
+    exact: Sequence[Number],
+    rng: np.random.Generator,
+    tracker: Tracker,
+) -> tuple[Membership, ...]:
+    """For each component by itself, whether a point lies on it."""
+    system, components = decomposition.system, decomposition.components
+    answers: dict[int, Membership] = {}
+    moving: dict[tuple[object, bytes], dict[int, list[Fibre]]] = {}
+    for k, component in enumerate(components):
         # Equations that would be found anew may be those of another set beside it.
         if exact and not all(_may_be_on(fibre.cut, exact) for fibre in component.fibres):
-            answers.append(Membership.FOREIGN)
-            continue
-        if component.dimension == 0:
-            answers.append(_at_isolated(system, component, point, accuracy, exact))
-            continue
-        try:
-            fibres = component_fibres(system, component)
-        except ValueError:
-            answers.append(Membership.UNDECIDED)
-            continue
-        rows = component.slice.rows
-        answer, _ = is_member(point, accuracy, fibres, rows, rng, tracker, exact)
-        answers.append(answer)
-    return tuple(answers)
+            answers[k] = Membership.FOREIGN
+        elif component.dimension == 0:
+            answers[k] = _at_isolated(system, component, point, accuracy, exact)
+        else:
+            try:
+                fibres = component_fibres(system, component)
+            except ValueError:
+                answers[k] = Membership.UNDECIDED
+                continue
+            rows = component.slice.rows
+            moving.setdefault((rows.shape, rows.tobytes()), {})[k] = fibres
+    for several in moving.values():
+        rows = components[next(iter(several))].slice.rows
+        sets = list(several.values())
+        found, _ = find_members(point, accuracy, sets, rows, rng, tracker, exact)
+        answers |= zip(several, found, strict=True)
+    return tuple(answers[k] for k in range(len(components)))
+
+
+def _surely_on_one(decomposition: Decomposition, point: np.ndarray, accuracy: float) -> bool:
+    """Whether a zero within the error of a point must lie on a component that is listed."""
+    system = decomposition.system
+    if not decomposition.complete or any(c.orbit > 1 for c in decomposition.components):
+        return False
+    if (Evaluator.of(system.nonzero, system.n).residuals(point[None]) < NONZERO).any():
+        return False
+    units = Units.of(system.polynomials, system.n)
+    zero = polish(Evaluator.of(units.of_system(system).polynomials, system.n), point / units.sizes)
+    off = float(np.linalg.norm(zero.x * units.sizes - point))
+    return zero.converged and off <= SPREAD * accuracy * (1 + float(np.linalg.norm(point)))
 
 
 def _may_be_on(cut: Cut, point: Sequence[Number]) -> bool:
