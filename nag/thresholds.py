@@ -106,8 +106,10 @@ tracking.projective.SAFETY *                1e3     Errors that two ends of path
                                                     all errors that Newton's method estimates with
                                                     residuals in double-double, and be one: one of
                                                     the paths jumped.
-tracking.straight_run.ROUNDING              1e-9    Newton corrections in doubles that need not
-                                                    contract any more.
+tracking.straight_run.NOISY                 10      Rounding errors of a correction, as estimated,
+                                                    that it may be and need not contract any more:
+                                                    such lay below 3.3, others above 30 but for 1 in
+                                                    100, and a few between.
 tracking.straight_run.OVERLONG              1.25    Steps over what the radius of convergence at
                                                     their ends allows, which is estimated: of 182
                                                     steps to another path 166 lay above 4/3 and 177
@@ -355,18 +357,18 @@ LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST; tracking.c
 tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch: LONGEST; tracking.ends.corrector:
 DOUBLES, NOISY; tracking.ends.inclusion: TINY; tracking.ends.initial_forms: GAIN;
 tracking.ends.kept_points: RESIDUAL, SECOND; tracking.ends.lane_scalars: IDLE, STEP, FINISH;
-tracking.ends.limits: LOG_2; tracking.ends.linear_algebra: PHASE, LEAST, LARGEST;
-tracking.ends.runs: ACCURACY, CONTRACTION; tracking.linear_algebra: PIVOT;
+tracking.ends.limits: LOG_2; tracking.ends.linear_algebra: LEAST, LARGEST; tracking.ends.runs:
+ACCURACY, CONTRACTION; tracking.linear_algebra: PIVOT, PHASE; tracking.taylor: EPSILON;
 tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.numbers.double_double:
 EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL; tracking.numbers.quad_double:
 EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT, TINY, FAR; tracking.projective: ROUNDING;
 tracking.track: LEAST, BASIN, FINEST; tracking.ends.end_run: TRIAL, SMALLER, SHORTEST,
 MOST_REJECTED, LAST_T; tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps: NEIGHBOURS;
-tracking.settings: TIGHTER, SHARPER; tracking.straight_run: LEAST, SHORTEST, OVERFLOW;
-solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING, WIDEST, TINY;
-solving.isolated_zero: ROUNDING; solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR;
-solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED, DEPENDENT, FARTHEST;
-solving.start.choice: WORK; solving.start.family_monodromy: SHARP, ARRIVED;
+tracking.settings: TIGHTER, SHARPER; tracking.straight_run: LEAST, SHORTEST, OVERFLOW, ROUNDING,
+FARTHEST; solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING,
+WIDEST, TINY; solving.isolated_zero: ROUNDING; solving.lifted_solution: ROUGH;
+solving.missing_zeros: NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED,
+DEPENDENT, FARTHEST; solving.start.choice: WORK; solving.start.family_monodromy: SHARP, ARRIVED;
 solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
 solving.start.target: HALF_UNIT; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT,
 INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED; witness.cutting: FLAT,

@@ -15,6 +15,7 @@ from nag.machine_code.lanes import LANES, aligned, load, store
 from nag.machine_code.processor import processor
 from nag.machine_code.records import Reals, Table, Wholes
 from nag.solving.solve import solve
+from nag.tracking.settings import Settings
 
 
 def copy(record: Any) -> Any:
@@ -66,6 +67,13 @@ def test_paths_to_regular_ends_are_the_same(compared: Counter[str]) -> None:
     result = solve(system("x y", "x^2 + y^2 - 5", "x*y - 2"), start="total")
     assert len(result.solutions) == 4
     assert {"track_batch", "newton_batch"} <= set(compared)
+
+
+def test_paths_whose_corrections_are_rounding_errors_are_the_same(compared: Counter[str]) -> None:
+    settings = Settings(newton_end=1e-20)
+    result = solve(system("x y", "x^2 + y^2 - 5", "x*y - 2"), start="total", settings=settings)
+    assert len(result.solutions) == 4
+    assert "track_batch" in compared
 
 
 @pytest.mark.slow

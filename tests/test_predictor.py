@@ -10,15 +10,18 @@ import pytest
 from nag.machine_code import plain
 from nag.machine_code.lanes import LANES, aligned
 from nag.machine_code.records import Reals
+from nag.tracking.kernel_arrays import SCALARS
 from nag.tracking.predictor import (
     CORRECT,
     GOAL,
     GROWTH,
     H_USED,
     PREDICT,
+    SEEN_RADIUS,
+    SEEN_T,
     H,
     T,
-    convergence_radius,
+    estimate_radius,
     next_step,
     next_t,
     predict,
@@ -85,34 +88,43 @@ def norms(radius: float, order: int) -> np.ndarray:
     return values
 
 
-@pytest.mark.parametrize("radius", [1e-3, 0.5, 40.0])
-def test_the_radius_is_that_of_a_geometric_series(radius: float) -> None:
-    assert convergence_radius(norms(radius, ORDER), ORDER + 1, LANE) == pytest.approx(
-        radius, rel=1e-12
-    )
-
-
-def test_a_polynomial_converges_everywhere() -> None:
-    values = norms(1.0, ORDER)
-    values[LANES * (ORDER + 1) :] = 0.0
-    assert convergence_radius(values, ORDER + 1, LANE) == 1e6
-
-
 class Steps(NamedTuple):
-    """Scalars of the lanes, as the kernel keeps them."""
+    """What the kernel keeps of the lanes."""
 
-    scalars: np.ndarray
-    norms: np.ndarray
-    tr: np.ndarray
-    zr: np.ndarray
+    scalars: Reals
+    norms: Reals
+    radius: Reals
+    tr: Reals
+    zr: Reals
 
 
 def steps(radius: float = 1.0, **scalars: float) -> Steps:
     rows = {"t": T, "goal": GOAL, "h": H, "used": H_USED, "growth": GROWTH}
-    made = Steps(np.zeros(8 * LANES), norms(radius, ORDER), np.zeros(LANES), np.zeros(LANES))
+    rows |= {"seen_t": SEEN_T, "seen_radius": SEEN_RADIUS}
+    made = Steps(aligned(SCALARS), norms(radius, ORDER), aligned(1), aligned(1), aligned(1))
+    made.radius[:] = radius
     for name, value in scalars.items():
         made.scalars[LANES * rows[name] + LANE] = value
     return made
+
+
+def estimates_radius(made: Steps) -> None:
+    estimate_radius(made, ORDER)
+
+
+@pytest.mark.parametrize("radius", [1e-3, 0.5, 40.0])
+def test_the_radius_is_that_of_a_geometric_series(radius: float) -> None:
+    made = steps(radius)
+    made.radius[:] = 0.0
+    plain.run(estimates_radius, made)
+    assert made.radius == pytest.approx(radius, rel=1e-12)
+
+
+def test_a_polynomial_converges_everywhere() -> None:
+    made = steps()
+    made.norms[LANES * (ORDER + 1) :] = 0.0
+    plain.run(estimates_radius, made)
+    assert (made.radius == 1e6).all()
 
 
 def test_a_step_is_as_long_as_the_next_term_allows() -> None:
@@ -129,6 +141,15 @@ def test_a_step_stays_inside_the_radius_and_grows_by_what_was_found() -> None:
     made = steps(radius=2.0, used=0.1, growth=3.0)
     next_step(made, ORDER, LANE, 1e-5, 0.9)
     assert made.scalars[LANES * H + LANE] == pytest.approx(0.3, rel=1e-12)
+
+
+def test_branch_points_that_are_seen_from_further_on_bound_a_step_until_they_are_passed() -> None:
+    made = steps(radius=2.0, t=0.75, seen_t=0.5, seen_radius=0.05, used=0.1, growth=4.0)
+    next_step(made, ORDER, LANE, 1e-5, 0.5)
+    assert made.scalars[LANES * H + LANE] == pytest.approx(0.15, rel=1e-12)
+    made = steps(radius=2.0, t=0.5, seen_t=0.5, seen_radius=0.05, used=0.1, growth=4.0)
+    next_step(made, ORDER, LANE, 1e-5, 0.5)
+    assert made.scalars[LANES * H + LANE] == pytest.approx(0.4, rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -201,6 +201,21 @@ def test_a_step_between_two_close_branch_points_does_not_lead_to_the_other_path(
         assert np.abs(ends - [near, -near]).max() < 1e-12
 
 
+def test_a_correction_is_no_rounding_error_because_it_is_small():
+    # The paths are x = c t^5 +- distance: corrections towards the middle do not contract.
+    x, y = Polynomial.variables(2)
+    distance = Fraction(1, 100_000)
+    for c in (Fraction(k, 5) for k in range(1, 20)):
+        rows = compile_rows([(x - c * y**5) ** 2 - distance**2])
+        homotopy = Homotopy(rows, np.array([[0, 0, 1]]), np.array([[-1, 0, 0]]))
+        starts = np.array([[1, c + distance, 1], [1, c - distance, 1]], float)
+        # Ends that coincide would betray the jump.
+        paths = track(homotopy, starts, distinct=False)
+        assert (paths.status == PathStatus.REGULAR).all()
+        ends = paths.points[:, 1] / paths.points[:, 0]
+        assert np.abs(ends - [float(distance), -float(distance)]).max() < 1e-9
+
+
 def test_results_do_not_depend_on_the_other_paths_nor_on_threads():
     homotopy, starts = total_degree(katsura(7), 2)
     settings = Settings(retries=0)

@@ -144,7 +144,6 @@ def _for_parameters(options: argparse.Namespace) -> tuple[list[str], bool]:
             "seed": options.seed,
             "settings": options.settings,
             "complete": found.complete,
-            "proved": found.proved,
             "notes": list(found.notes),
             "parameters": names,
             "conditions": [[f.text(names) for f in each] for each in found.conditions],

@@ -12,6 +12,9 @@ from nag.machine_code.records import Reals, Table, Wholes, address, replaced, ta
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy, norms
 
+# Rows of the lanes' scalars.
+SCALARS = 11
+
 
 class System(NamedTuple):
     """A homotopy as flat arrays (see `nag.tracking.compiled.Tape` for blocks and slots).
@@ -77,7 +80,9 @@ class Work(NamedTuple):
     ``fr, fi``: the parts' factors at t; in a toric system those, and minus the weights. ``base``:
     point and Taylor coefficients at the last accepted t, real and imaginary parts in turn.
     ``tr``: t. ``norms``: squared norms of the two Newton corrections, then those of the Taylor
-    coefficients of order 1 and up. ``mode``: 0 in the lanes that predict. ``zr``: their steps in
+    coefficients of order 1 and up. ``radius``: that of their convergence. ``noise``: squared norms
+    of the corrections that rounding errors make, 0 where they are not wanted. ``mode``: 0 in the
+    lanes that predict. ``zr``: their steps in
     t. ``accepted``: 1 in the lanes whose step is accepted. ``scalars, counters``: see
     `nag.tracking.straight_run`.
     """
@@ -106,6 +111,8 @@ class Work(NamedTuple):
     base: Reals
     tr: Reals
     norms: Reals
+    radius: Reals
+    noise: Reals
     mode: Reals
     zr: Reals
     accepted: Reals
@@ -227,7 +234,7 @@ def work(homotopy: Homotopy, order: int, toric: bool = False) -> Table:
     parts = len(homotopy.factors)
     sizes = [slots] * 2 + [order * inner_slots] * 2 + [value_slots] * 2 + [inner_slots] * 2
     sizes += [N * N] * 2 + [rows * N] * 2 + [N] * 6 + [parts] * 2
-    sizes += [N, 2 * (order + 1) * N, 1, order + 2, 1, 1, 1, 8]
+    sizes += [N, 2 * (order + 1) * N, 1, order + 2, 1, 1, 1, 1, 1, SCALARS]
     vectors, counters = aligned(sum(sizes)), np.zeros(48, np.int64)
     words = np.array([0, *accumulate(sizes)]) * VECTOR
     words += address(vectors)

@@ -12,6 +12,8 @@ from nag.machine_code.lanes import any_less, fma, fnma, load, select_less, splat
 # most exchanges of partial pivoting would bring nothing (Duff, Erisman and Reid, Direct Methods for
 # Sparse Matrices, 1986, 5.2).
 PIVOT = 0.01
+# Angle, times squares of whole numbers, of right-hand sides that no smooth vector cancels.
+PHASE = 1.9416
 
 
 def _largest(n, ar, ai, k):

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
-from nag.machine_code.lanes import fma, fnma, load, select_less, splat, store
+from nag.machine_code.lanes import fma, fnma, load, select_less, splat, square_root, store
+from nag.tracking.kernel_arrays import SCALARS
 
 # What a lane does: predict from its base point, correct there, or correct once more.
 PREDICT, CORRECT = 0.0, 1.0
 # Rows of the lanes' scalars, see `nag.tracking.straight_run`.
-T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH = range(8)
+T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH, SEEN_T, SEEN_RADIUS, LAST = range(SCALARS)
 # Squares of coefficients that may have lost digits to the range of doubles.
 TINY = 1e-200
 # Radius of convergence, and step, of a series whose last coefficients vanish.
@@ -59,28 +60,29 @@ def predict(s, w, order):
         store(w.vi, j, select_less(m, half, im, load(w.vi, j)))
 
 
-def convergence_radius(norms, order, lane):
-    """Radius of convergence from the squared norms of the last Taylor coefficients."""
-    last = norms[8 * order + lane]
-    if not last > 0.0:
-        return FAR
-    second = norms[8 * (order - 1) + lane]
-    third = norms[8 * (order - 2) + lane]
-    return min(FAR, max(math.sqrt(second / last), math.sqrt(math.sqrt(third / last))))
+def estimate_radius(w, order):
+    """Radii of convergence from the squared norms of the last Taylor coefficients."""
+    far = splat(FAR)
+    zero = splat(0.0)
+    last = load(w.norms, order + 1)
+    inverse = splat(1.0) / last
+    one = square_root(load(w.norms, order) * inverse)
+    two = square_root(square_root(load(w.norms, order - 1) * inverse))
+    radius = select_less(one, two, two, one)
+    radius = select_less(radius, far, radius, far)
+    store(w.radius, 0, select_less(zero, last, radius, far))
 
 
-def longest_step(w, order, lane, factor):
-    """The step to a lane's point that the radius of convergence there allows.
+def radius_as_seen(w, lane):
+    """Largest radius of convergence at a lane's base point, as seen from further on.
 
-    Radii at both ends of a step differ by the step at most, so that the one at its beginning is no
-    larger than that at its end and the step together. Where it seemed to be, the series there did
-    not show branch points beside the step, which may have led past them to another path.
-
-    Args:
-        factor: largest step as part of the radius of convergence at its beginning.
+    Radii at two points differ by their distance at most. Where a step was too long for the radius
+    at its end, the series at its beginning does not show the branch points that those at its end
+    did, between which a path must not be led to another one.
     """
-    radius = convergence_radius(w.norms, order + 1, lane)
-    return factor * (radius + w.scalars[8 * H_USED + lane])
+    f = w.scalars
+    away = f[8 * T + lane] - f[8 * SEEN_T + lane]
+    return away + f[8 * SEEN_RADIUS + lane] if away > 0.0 else FAR
 
 
 def next_step(w, order, lane, aim, factor):
@@ -91,17 +93,16 @@ def next_step(w, order, lane, aim, factor):
         factor: largest step as part of the radius of convergence.
     """
     f = w.scalars
-    top = order + 1
-    radius = convergence_radius(w.norms, top, lane)
-    last = math.sqrt(w.norms[8 * top + lane])
+    radius = w.radius[lane]
+    last = w.norms[8 * (order + 1) + lane]
     if f[8 * GROWTH + lane] > 0.0:
         h = f[8 * H_USED + lane] * f[8 * GROWTH + lane]
     elif last > 0.0:
         # The next term of the series is about the last one times h over the radius.
-        h = (aim * radius / last) ** (1.0 / (order + 1))
+        h = (aim * radius / math.sqrt(last)) ** (1.0 / (order + 1))
     else:
         h = FAR
-    f[8 * H + lane] = min(factor * radius, h)
+    f[8 * H + lane] = min(factor * min(radius, radius_as_seen(w, lane)), h)
 
 
 def next_t(w, lane):

@@ -17,8 +17,8 @@ class Settings:
         contraction: largest ratio of the second to the first Newton correction after a prediction;
             it bounds the part that the first one takes of the distance to any other path.
         order: of the Taylor coefficients.
-        floor: relative Newton correction that is still accepted where rounding lets nothing
-            smaller be reached.
+        floor: largest relative Newton correction that may be rounding errors alone, about the
+            square root of a double's: among larger ones there may be another path as well.
         radius_factor: largest step as part of the radius of convergence that the Taylor
             coefficients indicate (beta_tau of Timme 2021).
         safety: part of ``tolerance`` that the step control aims at.
@@ -36,7 +36,7 @@ class Settings:
     newton_end: float = 1e-12
     contraction: float = 0.1
     order: int = 6
-    floor: float = 1e-6
+    floor: float = 1e-8
     radius_factor: float = 0.5
     safety: float = 0.2
     max_steps: int = 4000

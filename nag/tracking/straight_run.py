@@ -12,17 +12,18 @@ from typing import NamedTuple
 import numpy as np
 
 from nag.machine_code.kernel import Kernel
-from nag.machine_code.lanes import fma, load, select_less, splat, store
+from nag.machine_code.lanes import any_less, fma, load, select_less, splat, store
 from nag.machine_code.records import Complexes, Reals, Wholes
-from nag.tracking.kernel_arrays import System, Work
+from nag.tracking.kernel_arrays import SCALARS, System, Work
 from nag.tracking.linear_algebra import factorize, substitute
 from nag.tracking.predictor import (
     CORRECT,
     PREDICT,
-    longest_step,
+    estimate_radius,
     next_step,
     next_t,
     predict,
+    radius_as_seen,
 )
 from nag.tracking.taylor import (
     complete_slope,
@@ -33,6 +34,7 @@ from nag.tracking.taylor import (
     normalize,
     products,
     right_side,
+    rounding_errors,
     values,
 )
 
@@ -45,10 +47,10 @@ ARRIVED, STEP_SIZE, STEPS, START, NOT_FINITE = 0, 1, 2, 3, 5
 # Rows of the lanes' counters.
 PATH, ROUNDS, TAKEN, FAILURES, STATE, STRAIGHT = range(6)
 # Rows of the lanes' scalars.
-T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH = range(8)
+T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH, SEEN_T, SEEN_RADIUS, LAST = range(SCALARS)
 # A path that gets on so badly for so many steps behind the radius is left to others.
 PATIENCE = 24
-# Corrections that do not contract any more are rounding errors if they are less than this.
+# Second corrections as small as this do not say how much longer a step may be.
 ROUNDING = 1e-9
 # Least error of a point that is believed.
 LEAST = 1e-15
@@ -56,12 +58,16 @@ LEAST = 1e-15
 SHORTEST = 1e-10
 # A step is rejected that is so many times as long as the radius of convergence at its end allows.
 OVERLONG = 1.25
+# Corrections are rounding errors if they are at most so many times what these are estimated to be.
+NOISY = 10.0
+# Largest correction of a point that none has been made of.
+FARTHEST = 0.1
 # Corrections as large as this lead nowhere; their squares are still numbers.
 OVERFLOW = 1e100
 
 
-def _correct(s, w, norms, k):
-    """Add the solution to the point; squared norm of it, the largest of the groups."""
+def _length(s, w):
+    """Squared norm of the right-hand side, the largest of the groups."""
     zero = splat(0.0)
     largest = zero
     for g in range(s.groups):
@@ -72,10 +78,15 @@ def _correct(s, w, norms, k):
                 y = load(w.bi, j)
                 total = fma(x, x, fma(y, y, total))
         largest = select_less(total, largest, largest, total)
+    return largest
+
+
+def _correct(s, w, norms, k):
+    """Add the solution to the point; its squared norm."""
+    store(norms, k, _length(s, w))
     for j in range(s.N):
         store(w.vr, j, load(w.vr, j) + load(w.br, j))
         store(w.vi, j, load(w.vi, j) + load(w.bi, j))
-    store(norms, k, largest)
 
 
 def _measure(s, w, order):
@@ -176,11 +187,13 @@ def _fill(s, w, lane, path, b):
     """Put a path into a lane."""
     f, c = w.scalars, w.counters
     _put(s, w, lane, b.starts, path)
-    for k in range(8):
+    for k in range(SCALARS):
         f[8 * k + lane] = 0.0
     for k in range(6):
         c[8 * k + lane] = 0
     f[8 * T + lane] = 1.0
+    f[8 * SEEN_T + lane] = 1.0
+    f[8 * LAST + lane] = FARTHEST
     f[8 * GOAL + lane] = b.radius
     c[8 * PATH + lane] = path
     c[8 * STATE + lane] = STARTING
@@ -198,46 +211,80 @@ def _aim(w):
 
 
 def _too_long(w, lane, b):
-    """Whether the radius of convergence at a lane's point is too small for the step to it."""
-    longest = longest_step(w, b.order, lane, b.radius_factor)
-    return w.scalars[8 * H_USED + lane] > OVERLONG * longest
+    """Whether a step is too long for the radius of convergence at its end, which is kept if so."""
+    f = w.scalars
+    h = f[8 * H_USED + lane]
+    radius = w.radius[lane]
+    if h <= OVERLONG * b.radius_factor * (radius + h):
+        return False
+    f[8 * SEEN_T + lane] = w.tr[lane]
+    f[8 * SEEN_RADIUS + lane] = radius
+    return True
+
+
+def _estimate_noise(s, w, b):
+    """What rounding errors make of the corrections of lanes in which these do not contract.
+
+    It is asked for where the second is no small part of the first, or the first is larger than the
+    last one; but not where they are less than the error that is wanted, or so large that another
+    path could not be told from rounding errors.
+    """
+    one = splat(1.0)
+    zero = splat(0.0)
+    first = load(w.norms, 0)
+    second = load(w.norms, 1)
+    last = load(w.scalars, LAST)
+    stuck = select_less(first * splat(b.contraction * b.contraction), second, one, zero)
+    stuck = select_less(last * last, first, one, stuck)
+    stuck = select_less(splat(b.newton_end * b.newton_end), second, stuck, zero)
+    stuck = select_less(splat(b.floor * b.floor), second, zero, stuck)
+    store(w.noise, 0, stuck)
+    wanted = 0
+    if any_less(zero, stuck):
+        for lane in range(8):
+            if w.noise[lane] > 0.0 and w.counters[8 * STATE + lane] != EMPTY:
+                wanted += 1
+    if wanted > 0:
+        rounding_errors(s, w)
+        substitute(s.N, w.jr, w.ji, w.pivots, w.br, w.bi)
+        store(w.noise, 0, stuck * _length(s, w))
 
 
 def _judged(w, lane, b):
     """Whether the corrections of a lane let it be accepted; sizes for the next step."""
     f, c = w.scalars, w.counters
-    stepping = c[8 * STATE + lane] == STEPPING
+    state = c[8 * STATE + lane]
     first = math.sqrt(w.norms[lane])
     second = math.sqrt(w.norms[8 + lane])
+    noise = max(b.newton_end, NOISY * math.sqrt(w.noise[lane]))
     if not first < OVERFLOW or not second < OVERFLOW:
         return REJECTED
     theta = second / first if first > 0.0 else 0.0
-    if stepping:
+    rounding = second <= noise
+    if state == STEPPING:
         f[8 * FIRST + lane] = first
-        rounding = second <= ROUNDING
-        f[8 * THETA + lane] = 0.0 if rounding else theta
-        rounding = rounding or (second <= b.floor and c[8 * FAILURES + lane] >= 2)
+        f[8 * THETA + lane] = 0.0 if rounding or second <= ROUNDING else theta
         c[8 * ROUNDS + lane] = 0
-        if first > b.tolerance or not (theta <= b.contraction or rounding):
+        if not (theta <= b.contraction or rounding):
             return REJECTED
     else:
         c[8 * ROUNDS + lane] += 1
-        if first > 0.1 or not (theta <= 0.5 or second <= b.floor):
+        # Each correction is less than the last one, or a rounding error.
+        if first > max(f[8 * LAST + lane], noise) or not (theta <= 0.5 or rounding):
             return REJECTED
-    if c[8 * STATE + lane] != STARTING and _too_long(w, lane, b):
+    f[8 * LAST + lane] = second
+    if state != STARTING and _too_long(w, lane, b):
+        return REJECTED
+    if state == STEPPING and first > b.tolerance:
         return REJECTED
     # The Taylor coefficients' Jacobian is that before the correction.
-    exact = w.tr[lane] == f[8 * GOAL + lane] or c[8 * STATE + lane] == STARTING
+    exact = w.tr[lane] == f[8 * GOAL + lane] or state == STARTING
     newton = b.newton_end if exact else b.newton
-    rounds = c[8 * ROUNDS + lane]
     left = min(theta, 1.0) * second
-    idle = rounds >= 1 and theta > 0.3
-    if left <= newton or ((rounds >= 3 or idle) and second <= b.floor):
-        f[8 * ACCURACY + lane] = left if left > LEAST else LEAST
-        if rounds >= 1 and left > newton:
-            f[8 * ACCURACY + lane] = second
+    if left <= newton or rounding:
+        f[8 * ACCURACY + lane] = max(left if left <= newton else second, LEAST)
         return ACCEPTED
-    return UNFINISHED if rounds < 5 else REJECTED
+    return UNFINISHED if c[8 * ROUNDS + lane] < 5 else REJECTED
 
 
 def _accepted(w, lane, b):
@@ -252,6 +299,7 @@ def _accepted(w, lane, b):
         )
         f[8 * GROWTH + lane] = min((aim / first) ** power, 4.0)
     f[8 * T + lane] = w.tr[lane]
+    f[8 * LAST + lane] = FARTHEST
     c[8 * STATE + lane] = STEPPING
     c[8 * FAILURES + lane] = 0
 
@@ -267,10 +315,12 @@ def _failed(w, lane, b):
     if finite and c[8 * STATE + lane] == STEPPING and first > b.tolerance:
         shrink = (b.safety * b.tolerance / first) ** (1.0 / (b.order + 1))
         shrink = min(max(shrink, 0.1), 0.6)
-    elif finite and _too_long(w, lane, b):
-        shrink = longest_step(w, b.order, lane, b.radius_factor) / f[8 * H_USED + lane]
+    elif w.tr[lane] == f[8 * SEEN_T + lane]:
+        shrink = 1.0
+    f[8 * LAST + lane] = FARTHEST
     c[8 * FAILURES + lane] += 1
-    f[8 * H + lane] = f[8 * H_USED + lane] * shrink
+    longest = b.radius_factor * radius_as_seen(w, lane)
+    f[8 * H + lane] = min(f[8 * H_USED + lane] * shrink, longest)
     c[8 * STATE + lane] = STEPPING
     if f[8 * H + lane] > SHORTEST * f[8 * T + lane]:
         return ARRIVED
@@ -348,6 +398,8 @@ def track_batch(s: System, w: Work, b: Batch) -> None:
         _aim(w)
         predict(s, w, b.order)
         _newton_and_jets(s, w, b.order)
+        estimate_radius(w, b.order)
+        _estimate_noise(s, w, b)
         _advance(s, w, b)
         _accept(s, w, b.order)
         busy = 0

@@ -5,6 +5,10 @@ from __future__ import annotations
 import math
 
 from nag.machine_code.lanes import fma, fnma, load, splat, square_root, store
+from nag.tracking.linear_algebra import PHASE
+
+# Relative error of a double.
+EPSILON = 2.0**-53
 
 
 def _value_blocks(s):
@@ -156,6 +160,53 @@ def _line(s, k, re, im, vr, vi):
         xr = fnma(ci, y, fma(cr, x, xr))
         xi = fma(ci, x, fma(cr, y, xi))
     return xr, xi
+
+
+def rounding_errors(s, w):
+    """Errors that rounding makes of the values of all rows, into the right-hand side.
+
+    Those of a row's terms are independent of each other: what they make together is about the root
+    of the sum of their squares.
+    """
+    for k in range(s.rows):
+        total = splat(0.0)
+        for b in range(s.value_begin[k], s.value_begin[k + 1]):
+            size = splat(0.0)
+            for q in range(s.value_start[b], s.value_start[b + 1]):
+                c = s.value_re[q]
+                d = s.value_im[q]
+                square = _square(w.vr, w.vi, s.value_slot[q])
+                size = fma(splat(c * c + d * d), square, size)
+            part = s.value_part[b]
+            if s.moving[part] != 0:
+                f = load(w.fr, part)
+                size = size * (f * f if s.toric != 0 else _square(w.fr, w.fi, part))
+            total = total + size
+        _write_error(w, k, total)
+    t = load(w.tr, 0)
+    for k in range(s.linear):
+        total = splat(0.0)
+        for j in range(s.N):
+            q = k * s.N + j
+            fixed = splat(s.A0_re[q] * s.A0_re[q] + s.A0_im[q] * s.A0_im[q])
+            moving = splat(s.A1_re[q] * s.A1_re[q] + s.A1_im[q] * s.A1_im[q])
+            total = fma(fma(moving, t * t, fixed), _square(w.vr, w.vi, j), total)
+        _write_error(w, s.rows + k, total)
+    for g in range(s.groups):
+        _write_error(w, s.rows + s.linear + g, splat(1.0))
+
+
+def _square(re, im, k):
+    """Square of the absolute value."""
+    x, y = load(re, k), load(im, k)
+    return fma(x, x, y * y)
+
+
+def _write_error(w, k, square):
+    """Rounding errors of terms with a sum of squares; phases that no smooth vector cancels."""
+    size = square_root(square) * splat(EPSILON)
+    store(w.br, k, size * splat(math.cos(PHASE * (k * k))))
+    store(w.bi, k, size * splat(math.sin(PHASE * (k * k))))
 
 
 def _entry(s, w, k, moves):

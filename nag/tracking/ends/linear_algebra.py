@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from nag.machine_code.lanes import any_less, fma, load, select_less, splat, square_root, store
+from nag.tracking.linear_algebra import PHASE
 from nag.tracking.numbers import complex_numbers as z
 from nag.tracking.numbers import double_double as number
 from nag.tracking.numbers.error_free import power_near_inverse
 
-PHASE = 1.9416
 # Part of a coordinate that a correction leaves where it takes it away.
 GONE = 1e-6
 # Largest coordinate of a point from doubles that may be nothing but their rounding errors.
