@@ -160,6 +160,34 @@ def test_components_that_are_undecided_are_not_said_to_be_apart(tmp_path, capsys
     assert "do not meet" not in shown and "answer     undecided" in shown
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["intersect", "--components", "1", "2"],
+        ["member", "--at", "x = 1, y = 1"],
+        ["sample", "--component", "2"],
+        ["singular"],
+        ["eliminate", "--component", "2"],
+    ],
+)
+def test_a_component_without_some_of_its_points_is_refused(
+    command: list[str], export: str, tmp_path, capsys
+) -> None:
+    content = json.loads(Path(export).read_text())
+    circle = content["components"][1]
+    assert circle["degree"] == 2
+    circle["degree"] = 1
+    for name in ("points", "radii", "digits"):
+        circle[name] = circle[name][:1]
+    for part in circle["cut_by"]:
+        part["points"], part["unknowns"] = 1, part["unknowns"][:1]
+    file = tmp_path / "half.json"
+    file.write_text(json.dumps(content))
+    assert main([command[0], str(file), *command[1:], "--quiet"]) == 2
+    line = capsys.readouterr().err
+    assert "component 2: the sum of its points" in line and line.count("\n") == 1
+
+
 def test_an_incomplete_decomposition_leaves_memberships_incomplete(case, tmp_path, capsys) -> None:
     file = tmp_path / "sampled.json"
     argv = ["decompose", case, "--method", "sampling", "--starts", "12", "--quiet"]

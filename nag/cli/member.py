@@ -20,6 +20,7 @@ from nag.cli.witness_input import (
     like,
     named_point,
     point_at,
+    with_tested_traces,
     write_document,
 )
 
@@ -53,7 +54,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         from nag.witness.at_prompt import EXACT, INEXACT, ROUNDED
         from nag.witness.membership import Membership, memberships
 
-        found = given(options, lambda *known: _point(options, *known))
+        found = with_tested_traces(given(options, lambda *known: _point(options, *known)))
         system = found.decomposition.system
         point = _point(options, system.variables, found.points)
         exact = all(is_zero(value) for value in system(point))

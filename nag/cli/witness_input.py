@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.witness.witness import Decomposition, WitnessSet
 
+# What is said of a component of an export on which paths fail.
+UNTESTED = "the trace of its points could not be tested"
 Points = Mapping[str, tuple["Number", ...]]
 Check = Callable[[Sequence[str], Points], object]
 
@@ -31,12 +33,14 @@ class Given:
         title: title of the case.
         file: name of the case file, without its folder.
         points: named points of the case; none if an export was given.
+        export: the export that it was read from; empty if a case was decomposed.
     """
 
     decomposition: Decomposition
     title: str
     file: str
     points: Points
+    export: str = ""
 
 
 def add_input(parser: argparse.ArgumentParser) -> None:
@@ -85,7 +89,7 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
         origin = export.origin
         title = origin.title if origin else "a system built in memory"
         file = origin.file if origin else Path(options.case).name
-        return Given(expanded(export.decomposition), title, file, {})
+        return Given(expanded(export.decomposition), title, file, {}, options.case)
 
     from nag.files.problem import decomposed, points_of, system_of
 
@@ -109,10 +113,10 @@ def component_number(text: str) -> int:
 
 
 def component_of(found: Given, number: int, option: str) -> WitnessSet:
-    """The component with a number.
+    """The component with a number; undecided, if its trace cannot be tested that was read.
 
     Raises:
-        UsageError: if there is none.
+        UsageError: if there is none, or its points are not all points of a set on its slice.
     """
     components = found.decomposition.components
     if not 1 <= number <= len(components):
@@ -120,7 +124,47 @@ def component_of(found: Given, number: int, option: str) -> WitnessSet:
             len(components), f"there are components 1 to {len(components)}"
         )
         raise UsageError(f"{option}: {number}: {have}")
-    return components[number - 1]
+    return _with_tested_trace(found, number - 1)
+
+
+def with_tested_traces(found: Given) -> Given:
+    """What was given with each component as `component_of` has it.
+
+    Raises:
+        UsageError: if the points of one are not all points of a set on its slice.
+    """
+    if not found.export:
+        return found
+    whole = found.decomposition
+    components = [_with_tested_trace(found, k) for k in range(len(whole.components))]
+    notes = [
+        f"component {k + 1}: {UNTESTED}"
+        for k, (new, old) in enumerate(zip(components, whole.components, strict=True))
+        if new.note != old.note
+    ]
+    tested = replace(
+        whole,
+        components=tuple(components),
+        complete=whole.complete and not notes,
+        notes=(*whole.notes, *notes),
+    )
+    return replace(found, decomposition=tested)
+
+
+def _with_tested_trace(found: Given, index: int) -> WitnessSet:
+    from nag.decomposition.trace import linear_trace
+    from nag.witness.witness import Status
+
+    component = found.decomposition.components[index]
+    if not found.export or not component.dimension or component.status is not Status.IRREDUCIBLE:
+        return component
+    linear = linear_trace(found.decomposition.system, component, index)
+    if linear is False:
+        raise UsageError(
+            f"{found.export}: component {index + 1}: the sum of its points does not move linearly "
+            "with the slice; some of them are missing, or are those of others"
+        )
+    return component if linear else replace(component, status=Status.UNDECIDED, note=UNTESTED)
 
 
 def add_point(parser: argparse.ArgumentParser, otherwise: str = "") -> None:

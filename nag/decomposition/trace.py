@@ -22,6 +22,7 @@ from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
 from nag.witness.fibres import Fibre, Tracker, join_fibres, move
 from nag.witness.points import Points
 from nag.witness.slices import padded, unit_complex
+from nag.witness.units import Units
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # Digits to which a trace must be linear, beside the points' motion: so many, and one more for each
@@ -247,29 +248,35 @@ def has_linear_trace(
     Raises:
         ValueError: if the points are not regular zeros of the system or of a deflation of it.
     """
-    fibres = component_fibres(system, replace(component, fibres=()))
-    points = Points.of(fibres, component.slice.rows)
+    units = Units.of(system.polynomials, system.n)
+    bare = units.of_component(replace(component, fibres=()), units.of_system(system))
+    fibres = component_fibres(bare.system, bare)
+    points = Points.of(fibres, bare.slice.rows)
     trace = Trace.of(points, digits_of_evidence(system.polynomials), rng)
     carried, _ = trace.carried(points, range(len(points)), tracker)
     return None if carried is None else carried.linear(points, range(len(points)))[0]
 
 
 def linear_traces(decomposition: Decomposition, seed: int = 0) -> list[bool | None]:
-    """Whether the traces of all components are linear; None also where no equations cut one.
+    """Whether the traces of all components are linear, as `linear_trace` says."""
+    system = decomposition.system
+    return [linear_trace(system, c, k, seed) for k, c in enumerate(decomposition.components)]
 
-    Points have no traces: nothing is said of them either.
+
+def linear_trace(
+    system: PolynomialSystem, component: WitnessSet, index: int, seed: int = 0
+) -> bool | None:
+    """Whether the trace of a system's component of some index is linear.
+
+    None also where no equations cut it. Points have no traces: nothing is said of them either.
     """
-    found: list[bool | None] = []
-    for k, component in enumerate(decomposition.components):
-        if not component.dimension or not component.degree:
-            found.append(None)
-            continue
-        rng = np.random.default_rng([seed, 23, k])
-        try:
-            found.append(has_linear_trace(decomposition.system, component, rng, Tracker()))
-        except (ValueError, OverflowError):
-            found.append(None)
-    return found
+    if not component.dimension or not component.degree:
+        return None
+    rng = np.random.default_rng([seed, 23, index])
+    try:
+        return has_linear_trace(system, component, rng, Tracker())
+    except (ValueError, OverflowError):
+        return None
 
 
 def _numbered(fibre: Fibre, numbers: Sequence[float]) -> Fibre:
