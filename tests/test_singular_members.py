@@ -100,6 +100,16 @@ def test_it_is_said_what_conditions_rest_on(tmp_path: Path, capsys) -> None:
     assert "singular  27*a^2 - 4 = 0\n          dimension 0, degree 2; proved by reduction" in out
 
 
+def test_a_groebner_basis_proves_that_no_set_is_missing() -> None:
+    found = singular_parameters(nag.system("y^2 - x^5 + 2*x^2 - a", "x y a"), 1)
+    assert found.proved and {each.proof for each in found.sets} == {"reduction"}
+
+
+def test_a_family_of_singular_members_is_seen_whatever_the_unit_of_its_parameter() -> None:
+    found = singular_parameters(nag.system("(x^2 - 1000000000000*a)*(y - b)", "x y a b"), 2)
+    assert (found.texts(), found.complete) == (["all values"], True)
+
+
 @pytest.mark.parametrize("complete", [False, True])
 def test_no_parameters_are_named_where_nothing_is_known(complete: bool) -> None:
     notes = () if complete else ("paths failed",)

@@ -19,7 +19,6 @@ from nag.cli.witness_input import (
     head,
     is_export,
     like,
-    with_tested_traces,
     write_document,
 )
 
@@ -62,7 +61,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         found = given(options)
         if options.component is not None:
             component_of(found, options.component, "--component")
-        found = with_tested_traces(found)
         locus = singular_locus(
             found.decomposition,
             only=None if options.component is None else [options.component - 1],
@@ -146,6 +144,7 @@ def _for_parameters(options: argparse.Namespace) -> tuple[list[str], bool]:
             "seed": options.seed,
             "settings": options.settings,
             "complete": found.complete,
+            "proved": found.proved,
             "notes": list(found.notes),
             "parameters": names,
             "conditions": [[f.text(names) for f in each] for each in found.conditions],

@@ -25,6 +25,7 @@ import numpy as np
 
 from nag.algebra.factoring import factored
 from nag.algebra.given import check_running, check_whole
+from nag.algebra.groebner import Ideal, UnfinishedBasis, ideal_of
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
@@ -32,7 +33,7 @@ from nag.decomposition.rank_drop import BITS, new_names, product
 from nag.interpolation.image_ideal import common_zeros, equations_of_image
 from nag.interpolation.point_cloud import Ambient, Cloud
 from nag.interpolation.precise_samples import Source, SourceError, source_of_component
-from nag.interpolation.proof import equations_ideal, largest_value, proved_by_reduction
+from nag.interpolation.proof import largest_value, proved_by_reduction
 from nag.interpolation.vanishing import (
     InterpolationError,
     TooManyMonomialsError,
@@ -48,6 +49,9 @@ from nag.witness.witness import PathCounts, WitnessSet
 
 # Digits of a random point at which equations tell whether an image lies in a known set.
 DIGITS = 100
+# Bounds of a Groebner basis that is found within half a second, or not: polynomials, terms of one,
+# bits of a coefficient.
+BOUNDS = (150, 400, 2000)
 
 Proof = Literal["reduction", "points", "dimension"]
 
@@ -86,6 +90,9 @@ class SingularParameters:
         paths: what the tracker did.
         complete: whether nothing was left open.
         notes: what was.
+        proved: whether it is proved that no set is missing: all singular points have the dimension
+            that they have at least, one less than there are parameters, and the degree of a
+            Groebner basis.
     """
 
     parameters: tuple[str, ...]
@@ -93,6 +100,7 @@ class SingularParameters:
     paths: PathCounts
     complete: bool
     notes: tuple[str, ...]
+    proved: bool = False
 
     @property
     def conditions(self) -> tuple[tuple[Polynomial, ...], ...]:
@@ -142,12 +150,21 @@ def singular_parameters(
     n = _variables(system, count)
     whole = _null_space_system(system, n, np.random.default_rng([seed, 8]))
     found = decompose(whole, seed=seed, threads=threads, settings=settings)
-    family = _Family(whole, tuple(range(n, n + count)), seed, Tracker(settings, threads))
-    sets, open_notes = _parameter_sets(family, expanded(found).components)
+    ideal, components = _ideal(whole), expanded(found).components
+    family = _Family(whole, ideal, tuple(range(n, n + count)), seed, Tracker(settings, threads))
+    sets, open_notes = _parameter_sets(family, components)
+    agree = ideal is not None and _agree(ideal, components)
+    if found.complete and ideal is not None and not agree:
+        open_notes.append(
+            "a Groebner basis has singular points of another dimension or degree than were found"
+        )
     names = system.variables[n:]
     notes = (*found.notes, *open_notes)
+    if not (found.complete or notes):
+        notes = ("the decomposition of the singular points is not complete",)
     ordered = tuple(sorted(sets, key=lambda each: (-each.dimension, each.text(names))))
-    return SingularParameters(names, ordered, found.paths, found.complete and not notes, notes)
+    proved = agree and not notes and all(c.dimension < count for c in components)
+    return SingularParameters(names, ordered, found.paths, not notes, notes, proved)
 
 
 def _variables(system: PolynomialSystem, count: int) -> int:
@@ -185,16 +202,35 @@ def _null_space_system(
     return PolynomialSystem(names, tuple(f for f in dict.fromkeys(rows) if f))
 
 
+def _ideal(whole: PolynomialSystem) -> Ideal | None:
+    """The ideal of equations that are exact, where it is small enough to be found soon."""
+    if not whole.exact:
+        return None
+    try:
+        return ideal_of(whole.polynomials, whole.variables, bounds=BOUNDS)
+    except UnfinishedBasis:
+        return None
+
+
+def _agree(ideal: Ideal, components: Sequence[WitnessSet]) -> bool:
+    """Whether components of the largest dimension have the ideal's dimension and degree."""
+    dimension = max((c.dimension for c in components), default=-1)
+    degrees = [c.degree * c.multiplicity for c in components if c.dimension == dimension]
+    return (dimension, sum(degrees)) == (ideal.dimension, ideal.degree)
+
+
 @dataclass(frozen=True, eq=False)
 class _Family:
     """The equations of pairs and null vectors, and how their zeros are followed.
 
     Attributes:
         whole: the equations.
+        ideal: of these, if it is not too large.
         coordinates: the parameters among their variables.
     """
 
     whole: PolynomialSystem
+    ideal: Ideal | None
     coordinates: tuple[int, ...]
     seed: int
     tracker: Tracker
@@ -317,8 +353,7 @@ def _proof(family: _Family, cloud: Cloud, equation: Polynomial, digits: int) -> 
         InterpolationError: if it does not vanish.
     """
     f = equation.with_variables(family.whole.n, family.coordinates)
-    ideal = equations_ideal(cloud)
-    if ideal is not None and proved_by_reduction(cloud, ideal, f):
+    if family.ideal is not None and proved_by_reduction(cloud, family.ideal, f):
         return "reduction"
     if largest_value(cloud, [f], 2 * digits) > -digits:
         raise InterpolationError("a polynomial does not hold at fresh points")

@@ -132,7 +132,10 @@ class Cloud:
         return np.array([[complex(x) for x in p] for p in self.balls(count, digits)])
 
     def image_dimension(self, coordinates: Sequence[int]) -> int:
-        """Dimension of the closure of the component's image in some of the variables."""
+        """Dimension of the closure of the component's image in some of the variables.
+
+        The rank of its derivative in coordinates of comparable sizes.
+        """
         if not self.source.dimension:
             return 0
         sample = self.samples(1)[0]
@@ -142,16 +145,28 @@ class Cloud:
             image = self.ambient.images[i]
             for j in image.support:
                 derivatives[row, j] = image.derivative(j)(list(sample.x), complex)
-        singular = np.linalg.svd(derivatives @ tangent, compute_uv=False)
+        derivatives *= _sizes(sample)[: len(sample.x)]
+        singular = np.linalg.svd(_with_rows_of_norm_one(derivatives) @ tangent, compute_uv=False)
         d = tangent.shape[1]
         return d - numerical_corank(singular, d, SMALL)
 
 
+def _sizes(sample: Sample) -> np.ndarray:
+    """Sizes that make the coordinates comparable, shape ``(n + aux,)``."""
+    return np.ldexp(1.0, sample.cut.powers)
+
+
+def _with_rows_of_norm_one(matrix: np.ndarray) -> np.ndarray:
+    norms = np.linalg.norm(matrix, axis=1, keepdims=True)
+    return matrix / np.where(norms > 0, norms, 1)
+
+
 def _tangent(sample: Sample) -> np.ndarray:
-    """Orthonormal basis of the tangent space at a point, shape ``(n, d)``."""
+    """Orthonormal basis of the tangent space at a point, shape ``(n, d)``, in `_sizes`."""
     jacobian = sample.cut.evaluator.jacobian(sample.z)
     rows = padded(sample.rows, 1 + len(sample.z))[:, 1:]
-    directions = np.linalg.inv(np.vstack([jacobian, rows]))[: len(sample.x), len(jacobian) :]
+    matrix = _with_rows_of_norm_one(np.vstack([jacobian, rows]) * _sizes(sample))
+    directions = np.linalg.inv(matrix)[: len(sample.x), len(jacobian) :]
     q, _ = np.linalg.qr(directions)
     return q
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from math import prod
 
 import flint
@@ -101,13 +100,8 @@ def equations_ideal(cloud: Cloud) -> Ideal | None:
     system = cloud.ambient.system
     if system.n > MOST_VARIABLES or prod(system.degrees) > MOST_SOLUTIONS:
         return None
-    return _ideal(system.polynomials, system.variables)
-
-
-@lru_cache(maxsize=4)
-def _ideal(polynomials: tuple[Polynomial, ...], names: tuple[str, ...]) -> Ideal | None:
     try:
-        return ideal_of(polynomials, names)
+        return ideal_of(system.polynomials, system.variables)
     except UnfinishedBasis:
         return None
 

@@ -27,7 +27,7 @@ def coordinate_text(z: complex) -> str:
 # What the equations of a set of parameters rest on.
 PROOFS = {
     "reduction": "proved by reduction modulo the equations of singular points",
-    "points": "recognised at random points, holds at others to twice the digits",
+    "points": "recognised in many digits of random points, and holds in twice as many",
     "dimension": "by the rank of tangents",
 }
 
@@ -42,6 +42,8 @@ def parameter_rows(found: SingularParameters) -> list[tuple[str, str]]:
     if not rows:
         answer = "for no parameters" if found.complete else "it is not known for which parameters"
         rows.append(("singular", answer))
+    if found.proved:
+        rows.append(("complete", "proved: a Groebner basis has no further singular points"))
     return [*rows, *(("open", note) for note in found.notes)]
 
 
