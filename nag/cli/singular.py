@@ -19,6 +19,7 @@ from nag.cli.witness_input import (
     head,
     is_export,
     like,
+    with_tested_traces,
     write_document,
 )
 
@@ -61,6 +62,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         found = given(options)
         if options.component is not None:
             component_of(found, options.component, "--component")
+        found = with_tested_traces(found)
         locus = singular_locus(
             found.decomposition,
             only=None if options.component is None else [options.component - 1],
