@@ -319,6 +319,13 @@ decomposition.trace.ROUND_NUMBERS           6       Digits of coefficients that 
                                                     each further asks for one more: what is nearly
                                                     reducible has long ones. Points get 28 to 240
                                                     digits for it.
+decomposition.trace.BENT                    1e-6    Second differences, beside the motion, of points
+                                                    that power sums take for a component, by which
+                                                    a path of the trace was lost.
+decomposition.power_sums.CERTAIN            100     Singular values of equations that are no errors,
+                                                    in units of these: 1e4 to 1e13 in systems
+                                                    measured; errors themselves gave 0.05 to 0.7.
+decomposition.power_sums.UNCLEAR            0.1     How far from 0 and 1 indicators may be.
 decomposition.splitting.MOST_LOOPS *        100     Loops before points are left undecided; 23 were
                                                     the most needed.
 decomposition.superset.IN_PASSING           0.02    Part of the usual work after which a multiple
@@ -378,7 +385,8 @@ FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, ARRIVED, NEARLY; witness.real_
 SHORTEST, STILL; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE,
 SHRINK, LEAST_RADIUS; decomposition.discovery: ROUNDED, DEEP, MULTIPLE; decomposition.given_points:
 ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
-decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; decomposition.zero_sums: SPARE;
+decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; decomposition.power_sums:
+EQUATIONS, MOVED, RADII, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
 mechanism.parts_decomposition: ROUNDED; files.close_points: ROUNDED; files.json_values: AGREES;
 check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE;

@@ -14,9 +14,7 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.decomposition import decompose
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.orbits import Action, irreducible_orbits
-from nag.decomposition.splitting import joined_labels
 from nag.decomposition.superset import Ambient, witness_superset
-from nag.decomposition.trace import MOST_CLASSES
 from nag.files.cases import read_case
 from nag.files.export import read_decomposition, write_decomposition
 from nag.report.agreement import Verdict, compare
@@ -58,10 +56,9 @@ def test_cases_with_symmetries_agree_with_what_is_known(seed: int, name: str) ->
         assert not agreement.unlisted
     plain = components_of(case.system, seed=seed)
     assert kinds(answer.components) == kinds(plain.components)
-    # Among many points symmetries save loops; among few, each costs a path for each component.
-    many = sum(c.degree for c in plain.components) > MOST_CLASSES
-    spent = 0 if many else len(plain.components) * len(case.symmetries)
-    assert answer.paths.tracked <= plain.paths.tracked + spent - many
+    # Each symmetry costs a path for each component.
+    spent = len(plain.components) * len(case.symmetries)
+    assert answer.paths.tracked == plain.paths.tracked + spent
 
 
 def test_orbits_are_those_of_the_group() -> None:
@@ -170,14 +167,6 @@ def test_a_missing_point_is_noticed() -> None:
     found = irreducible_orbits(less, [action], 20, rng, tracker)
     assert [len(o.carriers) for o in found.orbits] == [0, 0, 0]
     assert found.notes == ("1 images of points under a symmetry are not among the points",)
-
-
-def test_joins_are_carried_on_by_permutations() -> None:
-    turn = [np.array([2, 3, 4, 5, 0, 1])]
-    pairs = [np.array([[0, 1]]), np.array([[0, 2]])]
-    assert joined_labels(6, pairs[:1], turn).tolist() == [0, 0, 2, 2, 4, 4]
-    assert joined_labels(6, pairs, turn).tolist() == [0] * 6
-    assert joined_labels(6, [], turn).tolist() == list(range(6))
 
 
 def test_ends_are_located_only_where_that_is_clear() -> None:

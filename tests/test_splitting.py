@@ -79,7 +79,7 @@ def test_the_smallest_unions_of_classes_with_linear_traces_are_found() -> None:
 def test_points_fall_into_the_irreducible_curves(seed: int) -> None:
     rng = np.random.default_rng(seed)
     points = on_line(f"{UNION}*({CUBIC})", rng)
-    found = split(points, (), EVIDENCE, rng, TRACKER)
+    found = split(points, EVIDENCE, rng, TRACKER)
     assert [c.reason for c in found.classes] == ["", "", ""]
     classes = {frozenset(c.indices.tolist()) for c in found.classes}
     curves = {frozenset(np.flatnonzero(on(points.x, e)).tolist()) for e in (CIRCLE, LINE, CUBIC)}
@@ -93,7 +93,7 @@ def test_few_points_fall_into_components_without_loops(monkeypatch: pytest.Monke
     monkeypatch.setattr(splitting, "loop", None)
     rng = np.random.default_rng(4)
     points = on_line(f"{UNION}*({CUBIC})*(x + y - 7)*(y^4 - x - 2)", rng)
-    found = split(points, (), EVIDENCE, rng, TRACKER)
+    found = split(points, EVIDENCE, rng, TRACKER)
     assert sorted(len(c.indices) for c in found.classes) == [1, 1, 2, 3, 4]
     assert found.counts.tracked == 2 * len(points)
 
@@ -118,12 +118,24 @@ def test_what_a_loop_joined_wrongly_is_taken_back(
         return Looped(np.arange(len(points)), points, places), counts
 
     monkeypatch.setattr(splitting, "loop", swaps_first)
-    monkeypatch.setattr(splitting, "MOST_CLASSES", 3)
-    found = split(points, (), EVIDENCE, rng, TRACKER)
+    for name, most in (("FEW_CLASSES", 2), ("MOST_IN_LATTICE", 2), ("MOST_CLASSES", 3)):
+        monkeypatch.setattr(splitting, name, most)
+    found = split(points, EVIDENCE, rng, TRACKER)
     curves = {frozenset(np.flatnonzero(on(points.x, e)).tolist()) for e in (CIRCLE, LINE, CUBIC)}
     assert {frozenset(c.indices.tolist()) for c in found.classes} == curves
     assert not any(c.reason for c in found.classes)
     assert found.discarded == 1 and len(tracked) > 1
+
+
+def test_classes_are_what_pairs_join() -> None:
+    rng = np.random.default_rng(2)
+    assert splitting.joined_labels(4, []).tolist() == [0, 1, 2, 3]
+    for pairs in (rng.integers(0, 60, (2, 20, 2)), [np.column_stack([range(59), range(1, 60)])]):
+        labels = splitting.joined_labels(60, pairs)
+        graph = np.eye(60, dtype=bool)
+        graph[tuple(np.concatenate(pairs).T)] = True
+        reached = np.linalg.matrix_power((graph | graph.T).astype(float), 60) > 0
+        assert labels.tolist() == reached.argmax(axis=1).tolist()
 
 
 def test_a_loop_whose_ends_are_no_permutation_joins_nothing() -> None:
@@ -159,7 +171,7 @@ def test_a_point_that_is_missing_is_found_by_loops() -> None:
     rows = random_rows(rng, 1, 2)
     whole = fibre(CUBIC, rows[0])
     less = Points.of([whole.only(np.arange(3) > 0)], rows)
-    found = split(less, (), EVIDENCE, rng, TRACKER)
+    found = split(less, EVIDENCE, rng, TRACKER)
     assert [(len(c.indices), c.reason) for c in found.classes] == [(3, "")]
     gaps = np.linalg.norm(found.points.x[:, None] - whole.x[None], axis=2)
     assert sorted(gaps.argmin(axis=1)) == [0, 1, 2] and gaps.min(axis=1).max() < 1e-12
@@ -168,7 +180,7 @@ def test_a_point_that_is_missing_is_found_by_loops() -> None:
 def test_isolated_points_are_components_by_themselves() -> None:
     cut = fibre(CIRCLE, ROWS[0]).cut
     points = Points.of([Fibre(cut, 0, np.eye(2))], np.zeros((0, 3), dtype=complex))
-    found = split(points, (), EVIDENCE, np.random.default_rng(0), TRACKER)
+    found = split(points, EVIDENCE, np.random.default_rng(0), TRACKER)
     assert [c.indices.tolist() for c in found.classes] == [[0], [1]]
     assert found.counts.tracked == 0
 

@@ -140,7 +140,7 @@ def test_numbers_without_a_name_are_seen(body: str, found: set[float]) -> None:
     [
         (["--case", "cases/benchmarks/cyclic-5.toml"], ("PROOF", "SAFETY", "REAL", "SHARP")),
         (
-            ["--decompose", "--case", "cases/rhombus-chain-3.toml"],
+            ["--decompose", "--case", "cases/literature/twisted-cubic.toml"],
             ("ON", "HIT", "GAP", "EVIDENCE"),
         ),
     ],

@@ -1,11 +1,7 @@
 """Orbits: components that symmetries of the system carry into each other.
 
-A symmetry g carries the points on the slice L to points on g(L); moved back to L, they are a
-permutation of all points. Points of one component stay together under it. Where loops are tracked,
-it is from one point of each orbit of points only: what they join, the permutations join elsewhere
-as well. One component of each orbit of components is confirmed by its traces, and thereby all of
-them. Where points are so few that components are found without loops, one point of each component
-shows where that goes.
+A symmetry g carries the points on the slice L to points on g(L); moved back to L, they are some of
+the points. One point of each component shows which component that is carried to.
 """
 
 from __future__ import annotations
@@ -18,7 +14,6 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.splitting import Class, split
-from nag.decomposition.trace import MOST_CLASSES
 from nag.witness.fibres import Tracker
 from nag.witness.frame import Frame
 from nag.witness.points import Points, moved_points
@@ -97,23 +92,10 @@ def irreducible_orbits(
     Args:
         evidence: digits to which traces must be linear.
     """
-    # Loops need the images of all points; components that are known, that of a point each.
-    many = len(points) > MOST_CLASSES
-    everywhere, counts, notes = _images_of(
-        points, range(len(points)) if many else (), actions, rng, tracker
-    )
-    permutations = [images.places for images in everywhere] if not notes else []
-    found = split(points, permutations if many else [], evidence, rng, tracker)
+    found = split(points, evidence, rng, tracker)
+    firsts = np.unique(found.labels).tolist()
+    used, counts, notes = _images_of(found.points, firsts, actions, rng, tracker)
     counts += found.counts
-    used = everywhere
-    if not many:
-        used, spent, notes = _images_of(
-            found.points, np.unique(found.labels).tolist(), actions, rng, tracker
-        )
-        counts += spent
-    # Loops that add points leave symmetries alone: then nothing is known of the images.
-    elif len(found.points) > len(points):
-        used = []
     if not notes and not all(_carries_classes(found.labels, images) for images in used):
         notes.append("a symmetry carries a component to something else than a component")
     # Nothing follows by symmetry from a component that is not confirmed.
@@ -129,7 +111,7 @@ def irreducible_orbits(
 
 @dataclass(frozen=True, eq=False)
 class _Images:
-    """Where a symmetry takes some points, by index; those are all points, or one of each class."""
+    """Where a symmetry takes some points, by index."""
 
     symmetry: SignedPermutation
     indices: np.ndarray

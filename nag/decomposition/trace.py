@@ -32,9 +32,8 @@ EVIDENCE, ROUND_NUMBERS = 18, 6
 BEYOND = 4
 # Points get twice the digits so often, from those of double-double on.
 DIGITS = (FEWEST, 60, 120, 240)
-# Among more classes than this it takes longer to find all unions that are linear than to track
-# loops that join some first: 20 ms for 40, 200 ms for 60.
-MOST_CLASSES = 40
+# Second differences, beside the points' motion, that are no errors of doubles.
+BENT = 1e-6
 # Estimated errors of sums may be too small by this factor.
 ERRORS = 4
 # Size of the random integers that coordinates are combined with.
@@ -178,6 +177,10 @@ class Trace:
         digits = int(np.ceil(np.log10(motion / size))) + BEYOND
         return replace(self, evidence=max(self.evidence, digits))
 
+    def is_surely_bent(self, indices: Sequence[int]) -> bool:
+        """Whether doubles show that the trace of points is not linear."""
+        return self._bend(indices) > BENT * max(self.known[i].motion for i in indices)
+
     def _bend(self, indices: Sequence[int]) -> float:
         """The largest second difference of the sum of points."""
         known = [self.known[i] for i in indices]
@@ -200,7 +203,8 @@ class Trace:
         """Unions of classes whose trace is linear and that contain no smaller such union.
 
         Args:
-            classes: disjoint arrays of indices of points that were carried, at most `MOST_CLASSES`.
+            classes: disjoint arrays of indices of points that were carried; of more than some 40
+                it takes long.
 
         Returns:
             Lists of positions in ``classes``, disjoint, those of the first class first; classes in
