@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -13,9 +14,11 @@ from systems import system
 import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition import decompose
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.numerics.coincidence import clusters, conjugates_present
+from nag.solving.shown import answer_text
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.solving.start.target import StartError
@@ -147,6 +150,55 @@ def test_fewer_equations_than_variables_have_no_isolated_solution() -> None:
     assert result.solutions == ()
     assert len(result.on_components) == 4
     assert result.positive_dimensional
+
+
+CURVE = [
+    "(x + 2*y - 1)*({g}) + (z - 3)*({h})",
+    "(2*x - z + 1)*({g}) + (y + 2)*({h})",
+    "(y - z + 2)*({g}) + (x - y + 1)*({h})",
+]
+
+
+@pytest.mark.parametrize(
+    ("nonzero", "counts"),
+    [(("x - 5",), True), (("y - x^2",), False), (("x - 5", "(y - x^2)*(x + y)"), False)],
+)
+def test_a_curve_on_which_something_vanishes_that_must_not_is_no_solution_set(
+    nonzero: tuple[str, ...], counts: bool
+) -> None:
+    of = system("x y z", *(f.format(g="y - x^2", h="x*z - y^2 + z") for f in CURVE))
+    result = solve(replace(of, nonzero=system("x y z", *nonzero).polynomials))
+    assert result.complete and result.positive_dimensional == counts
+    assert result.perhaps_infinite == counts == ("positive dimension" in answer_text(result))
+    assert len(result.on_components if counts else result.on_excluded) > 0
+
+
+def test_whether_a_double_curve_is_excluded_may_be_undecided() -> None:
+    of = system("x y z", *(f.format(g="(y - x^2)^2", h="z - x*y + 1") for f in CURVE))
+    result = solve(replace(of, nonzero=system("x y z", "y - x^2").polynomials))
+    assert not result.positive_dimensional and result.perhaps_infinite
+    assert "could not be decided" in answer_text(result)
+    assert any("was not decided" in note for note in result.notes)
+
+
+@pytest.mark.parametrize(
+    ("equations", "nonzero", "points"),
+    [
+        (["x*(y - 1)", "x*(y + x)"], "x", 1),
+        (["x*(y - 1)", "x*(y + x)"], "y - 1", 0),
+        (["x*y - z^2 + x"], "x*y - z^2 + x", 0),
+        (["(y - x)*(y^2 - x^3 + 1)", "y - x"], "y^2 - x^2", 0),
+    ],
+)
+def test_what_is_left_where_sets_of_positive_dimension_are_excluded(
+    equations: list[str], nonzero: str, points: int
+) -> None:
+    result = solve(system("x y z" if "z" in nonzero else "x y", *equations, nonzero=(nonzero,)))
+    answer = decompose(result.system)
+    assert result.complete and answer.complete
+    assert len(result.solutions) == points == sum(not c.dimension for c in answer.components)
+    assert result.positive_dimensional == result.perhaps_infinite
+    assert result.positive_dimensional == any(c.dimension for c in answer.components)
 
 
 def test_overdetermined_systems_keep_only_common_solutions() -> None:

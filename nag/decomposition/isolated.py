@@ -66,7 +66,7 @@ def is_finite(
     last = system.polynomials[hardest]
     near = Evaluator.of([last], n).residuals(found.points)[:, 0] <= NONZERO
     met = any(_met(cut, last, x) for x in found.points[near])
-    if found.complete and not found.positive_dimensional and not met:
+    if found.complete and not found.perhaps_infinite and not met:
         return True, spent
     # What paths leave open may be proved.
     return not met and most_zeros(system.polynomials) is not None, spent
@@ -114,7 +114,7 @@ def solved_at_once(
     found = _solved(system, rng, tracker, not outside)
     if found is None or not found.complete or (found.pathless and not finite):
         return None
-    if found.positive_dimensional and not (outside and _all_excluded(system, found.on_components)):
+    if found.positive_dimensional or (found.perhaps_infinite and not outside):
         return None
     components = _components(found, system, symmetries)
     paths = PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
@@ -154,12 +154,6 @@ def with_points(
 def _only_points(answer: Decomposition) -> Decomposition:
     points = tuple(c for c in answer.components if c.dimension == 0)
     return replace(answer, components=points)
-
-
-def _all_excluded(system: PolynomialSystem, points: np.ndarray) -> bool:
-    """Whether a polynomial that must not vanish seems to do so at each point."""
-    residuals = Evaluator.of(system.nonzero, system.n).residuals(points)
-    return bool((residuals.min(axis=1) <= NONZERO).all())
 
 
 def counted(answer: Decomposition, scheme: bool) -> Decomposition:

@@ -80,6 +80,8 @@ def document(
         "excluded": result.excluded,
         "excluded_solutions": [_solution_document(s) for s in result.excluded_solutions],
         "on_components": pairs(result.on_components),
+        "on_excluded": pairs(result.on_excluded),
+        "on_doubtful": pairs(result.on_doubtful),
         "undecided": pairs(result.undecided),
     }
 
@@ -162,6 +164,9 @@ def solutions_of(value: Any) -> SolutionsExport:
     points = {}
     for key in ("on_components", "undecided"):
         points[key] = as_matrix(entry(table, key, "the file"), system.n, key)
+    # Earlier files do not have these.
+    for key in ("on_excluded", "on_doubtful"):
+        points[key] = as_matrix(table.get(key, []), system.n, key)
     result = SolveResult(
         system=system,
         solutions=tuple(

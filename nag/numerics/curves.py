@@ -81,8 +81,7 @@ def smooth_set(
         inverse: of the blocks that were solved for, decimal logarithm: Newton's method converges
             as much nearer to the point.
     """
-    nearer = int(max(0.0, inverse) / LOG10_2)
-    for k in (k + nearer for k in NEAR):
+    for k in _near(inverse):
         beside = _beside(system, point, rounds, k)
         if beside is None:
             continue
@@ -101,6 +100,18 @@ def smooth_set(
             second = system.log_residual(nearby, LEAST_DIGITS)
             return max(2.0, (first - second) / (STEP * LOG10_2) - 1)
     return inf
+
+
+def _near(inverse: float) -> list[int]:
+    """Binary logarithms of distances at which points beside a zero are looked for."""
+    nearer = int(max(0.0, inverse) / LOG10_2)
+    return [k + nearer for k in NEAR]
+
+
+def point_beside(system: ExactSystem, found: Deflated) -> Point | None:
+    """A point of the smooth set of zeros through a zero, a little off it; None if not found."""
+    tries = (_beside(system, found.point, found.rounds, k) for k in _near(found.inverse))
+    return next((point for point in tries if point is not None), None)
 
 
 def _beside(system: ExactSystem, point: Point, rounds: Sequence[Round], k: int) -> Point | None:

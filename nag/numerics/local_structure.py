@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import log10
 from typing import Any
 
@@ -13,7 +13,7 @@ import numpy as np
 from nag.algebra.linear_algebra import PrimeField
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.clusters import close_zeros
-from nag.numerics.curves import curve_through, is_exact_zero
+from nag.numerics.curves import curve_through, is_exact_zero, point_beside
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
 from nag.numerics.descent import work
 from nag.numerics.digits import LOG10_2, doubles, log_norm, middle, point, rational_point, working
@@ -150,7 +150,9 @@ def _at_zero(
     """The judgement of an exact zero."""
     if found.free:
         reason = "the equations vanish along a smooth set that was followed"
-        return _end(system, found, Place.ON_COMPONENT, 0, reason, found.free)
+        end = _end(system, found, Place.ON_COMPONENT, 0, reason, found.free)
+        other = point_beside(system, found) if found.corank == found.free else None
+        return end if other is None else replace(end, beside=_written(system, other))
     if not system.most_zeros:
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
@@ -312,6 +314,10 @@ def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]
     )
 
 
+def _written(system: ExactSystem, y: Sequence[flint.acb]) -> tuple[tuple[str, str], ...]:
+    return tuple((decimal(c.real), decimal(c.imag)) for c in _unscaled(system, y))
+
+
 def _unscaled(system: ExactSystem, y: Sequence[flint.acb]) -> list[flint.acb]:
     return [c * flint.arb(2) ** k for c, k in zip(y, system.scales, strict=True)]
 
@@ -325,7 +331,7 @@ def _end(
     dimension: int = 0,
 ) -> SingularEnd:
     x = _unscaled(system, found.point)
-    digits = tuple((decimal(c.real), decimal(c.imag)) for c in x)
+    digits = _written(system, found.point)
     exact = rational_point(x, DIGITS) if system.rational and not found.free else None
     condition = 10.0 ** max(found.inverse, 0.0)
     rounded = doubles(x)

@@ -42,6 +42,8 @@ class SingularEnd:
         rational: the exact coordinates, if they are rational.
         nearby: the isolated zeros of a cluster, each judged by itself.
         radii: errors of ``digits``, absolute, shape ``(n,)``; None if undecided.
+        beside: another point of the set of zeros through this one, as ``digits``, where all zeros
+            near the point are those of a smooth set; else empty.
     """
 
     point: np.ndarray
@@ -55,6 +57,7 @@ class SingularEnd:
     rational: tuple[Fraction, ...] | None = None
     nearby: tuple[SingularEnd, ...] = ()
     radii: np.ndarray | None = None
+    beside: tuple[tuple[str, str], ...] = ()
 
 
 def analyse(

@@ -38,6 +38,7 @@ from nag.numerics.zero_values import (
     vanishes_at_all,
     widened,
 )
+from nag.solving.larger_sets import LargerSets
 from nag.solving.lifted_solution import lifted_solution
 from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
@@ -131,20 +132,20 @@ class _Part:
 
     Attributes:
         result: of the system that was tracked; None where nothing was.
-        curves: points on solution sets of positive dimension, shape ``(k, n)``.
+        larger: points on solution sets of positive dimension.
         undecided: shape ``(k, n)``.
     """
 
     system: PolynomialSystem
     found: tuple[_Found, ...]
     result: SolveResult | None
-    curves: np.ndarray
+    larger: LargerSets
     undecided: np.ndarray
 
     @property
     def finite(self) -> bool:
         """Whether nothing says that its zero set has positive dimension."""
-        return not len(self.curves)
+        return not len(self.larger.points)
 
 
 def solve_apart(
@@ -164,35 +165,39 @@ def solve_apart(
     apart = branches(replace(system, nonzero=()))
     if apart is None:
         branch = BranchEquations(replace(system, nonzero=()), graphs=True)
-        whole = _exact(branch) if exactly else None
+        whole = _exact(branch, system.nonzero) if exactly else None
         if whole is None:
             return None
         parts = [whole]
     else:
-        parts = [_part(b.system(replace(system, nonzero=())), tracked, exactly) for b in apart]
+        every = [BranchEquations(b.system(replace(system, nonzero=())), True) for b in apart]
+        parts = [_part(branch, system.nonzero, tracked, exactly) for branch in every]
     return _joined(system, parts, seed, settings, apart is not None)
 
 
-def _exact(branch: BranchEquations, two_variables: bool = True) -> _Part | None:
+def _exact(
+    branch: BranchEquations, nonzero: Sequence[Polynomial], two_variables: bool = True
+) -> _Part | None:
     """A branch that exact algebra solves; None where paths must be tracked."""
     system = branch.system
     evaluator = Evaluator.of(system.polynomials, system.n)
-    none = np.zeros((0, system.n), dtype=complex)
+    none, nothing = np.zeros((0, system.n), dtype=complex), LargerSets.of(system.n)
     zeros = algebraic_zeros(system, two_variables)
     if zeros is not None:
         known = ((_rounded_solution(evaluator, z.point, z.multiplicity, z.real), z) for z in zeros)
-        return _Part(system, tuple(_Found(*each) for each in known), None, none, none)
+        return _Part(system, tuple(_Found(*each) for each in known), None, nothing, none)
     if branch.kind is BranchKind.SYSTEM:
         return None
     if branch.kind is BranchKind.EMPTY:
-        return _Part(system, (), None, none, none)
+        return _Part(system, (), None, nothing, none)
     # Of a linear space, or a graph over one, every point will do.
     elimination = branch.elimination
     point = elimination.lift(np.ones((1, elimination.system.n), dtype=complex))
     if branch.kind is BranchKind.LINEAR_SPACE:
-        return _Part(system, (), None, point, none)
+        excluded = any(branch.image(f)[1] for f in nonzero)
+        return _Part(system, (), None, LargerSets.of(system.n, [(point[0], excluded)]), none)
     found = _Found(_rounded_solution(evaluator, point[0], 1, True), None, branch)
-    return _Part(system, (found,), None, none, none)
+    return _Part(system, (found,), None, nothing, none)
 
 
 def _rounded_solution(
@@ -207,41 +212,42 @@ def _rounded_solution(
     return Solution(x, multiplicity, real, residual, accuracy, condition, 16)
 
 
-def _part(system: PolynomialSystem, tracked: Tracked, exactly: bool) -> _Part:
-    branch = BranchEquations(system, graphs=True)
-    part = _exact(branch, two_variables=exactly)
+def _part(
+    branch: BranchEquations, nonzero: Sequence[Polynomial], tracked: Tracked, exactly: bool
+) -> _Part:
+    part = _exact(branch, nonzero, two_variables=exactly)
     if part is not None:
         return part
     elimination = branch.elimination
-    result = tracked(elimination.system)
-    found = tuple(
-        _Found(lifted_solution(s, elimination), None, branch, s) for s in result.solutions
-    )
-    lifted = elimination.lift
-    return _Part(system, found, result, lifted(result.on_components), lifted(result.undecided))
+    images = tuple(branch.image(f)[0] for f in nonzero)
+    result = tracked(replace(elimination.system, nonzero=images))
+    # All equations say later which of them are left out.
+    solutions = (*result.solutions, *result.excluded_solutions)
+    found = tuple(_Found(lifted_solution(s, elimination), None, branch, s) for s in solutions)
+    larger = result.larger.mapped(elimination.lift)
+    return _Part(branch.system, found, result, larger, elimination.lift(result.undecided))
 
 
 def _joined(
     system: PolynomialSystem, parts: Sequence[_Part], seed: int, settings: str, apart: bool
 ) -> SolveResult:
-    none = np.zeros((0, system.n), dtype=complex)
-    curves = [none, *(part.curves for part in parts)]
-    undecided = [none, *(part.undecided for part in parts)]
+    undecided = [np.zeros((0, system.n), dtype=complex), *(part.undecided for part in parts)]
     kept: list[_Found] = []
     systems = [part.system.polynomials for part in parts]
     points = _points([f for part in parts for f in part.found], system.n)
     near = iter(may_vanish(systems, points, NONZERO))
     for i, part in enumerate(parts):
         close = list(islice(near, len(part.found)))
-        isolated, on_others, left_open = _own(i, parts, close)
+        isolated, left_open = _own(i, parts, close)
         kept += isolated
-        curves.append(_points(on_others, system.n))
         undecided.append(_points(left_open, system.n))
     solutions, left_open, excluded = _in_scheme(system, kept, apart)
     undecided.append(_points(left_open, system.n))
-    open_points, on_components = np.vstack(undecided), np.vstack(curves)
+    open_points = np.vstack(undecided)
+    larger = LargerSets.together(system.n, [part.larger for part in parts])
     results = [part.result for part in parts if part.result is not None]
     notes = [note for r in results if not r.complete for note in r.notes]
+    notes = [note for note in notes if note not in [n for r in results for n in r.larger.notes]]
     more = len(open_points) - sum(len(part.undecided) for part in parts)
     if more:
         notes.append(
@@ -249,15 +255,11 @@ def _joined(
             "was not found"
         )
     complete = all(r.complete for r in results) and not notes
-    if len(on_components):
-        notes.append(
-            f"the solution set has positive dimension; {len(on_components)} end points lie on it "
-            "and are no isolated solutions"
-        )
+    notes += larger.notes
     return SolveResult(
         system=system,
         solutions=solutions,
-        on_components=on_components,
+        on_components=larger.counting,
         undecided=open_points,
         excluded=len(excluded),
         paths=sum((r.paths for r in results), PathStatistics()),
@@ -269,6 +271,8 @@ def _joined(
         notes=tuple(dict.fromkeys(notes)),
         excluded_solutions=excluded,
         pathless=any(r.pathless for r in results),
+        on_excluded=larger.excluded,
+        on_doubtful=larger.doubtful,
     )
 
 
@@ -322,17 +326,18 @@ def _points(found: Sequence[_Found], n: int) -> np.ndarray:
 
 def _own(
     i: int, parts: Sequence[_Part], near: Sequence[np.ndarray]
-) -> tuple[list[_Found], list[_Found], list[_Found]]:
+) -> tuple[list[_Found], list[_Found]]:
     """The solutions of a branch that are isolated, and no ones of an earlier branch.
 
-    Also those that lie on sets of positive dimension of others, and those that are left open.
+    Also those that are left open.
 
     Args:
         near: for each solution in which branches it may lie, shape ``(branches,)``.
     """
-    isolated, on_others, left_open = [], [], []
+    isolated: list[_Found] = []
+    left_open: list[_Found] = []
     for each, close in zip(parts[i].found, near, strict=True):
-        place = isolated
+        place: list[_Found] | None = isolated
         for j in np.flatnonzero(close).tolist():
             if j == i:
                 continue
@@ -343,14 +348,13 @@ def _own(
                 place = left_open
                 break
             alone = parts[j].finite or _near(each, parts[j].found)
-            if not alone:
-                place = on_others
-                break
-            if j < i:
+            if j < i or not alone:
                 place = None
+            if not alone:
+                break
         if place is not None:
             place.append(each)
-    return isolated, on_others, left_open
+    return isolated, left_open
 
 
 def _near(each: _Found, others: Sequence[_Found]) -> bool:

@@ -10,11 +10,13 @@ from itertools import repeat
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.high_precision import vanish_at
 from nag.algebra.zero_count import ZeroCount
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import ON
 from nag.solving.isolated_zero import FinePoint, IsolatedZero, which_are_real
+from nag.solving.larger_sets import LargerSets, is_set_excluded
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.target import Start
@@ -32,14 +34,15 @@ class JudgedEnds:
 
     ``close``: the paths to ends that may be several zeros close together. ``isolated``: the
     isolated zeros of all equations in the scaled variables, those included that ``nonzero`` leaves
-    out. ``unclear``: what notes say of ends that are no such zeros, or may not be; ``notes``: all
-    else. ``count``: how many zeros there are, by exact algebra, where that was asked.
+    out. ``larger``: ends on sets of positive dimension. ``unclear``: what notes say of ends that
+    are no such zeros, or may not be; ``notes``: all else. ``count``: how many zeros there are, by
+    exact algebra, where that was asked.
     """
 
     solutions: tuple[Solution, ...]
     excluded: tuple[Solution, ...]
     notes: tuple[str, ...]
-    on_components: np.ndarray
+    larger: LargerSets
     undecided: np.ndarray
     unclear: tuple[str, ...]
     close: np.ndarray
@@ -74,11 +77,12 @@ class _Zeros:
         found = clusters(self.points[several], self.accuracy[several])
         return [several[group] for group in found]
 
-    def has_conjugate(self, i: int, among: Sequence[np.ndarray]) -> bool:
-        """Whether the conjugate of a singular end is among some points."""
+    def conjugate(self, i: int, among: Sequence[np.ndarray]) -> int | None:
+        """Which of some points is the conjugate of a singular end, if one is."""
         if self.regular[i] or not among:
-            return False
-        return bool(coincident(np.array(among), self.points[i].conj(), self.accuracy[i]).any())
+            return None
+        same = coincident(np.array(among), self.points[i].conj(), self.accuracy[i])
+        return int(same.argmax()) if same.any() else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,13 +90,14 @@ class _Place:
     """Where an end lies; None where it is no solution at all.
 
     ``isolated``: the isolated zeros that it stands for; ``close``: whether it may be several
-    solutions close together.
+    solutions close together; ``excluded``: of a set of positive dimension, whether something that
+    must not vanish does so on all of it.
     """
 
     place: Place | None
     isolated: tuple[IsolatedZero, ...] = ()
     close: bool = False
-    digits: tuple[tuple[str, str], ...] = ()
+    excluded: bool | None = False
 
 
 def judged_ends(
@@ -106,24 +111,22 @@ def judged_ends(
 
     Args:
         finite: whether only finite sets are of interest: nothing is judged after the first end
-            that lies on a component of positive dimension, and a note says so.
+            on a set of positive dimension that is not excluded, and a note says so.
     """
     n = problem.system.n
     evaluator = Evaluator.of(problem.equations, n)
     zeros, lost = _zeros(problem, begin, paths, evaluator)
     unclear = [f"{lost} end points are zeros of the equations only roughly"] if lost else []
-    isolated: list[IsolatedZero] = []
-    elsewhere: dict[Place, list[np.ndarray]] = {Place.ON_COMPONENT: [], Place.UNDECIDED: []}
+    undecided: list[np.ndarray] = []
+    sets: list[tuple[np.ndarray, bool | None]] = []
     close: list[int] = []
-    groups = zeros.groups()
-    if problem.added or problem.squared:
-        groups = [*zeros.alone()[:, None], *groups]
-    else:
-        isolated = _simple(begin, zeros, zeros.alone(), paths)
+    each = problem.added or problem.squared
+    isolated = [] if each else _simple(begin, zeros, zeros.alone(), paths)
+    groups = [*zeros.alone()[:, None], *zeros.groups()] if each else zeros.groups()
     judge = partial(_place, problem, begin, zeros, paths, evaluator, rng)
     whole = begin.complete and not problem.squared
     for group in groups:
-        best, found = _together(judge, zeros, group, whole, elsewhere[Place.ON_COMPONENT])
+        best, found = _together(judge, zeros, group, whole, sets)
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
         # Of a cluster with as many zeros as paths, each is the end of its own.
         met = found.place is Place.CLUSTER and whole and multiplicity == len(group)
@@ -132,24 +135,25 @@ def judged_ends(
             isolated.extend(found.isolated)
             if whole and multiplicity != len(group):
                 unclear.append(f"{len(group)} paths end at a zero of multiplicity {multiplicity}")
+        elif found.place is Place.ON_COMPONENT:
+            # Where equations were added, an end stands for one point of a component.
+            points = zeros.points[[best] if problem.added else group]
+            sets.extend((x, found.excluded) for x in points)
         elif found.place is not None:
             # That one of several zeros was met leaves open which the other paths met.
-            place = Place.UNDECIDED if found.place is Place.CLUSTER else found.place
-            # Where equations were added, an end stands for one point of a component.
-            elsewhere[place].extend(zeros.points[[best] if problem.added else group])
+            undecided.extend(zeros.points[group])
         if several:
             close.extend(zeros.path[group].tolist())
-        if finite and found.place is Place.ON_COMPONENT:
-            unclear.append("the solution set is not finite; the other ends were not looked at")
+        if finite and found.place is Place.ON_COMPONENT and not found.excluded:
+            unclear.append("the solution set is not seen to be finite; other ends were left out")
             break
-    on_components, undecided = elsewhere[Place.ON_COMPONENT], elsewhere[Place.UNDECIDED]
     if undecided:
         may_be = "may or may not be isolated solutions, or several that are close together"
         unclear.append(f"{len(undecided)} end points {may_be}")
     original = problem.target.original
     return JudgedEnds(
         *_solutions(problem, isolated),
-        original(np.array(on_components).reshape(-1, n)),
+        LargerSets.of(n, sets).mapped(original),
         original(np.array(undecided).reshape(-1, n)),
         tuple(unclear),
         np.array(sorted(close), dtype=np.int64),
@@ -219,7 +223,10 @@ def _place(
     point, accuracy, path = zeros.points[i], float(zeros.accuracy[i]), zeros.path[i]
     precision = int(paths.precision[path])
     if problem.added:
-        return _Place(Place.ON_COMPONENT)
+        if not problem.may_be_excluded(point):
+            return _Place(Place.ON_COMPONENT)
+        end = analyse(problem.equations, point, accuracy, rng)
+        return _Place(Place.ON_COMPONENT, excluded=_is_excluded(problem, end))
     if zeros.regular[i]:
         solves = problem.solves(point) if problem.squared else True
         if solves is None:
@@ -236,7 +243,7 @@ def _place(
         met = coincident(zeros.points[zeros.alone()], end.point, max(accuracy, end.accuracy))
         if end.dimension and met.sum() == sum(z.multiplicity for z in end.nearby):
             # All that is isolated there are ends of other paths.
-            return _Place(Place.ON_COMPONENT)
+            return _Place(Place.ON_COMPONENT, excluded=_is_excluded(problem, end))
         members = [] if met.any() else list(end.nearby)
     isolated = tuple(
         IsolatedZero.of_end(z, residual, precision)
@@ -245,7 +252,21 @@ def _place(
         )
         if z.place is Place.ISOLATED
     )
-    return _Place(end.place, isolated, end.place is Place.UNDECIDED)
+    excluded = _is_excluded(problem, end) if end.place is Place.ON_COMPONENT else False
+    return _Place(end.place, isolated, end.place is Place.UNDECIDED, excluded)
+
+
+def _is_excluded(problem: SquareProblem, end: SingularEnd) -> bool | None:
+    """Whether something that must not vanish does so on all of the set that an end lies on.
+
+    None where that is not known.
+    """
+    if not problem.may_be_excluded(end.point):
+        return False
+    if end.place is Place.ISOLATED:
+        # On random equations that cut the set it is a generic point of it.
+        return any(vanish_at([g], end.digits) for g in problem.nonzero)
+    return is_set_excluded(problem.nonzero, end) if end.place is Place.ON_COMPONENT else None
 
 
 def _together(
@@ -253,7 +274,7 @@ def _together(
     zeros: _Zeros,
     group: np.ndarray,
     whole: bool,
-    on_components: Sequence[np.ndarray],
+    sets: Sequence[tuple[np.ndarray, bool | None]],
 ) -> tuple[int, _Place]:
     """The best known one of ends at one place, and where it lies.
 
@@ -263,12 +284,13 @@ def _together(
     Args:
         judge: where an end lies.
         whole: whether as many paths lead to a zero as its multiplicity is.
-        on_components: points that lie on components. The conjugates of these do so as well, as the
-            equations are real.
+        sets: points that lie on components, and whether these are excluded. The conjugates of
+            these do so as well, as the equations are real.
     """
     best = int(group[np.argmin(zeros.accuracy[group])])
-    if zeros.has_conjugate(best, on_components):
-        return best, _Place(Place.ON_COMPONENT)
+    known = zeros.conjugate(best, [x for x, _ in sets])
+    if known is not None:
+        return best, _Place(Place.ON_COMPONENT, excluded=sets[known][1])
     found = judge(best)
     if not whole or found.place is not Place.ISOLATED:
         return best, found

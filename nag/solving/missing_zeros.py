@@ -122,7 +122,7 @@ class Verdict(Enum):
 
 def counted(problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds) -> JudgedEnds:
     """The ends with the number of zeros, where paths leave a doubt that it may settle."""
-    if problem.added or len(ends.on_components):
+    if problem.added or len(ends.larger.points):
         return ends
     patient = bool(ends.unclear) or len(paths.where(PathStatus.FAILED)) > 0
     if begin.complete and ends.zeros == len(paths):

@@ -30,6 +30,8 @@ def answer_text(result: SolveResult) -> str:
         text += f"; {result.excluded} more excluded, where a polynomial that must not vanish does"
     if result.positive_dimensional:
         text += "; and a solution set of positive dimension"
+    elif result.perhaps_infinite:
+        text += "; whether there is a solution set of positive dimension could not be decided"
     return text
 
 

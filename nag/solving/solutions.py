@@ -8,6 +8,7 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import fixed_array
+from nag.solving.larger_sets import LargerSets
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +77,9 @@ class SolveResult:
     Attributes:
         system: what was solved.
         solutions: the isolated solutions, each once.
-        on_components: end points on solution sets of positive dimension, shape ``(k, n)``.
+        on_components: end points on solution sets of positive dimension, shape ``(k, n)``, on
+            which none of `PolynomialSystem.nonzero` vanishes identically.
+        on_excluded: on sets on which one of these does; on_doubtful: where that is not known.
         undecided: end points that are solutions but may or may not be isolated, ``(k, n)``.
         excluded: number of isolated solutions left out because one of `PolynomialSystem.nonzero`
             vanishes; excluded_solutions: these, where they were kept.
@@ -106,10 +109,15 @@ class SolveResult:
     notes: tuple[str, ...] = ()
     excluded_solutions: tuple[Solution, ...] = ()
     pathless: bool = False
+    on_excluded: np.ndarray | None = None
+    on_doubtful: np.ndarray | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "on_components", fixed_array(self.on_components))
-        object.__setattr__(self, "undecided", fixed_array(self.undecided))
+        for name in ("on_components", "undecided", "on_excluded", "on_doubtful"):
+            points = getattr(self, name)
+            if points is None:
+                points = np.zeros((0, self.system.n), dtype=complex)
+            object.__setattr__(self, name, fixed_array(points))
 
     @property
     def points(self) -> np.ndarray:
@@ -122,9 +130,19 @@ class SolveResult:
         return tuple(s for s in self.solutions if s.real)
 
     @property
+    def larger(self) -> LargerSets:
+        """The end points on solution sets of positive dimension."""
+        return LargerSets(self.on_components, self.on_excluded, self.on_doubtful)
+
+    @property
     def positive_dimensional(self) -> bool:
         """Whether the solution set has points that are not isolated."""
         return len(self.on_components) > 0
+
+    @property
+    def perhaps_infinite(self) -> bool:
+        """Whether it has such points, or may have."""
+        return self.positive_dimensional or len(self.on_doubtful) > 0
 
     def __repr__(self) -> str:
         from nag.solving.shown import result_text

@@ -106,7 +106,7 @@ def solve_whole(
         return with_missing_zeros(problem, begin, paths, ends, rng)
 
     ends = look(paths)
-    unclear = len(ends.close) and not (finite and len(ends.on_components))
+    unclear = len(ends.close) and not (finite and len(ends.larger.points))
     if unclear and verdict(ends) is not Verdict.ALL:
         # What looks like a multiple zero and is none may be simple ones close together.
         chosen, separating = ends.close, replace(named(settings), evidence=SEPARATING)
@@ -202,12 +202,8 @@ def _result(
         if seen is not Verdict.UNKNOWN:
             notes.append(f"{ends.zeros} zeros were found, and there are {ends.count.bound}")
     complete = (begin.complete or seen is Verdict.ALL) and not notes
-    if len(ends.on_components):
-        notes.append(
-            f"the solution set has positive dimension; {len(ends.on_components)} end points lie "
-            "on it and are no isolated solutions"
-        )
-    elif problem.added:
+    notes += ends.larger.notes
+    if problem.added and not len(ends.larger.points):
         notes.append(
             f"fewer equations than variables: no solution is isolated, and none was found where "
             f"{problem.added} random linear equations are added"
@@ -215,7 +211,7 @@ def _result(
     return SolveResult(
         system=problem.system,
         solutions=ends.solutions,
-        on_components=ends.on_components,
+        on_components=ends.larger.counting,
         undecided=ends.undecided[:0] if seen is Verdict.ALL else ends.undecided,
         excluded=len(ends.excluded),
         paths=counts,
@@ -227,6 +223,8 @@ def _result(
         notes=tuple(notes),
         excluded_solutions=ends.excluded,
         pathless=not len(paths),
+        on_excluded=ends.larger.excluded,
+        on_doubtful=ends.larger.doubtful,
     )
 
 

@@ -68,6 +68,10 @@ class SquareProblem:
         zero = self._zero(x)
         return None if zero is None else vanish_in_balls(self.equations, zero)
 
+    def may_be_excluded(self, x: np.ndarray) -> bool:
+        """Whether a polynomial that must not vanish seems to do so at a point."""
+        return bool((self._nonzero.residuals(x[None]) <= NONZERO).any()) if self.nonzero else False
+
     def excluded(self, found: IsolatedZero) -> bool | None:
         """Whether a polynomial that must not vanish does at a zero; None if that is not known."""
         x = found.point
