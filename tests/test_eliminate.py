@@ -234,7 +234,6 @@ def test_a_double_curve_is_proved_by_a_power(tmp_path) -> None:
         (["y - x^2", "z - x^3"], ["--at", "crossing", "--component", "1"], "one of the two"),
         (["x*y", "z"], ["--at", "crossing"], "it is singular; name a component"),
         (["x - 1", "y", "z"], [], "the component is a point"),
-        (["x^2 - 2", "y - x*z"], [], "is not defined over the rational numbers"),
         (["x^2 - sqrt(2)*y", "z"], [], "irrational coefficients; only rational ones"),
     ],
 )
@@ -243,6 +242,43 @@ def test_bad_input_gets_one_line(tmp_path, capsys, equations, argv, part) -> Non
     out, err = capsys.readouterr()
     assert out == "" and err.startswith("nag: ") and err.count("\n") == 1
     assert part in err
+
+
+@pytest.mark.parametrize(
+    ("equations", "onto", "defines", "self_conjugate", "together", "found"),
+    [
+        (["y^2 + 5*x^2", "z"], "x,y", False, False, [], ["y^2 + 5*x^2"]),
+        (["y^2 - 5*x^2", "z"], "x,y", False, None, [1, 2], ["y^2 - 5*x^2"]),
+        (["y^3 - 2*x^3", "z - x*y"], "x,y", False, None, [1, 2, 3], ["y^3 - 2*x^3"]),
+        (["y^2 + 1", "z - x*y^2"], "x,z", True, True, [], ["x + z"]),
+        (["x^2 + y^2 - 1", "z"], "x,y", True, True, [], ["x^2 + y^2 - 1"]),
+    ],
+)
+def test_equations_are_those_of_the_component_asked_for_only_if_it_is_rational(
+    tmp_path, equations, onto, defines, self_conjugate, together, found
+) -> None:
+    content = eliminated(tmp_path, space(tmp_path, *equations), "--onto", onto)
+    names = onto.split(",")
+    assert equations_of(content) == ideal_of(polynomials(found, names), names)
+    assert (content["defines"], content["self_conjugate"]) == (defines, self_conjugate)
+    assert content["together"] == together and content["defines_union"] is True
+
+
+def test_skew_conjugate_lines_and_their_equations_are_told_apart(tmp_path, capsys) -> None:
+    # x = i z, y = i (z + 1) and its conjugate: no plane holds both, four quadrics do.
+    case = space(tmp_path, "x^2 + z^2", "y^2 + (z + 1)^2", "x*(z + 1) - y*z")
+    content = eliminated(tmp_path, case, "--onto", "x,y,z")
+    assert content["defines"] is False and content["self_conjugate"] is False
+    assert all("^2" in e["polynomial"] or "*" in e["polynomial"] for e in content["equations"])
+    assert "not its own conjugate: the equations hold on both" in " ".join(
+        capsys.readouterr().out.split()
+    )
+
+
+def test_a_map_to_a_variable_that_is_zero_is_zero(tmp_path) -> None:
+    content = eliminated(tmp_path, space(tmp_path, "y - x^2", "z"), "--onto", "x,y")
+    (zero,) = content["maps"]
+    assert (zero["variable"], zero["numerator"], zero["denominator"]) == ("z", "0", "1")
 
 
 def test_too_many_monomials_are_refused_before_they_are_made(tmp_path, capsys) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_running, read_problem, whole
@@ -24,7 +26,9 @@ if TYPE_CHECKING:
 
     from nag.interpolation.image_ideal import ImageIdeal
     from nag.interpolation.point_cloud import Ambient, Cloud
+    from nag.interpolation.precise_samples import Source
     from nag.mechanism.model import Model
+    from nag.witness.witness import WitnessSet
 
 FORMAT = "nag-elimination"
 MOST_DEGREE = 100
@@ -78,19 +82,51 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     with compilation_notice(sys.stderr, options.quiet):
         from nag.interpolation.image_ideal import image_ideal
         from nag.interpolation.precise_samples import SourceError
-        from nag.interpolation.vanishing import InterpolationError
+        from nag.interpolation.vanishing import InterpolationError, NotRationalError
 
         try:
-            origin, cloud, top, tail = _cloud(options)
+            origin, cloud, top, tail, alike = _cloud(options)
             onto = _onto(options.onto, cloud.ambient.system.variables)
             with progress_line(sys.stderr, options.quiet) as progress:
-                found = image_ideal(cloud, onto, options.degree, options.polynomial, progress)
+                how = options.degree, options.polynomial, progress
+                try:
+                    found = image_ideal(cloud, onto, *how)
+                except NotRationalError:
+                    together = _together(cloud, alike, onto)
+                    if len(together) < 2:
+                        raise
+                    found = image_ideal(cloud.with_further(list(together.values())[1:]), onto, *how)
+                    found = replace(found, self_conjugate=None, together=tuple(sorted(together)))
         except (SourceError, InterpolationError) as error:
             raise UsageError(f"{options.case}: {error}") from None
     complete = not found.note and not tail
     if options.json is not None:
         write_document(_document(found, origin, options, complete), options.json)
     return _lines(found, origin["title"], top, tail, options), complete
+
+
+def _together(
+    cloud: Cloud, alike: Mapping[int, WitnessSet], onto: tuple[int, ...] | None
+) -> dict[int, Source]:
+    """What points of components are sampled from, among which are all conjugates of the first one.
+
+    Conjugate ones over the rational numbers have the same dimension, degree and multiplicity, and
+    images of the same dimension.
+
+    Args:
+        alike: components with those numbers, the first one first, by their own numbers.
+    """
+    from nag.interpolation.precise_samples import source_of_component
+
+    found = {k: source_of_component(cloud.source.system, c) for k, c in alike.items()}
+    if onto is None:
+        return found
+    dimension = cloud.image_dimension(onto)
+    return {
+        k: source
+        for k, source in found.items()
+        if cloud.of_source(source).image_dimension(onto) == dimension
+    }
 
 
 def _lines(
@@ -149,10 +185,15 @@ def _onto(text: str | None, variables: tuple[str, ...]) -> tuple[int, ...] | Non
 
 
 Labelled = list[tuple[str, str]]
+Begun = tuple[dict[str, str], "Cloud", Labelled, Labelled, Mapping[int, "WitnessSet"]]
 
 
-def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled, Labelled]:
-    """Title and file of the case, the points, and what is said of them at the top and below."""
+def _cloud(options: argparse.Namespace) -> Begun:
+    """What is begun with.
+
+    Title and file of the case, the points, what is said of them at the top and below, and the
+    components that may be conjugates of this one, by their numbers, this one first.
+    """
     import numpy as np
 
     from nag.interpolation.point_cloud import Ambient, Cloud
@@ -183,7 +224,13 @@ def _cloud(options: argparse.Namespace) -> tuple[dict[str, str], Cloud, Labelled
     top = [("component", f"{kind}, {component.status}"), *top]
     tail = [*doubts(found), *([("open", component.note)] if component.note else [])]
     cloud = Cloud(source_of_component(system, component), ambient, rng, tracker)
-    return {"title": found.title, "file": found.file}, cloud, top, tail
+    others = enumerate(found.decomposition.components, 1)
+    alike = {number: component} | {k: c for k, c in others if _kind(c) == _kind(component)}
+    return {"title": found.title, "file": found.file}, cloud, top, tail, alike
+
+
+def _kind(component: WitnessSet) -> tuple[int, int, int]:
+    return component.dimension, component.degree, component.multiplicity
 
 
 def _euler(options: argparse.Namespace) -> str | None:
@@ -203,7 +250,7 @@ def _through_point(
     rng: np.random.Generator,
     tracker: Any,
     top: Labelled,
-) -> tuple[dict[str, str], Cloud, Labelled, Labelled]:
+) -> Begun:
     from pathlib import Path
 
     from nag.files.problem import points_of, system_of
@@ -229,7 +276,7 @@ def _through_point(
     which = "the reference configuration" if name == "reference" else name
     top = [("component", f"through {which}, of dimension {source.dimension}"), *top]
     origin = {"title": case.title, "file": Path(case.path).name}
-    return origin, Cloud(source, ambient, rng, tracker), top, []
+    return origin, Cloud(source, ambient, rng, tracker), top, [], {}
 
 
 def _ambient(model: Model) -> Ambient:
@@ -277,6 +324,9 @@ def _document(
         "zeros": {"dimension": found.zeros[0], "degree": found.zeros[1]},
         "cuts": found.cuts,
         "defines": found.defines,
+        "defines_union": found.defines_union,
+        "self_conjugate": found.self_conjugate,
+        "together": list(found.together),
         "digits": found.digits,
         "fresh": {"points": found.fresh[0], "digits": max(0, round(-found.fresh[1]))}
         if found.generators or found.maps

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import flint
 import numpy as np
 
 from nag.algebra.groebner import dimension_and_degree
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.polynomial import Exponents, Polynomial, divides
 from nag.interpolation.essential import VariableMap, essential_variables, maps
-from nag.interpolation.point_cloud import SMALL, Cloud
+from nag.interpolation.point_cloud import MORE_POINTS, SMALL, Cloud, monomial_values
 from nag.interpolation.proof import (
     FRESH_POINTS,
     Substitution,
@@ -22,14 +23,17 @@ from nag.interpolation.proof import (
 )
 from nag.interpolation.vanishing import (
     DIGITS,
+    MOST_MONOMIALS,
     Interpolated,
     InterpolationError,
     TooManyMonomialsError,
     leading_monomial,
+    monomials_of_degree,
     next_degree,
     primitive,
     start,
 )
+from nag.numerics.rational_relations import rank_of_columns
 from nag.witness.cutting import numerical_corank
 
 # Where no degree is asked for, no higher one is looked at.
@@ -37,6 +41,8 @@ MOST_DEGREE = 12
 # Degrees beyond the one that makes a curve a component of the zeros, while there are not more
 # independent functions than this, to learn whether it is the only one.
 MORE_DEGREES, ENOUGH_MONOMIALS = 2, 120
+# Digits beyond those of points in which their monomials are computed.
+SPARE = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +50,8 @@ class ImageIdeal:
     """What is known of the closure of the image of a component.
 
     Polynomials have rational coefficients: of a component that is not kept by the conjugation of
-    complex numbers, it is the image together with its conjugate.
+    complex numbers, they are those of the image together with its conjugate, and of components that
+    were taken together, of all their images.
 
     Attributes:
         variables: names of all variables.
@@ -63,6 +70,11 @@ class ImageIdeal:
         digits: in which the coefficients were recognised.
         fresh: number of points, and the decimal logarithm of the largest value there, of a test
             of everything at new points.
+        defines_union: whether it is certain that the generators' zeros are the image with its
+            conjugate, or all images that were taken together, but for sets of lower dimension;
+            defines: whether they are the image alone.
+        self_conjugate: whether the image is its own conjugate; None where that is not known.
+        together: numbers of the components that were taken together; empty for one.
         note: why degrees are missing; empty otherwise.
     """
 
@@ -77,10 +89,17 @@ class ImageIdeal:
     map_proofs: tuple[str, ...]
     zeros: tuple[int, int]
     cuts: bool
-    defines: bool
+    defines_union: bool
+    self_conjugate: bool | None
     digits: int
     fresh: tuple[int, float]
+    together: tuple[int, ...] = ()
     note: str = ""
+
+    @property
+    def defines(self) -> bool:
+        """Whether the image alone is certain to be all zeros but for sets of lower dimension."""
+        return self.defines_union and self.self_conjugate is True and not self.together
 
     @property
     def missing(self) -> tuple[int, ...]:
@@ -146,7 +165,8 @@ def image_ideal(
         map_proofs=tuple(proofs[len(generators) :]),
         zeros=common_zeros(known),
         cuts=_cuts(cloud, known, dimension),
-        defines=_defines(known, dimension),
+        defines_union=_defines(known, dimension),
+        self_conjugate=is_self_conjugate(cloud, known, dimension),
         digits=known.digits,
         fresh=(FRESH_POINTS, worst),
         note=note,
@@ -203,12 +223,58 @@ def common_zeros(known: Interpolated) -> tuple[int, int]:
     return dimension_and_degree(monomials, len(known.coordinates))
 
 
-def _defines(known: Interpolated, dimension: int) -> bool:
-    """Whether it is certain that the image is all of the zeros but for sets of lower dimension.
+def is_self_conjugate(cloud: Cloud, known: Interpolated, dimension: int) -> bool | None:
+    """Whether the image is its own conjugate, as it is if real polynomials define it.
 
-    The image is irreducible and lies among them, so it is enough that dimension and degree agree.
-    A hypersurface's equation of least degree is irreducible. The degree of a curve is at least the
-    number of functions that one degree more adds (its hyperplane section has no fewer conditions).
+    The component through a regular rational point is: so is its conjugate through that point. An
+    image Y that is not lies, with its conjugate, among the common zeros, so that Y has at most half
+    their degree; and an irreducible set is cut out by polynomials of at most its degree. One of
+    these vanishes on Y only: more monomials up to that degree are dependent on Y over the complex
+    numbers than over the real ones.
+
+    Returns:
+        None where there are too many monomials, or the degree of the zeros is not known.
+    """
+    if cloud.source.exact is not None or dimension == len(known.coordinates):
+        return True
+    zeros = common_zeros(known)
+    half = zeros[1] // 2 if zeros[0] == dimension else known.degree
+    monomials, degree = list(known.standard), known.degree
+    leading = [leading_monomial(f) for f in known.basis]
+    while degree < half and len(monomials) <= MOST_MONOMIALS:
+        degree += 1
+        more = monomials_of_degree(len(known.coordinates), degree)
+        monomials += [e for e in more if not any(divides(m, e) for m in leading)]
+    monomials = [e for e in monomials if sum(e) <= half]
+    enough = zeros[0] == dimension and len(monomials) <= MOST_MONOMIALS
+    if len(monomials) > MOST_MONOMIALS:
+        monomials = list(known.standard)
+    independent = are_independent(cloud, known.coordinates, monomials)
+    return independent if enough or independent is False else None
+
+
+def are_independent(
+    cloud: Cloud, coordinates: Sequence[int], monomials: Sequence[Exponents]
+) -> bool | None:
+    """Whether monomials are independent over the complex numbers on the image; None if unclear."""
+    count = len(monomials) + MORE_POINTS
+    for digits in DIGITS:
+        points = [[p[i] for i in coordinates] for p in cloud.balls(count, digits)]
+        with flint.ctx.workdps(digits + SPARE):
+            values = monomial_values(points, monomials)
+            found = rank_of_columns([values[e] for e in monomials], digits)
+        if found is not None:
+            return found == len(monomials)
+    return None
+
+
+def _defines(known: Interpolated, dimension: int) -> bool:
+    """Whether it is certain that all zeros are images, but for sets of lower dimension.
+
+    The image with its conjugate, or several that were taken together, are of one dimension and lie
+    among the zeros, so it is enough that dimension and degree agree. A hypersurface's equation of
+    least degree has no other factors. The degree of a curve is at least the number of functions
+    that one degree more adds (its hyperplane section has no fewer conditions).
     """
     k, zeros = len(known.coordinates), common_zeros(known)
     if zeros[0] != dimension:

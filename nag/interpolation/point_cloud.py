@@ -91,6 +91,14 @@ class Cloud:
         self._samples: list[Sample] = []
         self._balls: dict[int, list[list[flint.acb]]] = {}
 
+    def with_further(self, further: Sequence[Source]) -> Cloud:
+        """A cloud of the same source and further ones, without points yet."""
+        return Cloud(self.source, self.ambient, self._rng, self._tracker, further)
+
+    def of_source(self, source: Source) -> Cloud:
+        """A cloud of another source, in the same variables."""
+        return Cloud(source, self.ambient, self._rng, self._tracker)
+
     @property
     def count(self) -> int:
         """How many points are there so far."""

@@ -47,6 +47,10 @@ class InterpolationError(ValueError):
     """Polynomials that are not found, with the reason in one line."""
 
 
+class NotRationalError(InterpolationError):
+    """Coefficients that are no rational numbers."""
+
+
 class TooManyMonomialsError(InterpolationError):
     """A degree with more monomials than are looked at."""
 
@@ -163,8 +167,8 @@ def _too_many(count: int, degree: int, variables: int, most: int) -> TooManyMono
     )
 
 
-def _not_rational(degree: int) -> InterpolationError:
-    return InterpolationError(
+def _not_rational(degree: int) -> NotRationalError:
+    return NotRationalError(
         f"the polynomials of degree {degree} have coefficients that are not recognised as "
         f"rational numbers in {DIGITS[-1]} digits: the component is not defined over the "
         "rational numbers"

@@ -44,6 +44,32 @@ def clearly_independent(columns: np.ndarray) -> bool:
     return bool(np.linalg.svd(real, compute_uv=False).min(initial=1.0) > CLEAR)
 
 
+def rank_of_columns(columns: Sequence[Sequence[flint.acb]], digits: int) -> int | None:
+    """The rank over the complex numbers of columns of balls; None if these digits do not tell it.
+
+    A column depends on those before it where nothing of it is left but balls that contain zero, and
+    these are small.
+    """
+    limit = flint.arb(10) ** int(-SHARP * digits)
+    left = [list(column) for column in columns]
+    sizes = [max((float(abs(z).mid()) for z in column), default=0.0) for column in columns]
+    rank = 0
+    for k, column in enumerate(left):
+        pivot = max(range(len(column)), key=lambda i: float(column[i].abs_lower()))
+        if column[pivot].contains(0):
+            if any(flint.arb(z.abs_upper()) > limit * (1 + sizes[k]) for z in column):
+                return None
+            continue
+        rank += 1
+        inverse = 1 / column[pivot]
+        for other in left[k + 1 :]:
+            factor = other[pivot] * inverse
+            for i, z in enumerate(column):
+                other[i] = other[i] - factor * z
+            other[pivot] = flint.acb(0)
+    return rank
+
+
 class Echelon:
     """Independent columns of real balls in echelon form, pivots chosen among the rows.
 

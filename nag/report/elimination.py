@@ -23,6 +23,9 @@ PROOFS = {
 }
 
 
+NO_OTHERS = "the equations have no other zeros but for sets of lower dimension"
+
+
 def elimination_lines(found: ImageIdeal) -> list[str]:
     """Equations, what they rest on, the maps and the variables without one."""
     lines = ["equations"]
@@ -63,7 +66,7 @@ def whole_fraction(m: VariableMap) -> tuple[Polynomial, Polynomial]:
     k = m.numerator.n
     # One polynomial that holds both: the denominator times a variable of its own, the first one.
     joined = {(0, *e): c for e, c in m.numerator.terms.items()}
-    joined |= {(1 + m.numerator.degree, *e): c for e, c in m.denominator.terms.items()}
+    joined |= {(1 + max(0, m.numerator.degree), *e): c for e, c in m.denominator.terms.items()}
     terms = primitive(Polynomial(k + 1, joined)).terms
     above = Polynomial(k, {e[1:]: c for e, c in terms.items() if not e[0]})
     below = Polynomial(k, {e[1:]: c for e, c in terms.items() if e[0]})
@@ -94,10 +97,19 @@ def image_text(found: ImageIdeal) -> str:
     if found.dimension == len(found.coordinates):
         return f"{text}: no polynomial vanishes on it"
     if found.defines:
+        return f"{text}, degree {found.zeros[1]}: {NO_OTHERS}"
+    whole = f", of degree {found.zeros[1]} together: {NO_OTHERS}" if found.defines_union else ""
+    if found.together:
+        numbers = [str(number) for number in found.together]
+        names = f"{', '.join(numbers[:-1])} and {numbers[-1]}"
         return (
-            f"{text}, degree {found.zeros[1]}: the equations have no other zeros but for sets of "
-            "lower dimension"
+            f"{text}, without rational equations of its own: those of components "
+            f"{names} hold, among which are its conjugates{whole}"
         )
+    if found.self_conjugate is False:
+        return f"{text}, not its own conjugate: the equations hold on both{whole}"
+    if found.self_conjugate is None and found.defines_union:
+        return f"{text}: the equations hold on it and on its conjugate, which may be another{whole}"
     if found.cuts:
         return f"{text}: a component of the equations' common zeros; there may be others"
     return f"{text}: equations of higher degree are missing"

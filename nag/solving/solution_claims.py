@@ -154,6 +154,8 @@ def _ends(result: SolveResult) -> list[Claim]:
     claims = []
     for key, text in (
         ("on_components", "that it is on a set of positive dimension"),
+        ("on_excluded", "that it is on a set of positive dimension, all of which is left out"),
+        ("on_doubtful", "that it is on a set of positive dimension, which may be left out"),
         ("undecided", "that it is a solution, isolated or not"),
     ):
         ends = np.asarray(getattr(result, key), dtype=complex)
@@ -162,7 +164,7 @@ def _ends(result: SolveResult) -> list[Claim]:
             continue
         zeros = evaluator.residuals(ends).max(axis=1, initial=0.0) <= NEARLY
         found = certify_regular_points(result.system.polynomials, none, ends, np.zeros(len(ends)))
-        isolated = found.boxes.proved if key == "on_components" else np.zeros(len(ends), dtype=bool)
+        isolated = found.boxes.proved if key != "undecided" else np.zeros(len(ends), dtype=bool)
         standings = [
             Standing.UNSEEN if zero and not alone else Standing.DOUBTED
             for zero, alone in zip(zeros, isolated, strict=True)
