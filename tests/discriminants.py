@@ -1,14 +1,16 @@
 """For which parameters families have singular members, against exact elimination.
 
-    python tests/discriminants.py [--seeds 0:1] [--only TEXT] [--threads N] [--limit SECONDS]
+    python tests/discriminants.py [--seeds 0:1] [--only TEXT] [--random] [--threads N]
+        [--limit SECONDS]
 
-Each seed draws other whole coefficients for the families. The oracle is Singular: the elimination
-ideal of the equations and the minors of their Jacobian, and its minimal primes over the rational
-numbers. Where it is not installed or too slow, families in one variable have the discriminant that
-sympy finds; others have no oracle. Prints a line for what is wrong or open, and a table by the
-largest degree of a condition: right, open (and said so), wrong, without an oracle. Exit status 1 if
-an answer is wrong: a condition that is no component, or a component that is missing where nothing
-is said to be open.
+Each seed draws other whole coefficients for the families; with `--random`, it draws one family of
+one or two sparse equations, in one to three variables and parameters. The oracle is Singular: the
+elimination ideal of the equations and the minors of their Jacobian, and its minimal primes over the
+rational numbers. Where it is not installed or too slow, families in one variable have the
+discriminant that sympy finds; others have no oracle. Prints a line for each family, and a table by
+the largest degree of a condition: right, open (and said so), wrong, without an oracle. Exit status
+1 if an answer is wrong: a condition that is no component, or a component that is missing where
+nothing is said to be open.
 """
 
 from __future__ import annotations
@@ -103,6 +105,9 @@ FAMILIES = (
 LIBRARIES = 'LIB "primdec.lib"; LIB "elim.lib"; option(redSB); option(noredefine);'
 
 
+# How often a coefficient has a parameter, and a number is added to it.
+WITH_PARAMETER, WITH_NUMBER = 0.6, 0.3
+
 # Families at which a process of Singular's ended.
 ENDED: list[str] = []
 
@@ -134,6 +139,26 @@ def family(number: int, seed: int) -> Family:
     text = first + "".join(c + piece for c, piece in zip(drawn, rest, strict=True))
     system = nag.system(text.split(";"), f"{variables} {parameters}")
     return Family(text, system, len(parameters.split()))
+
+
+def random_family(seed: int) -> Family:
+    """Few terms of degree three at most, their coefficients with and without parameters."""
+    rng = np.random.default_rng([seed, 1000])
+    variables = "xyz"[: rng.integers(1, 4)]
+    parameters = "abc"[: rng.integers(1, 4)]
+    texts = []
+    for _ in range(min(len(variables), int(rng.integers(1, 3)))):
+        terms = []
+        for _ in range(int(rng.integers(3, 6))):
+            factors = [str(int(rng.integers(1, 6)) * int(rng.choice([-1, 1])))]
+            factors += list(rng.choice(list(variables), int(rng.integers(0, 4))))
+            if rng.random() < WITH_PARAMETER:
+                form = "{} + {}" if rng.random() < WITH_NUMBER else "{}"
+                factors.append("(" + form.format(rng.choice(list(parameters)), seed % 5 - 2) + ")")
+            terms.append("*".join(factors))
+        texts.append(" + ".join(f"({term})" for term in terms))
+    system = nag.system(texts, " ".join(variables + parameters))
+    return Family("; ".join(texts), system, len(parameters))
 
 
 def minors(of: Family) -> list[Polynomial]:
@@ -218,13 +243,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--seeds", default="0:1", help="first and last but one: 0:10")
     parser.add_argument("--only", default="", help="families whose text holds this")
+    parser.add_argument("--random", action="store_true", help="one random family a seed")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--limit", type=float, default=60.0, help="seconds for the oracle")
     options = parser.parse_args(arguments)
     counts: Counter[tuple[int, str]] = Counter()
     for seed in range(*map(int, options.seeds.split(":"))):
-        for number in range(len(FAMILIES)):
-            of = family(number, seed)
+        drawn = [family(number, seed) for number in range(len(FAMILIES))]
+        for of in [random_family(seed)] if options.random else drawn:
             if options.only in of.text:
                 counts[judged(of, seed, options.threads, options.limit)] += 1
     words = ("right", "open", "wrong", "no oracle")

@@ -37,6 +37,12 @@ FAMILIES = {
         2,
         {"27*a^2 + 54*a*b + 27*b^2 - 4 = 0"},
     ),
+    "conjugate lines of two kinds": (
+        "y^2 - (x^3 - 2)*(x - a)*(x - b)",
+        "x y a b",
+        2,
+        {"a - b = 0", "a^3 - 2 = 0", "b^3 - 2 = 0"},
+    ),
     "values of two kinds": (
         "y^2 - x^5 + 2*x^2 - a",
         "x y a",

@@ -30,11 +30,13 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.rank_drop import BITS, new_names, product
+from nag.interpolation.conjugates import conjugate_classes
 from nag.interpolation.image_ideal import common_zeros, equations_of_image
 from nag.interpolation.point_cloud import Ambient, Cloud
 from nag.interpolation.precise_samples import Source, SourceError, source_of_component
 from nag.interpolation.proof import largest_value, proved_by_reduction
 from nag.interpolation.vanishing import (
+    Interpolated,
     InterpolationError,
     TooManyMonomialsError,
     hypersurface_equation,
@@ -323,11 +325,20 @@ def _set_alone(family: _Family, image: _Image) -> ParameterSet:
     if image.dimension < count - 1:
         return _small_set(family, image.cloud, image.dimension, degree)
     known = hypersurface_equation(image.cloud, family.coordinates, degree)
+    return _hypersurface(family, image.cloud, known)
+
+
+def _hypersurface(family: _Family, cloud: Cloud, known: Interpolated) -> ParameterSet:
+    """The set of which the equation is known.
+
+    Raises:
+        InterpolationError: if it is not irreducible, or does not hold elsewhere.
+    """
     equation = _primitive(known.basis[0])
-    if [k for _, k in factored(equation)] != [1] or equation.degree != degree:
+    if [k for _, k in factored(equation)] != [1] or equation.degree != known.degree:
         raise InterpolationError("the set is not defined over the rational numbers")
-    proof = _proof(family, image.cloud, equation, known.digits)
-    return ParameterSet((equation,), image.dimension, degree, proof)
+    proof = _proof(family, cloud, equation, known.digits)
+    return ParameterSet((equation,), len(family.coordinates) - 1, known.degree, proof)
 
 
 def _image_degree(family: _Family, image: _Image) -> int:
@@ -386,44 +397,28 @@ def _united(images: Sequence[_Image]) -> list[list[_Image]]:
 
 
 def _sets_together(family: _Family, images: Sequence[_Image]) -> list[ParameterSet]:
-    """Images, all of one dimension, that are defined over the rational numbers together.
-
-    A polynomial of least degree that vanishes on hypersurfaces is the product of their equations;
-    its irreducible factors are those of the sets. Smaller sets are told apart by the factors of
-    their equations.
+    """The sets that images, all of one dimension, are where conjugate ones are taken together.
 
     Raises:
-        InterpolationError: if they are not.
-        _OpenError: if their equations are not known for another reason.
+        InterpolationError: if some are conjugate to others that are not among them.
+        _OpenError: if equations are not known for another reason.
     """
-    cloud = family.cloud([image.cloud.source for image in images])
-    dimension = images[0].dimension
-    degree = sum(_image_degree(family, image) for image in images)
-    if dimension < len(family.coordinates) - 1:
-        found = _small_set(family, cloud, dimension, degree)
-        parts = _parted(family, images, found.equations)
-        return [found] if len(parts) == 1 else [s for p in parts for s in _sets_together(family, p)]
-    known, _ = equations_of_image(cloud, family.coordinates, dimension, degree)
-    if len(known.generators) != 1:
-        raise _OpenError(f"it has no equation of degree up to {degree}")
-    proof = _proof(family, cloud, known.generators[0], known.digits)
-    factors = [_primitive(f) for f, _ in factored(known.generators[0])]
-    return [ParameterSet((f,), dimension, f.degree, proof) for f in factors]
-
-
-def _parted(
-    family: _Family, images: Sequence[_Image], equations: Sequence[Polynomial]
-) -> list[list[_Image]]:
-    """Images by the factors of an equation that they are zeros of, if one has several factors."""
-    for f in equations:
-        factors = [p for p, _ in factored(f)]
-        if len(factors) > 1:
-            parts: dict[int, list[_Image]] = {}
-            for image in images:
-                held = [image.satisfies((p,), family.coordinates) for p in factors]
-                parts.setdefault(held.index(True), []).append(image)
-            return list(parts.values())
-    return [list(images)]
+    rng, sources = np.random.default_rng([family.seed, 10]), [i.cloud.source for i in images]
+    dimension, coordinates = images[0].dimension, family.coordinates
+    found = []
+    for each in conjugate_classes(sources, coordinates, dimension, rng, family.tracker):
+        cloud = family.cloud([sources[i] for i in each.members])
+        if dimension < len(coordinates) - 1:
+            found.append(_small_set(family, cloud, dimension, each.degree))
+        elif dimension == 0:
+            values = enumerate(each.polynomial.coeffs())
+            f = Polynomial(1, {(k,): Fraction(int(c.p), int(c.q)) for k, c in values if c})
+            proof = _proof(family, cloud, f, DIGITS)
+            found.append(ParameterSet((_primitive(f),), 0, each.degree, proof))
+        else:
+            known = hypersurface_equation(cloud, coordinates, each.degree)
+            found.append(_hypersurface(family, cloud, known))
+    return found
 
 
 def _written(f: Polynomial) -> tuple[int, tuple[int, ...]]:

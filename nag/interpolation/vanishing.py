@@ -14,6 +14,7 @@ from fractions import Fraction
 from math import comb, gcd, lcm
 
 import flint
+import numpy as np
 
 from nag.algebra.multipliers import order
 from nag.algebra.polynomial import Polynomial, divides
@@ -37,8 +38,8 @@ DIGITS = (100, 250, 700)
 MOST_MONOMIALS = 400
 # Coefficients of one polynomial of known degree, which are solved for together.
 MOST_COEFFICIENTS = 500
-# The linear form of these that is one has powers of a number modulo a prime for coefficients.
-BASE, PRIME = 5, 10007
+# A linear form of these is one: its coefficients are random whole numbers up to this.
+LARGEST_NUMBER = 10**6
 # Entries of a matrix of multiples of equations.
 MOST_ENTRIES = 4_000_000
 
@@ -276,13 +277,14 @@ def hypersurface_equation(cloud: Cloud, coordinates: Sequence[int], degree: int)
     if total > MOST_COEFFICIENTS:
         raise _too_many(total, degree, k, MOST_COEFFICIENTS)
     monomials = [e for d in range(degree + 1) for e in monomials_of_degree(k, d)]
+    form = np.random.default_rng(total).integers(1, LARGEST_NUMBER, total).tolist()
     for digits in DIGITS:
         points = [[p[i] for i in coordinates] for p in cloud.balls((total + 1) // 2, digits)]
         with flint.ctx.workdps(digits + 20):
             values = monomial_values(points, monomials)
             columns = [real_rows(values[e])[: total - 1] for e in monomials]
-            form = [flint.arb(pow(BASE, j, PRIME)) for j in range(total)]
-            entries = [*(column[i] for i in range(total - 1) for column in columns), *form]
+            entries = [column[i] for i in range(total - 1) for column in columns]
+            entries += map(flint.arb, form)
             right = flint.arb_mat(total, 1, [0] * (total - 1) + [1])
             try:
                 solution = flint.arb_mat(total, total, entries).solve(right).entries()
