@@ -68,16 +68,17 @@ def test_samples_depend_on_the_seed_and_on_nothing_else() -> None:
 def test_paths_that_fail_end_the_sampling_with_what_was_found(monkeypatch) -> None:
     circle = system("x y", "x^2 + y^2 - 1")
     component = decompose(circle).components[0]
-    moves, true_move = [], moving.move_together
+    moves, true_move = [], moving.move
 
-    def failing(*arguments: object) -> object:
+    def failing(*arguments: object, **options: object) -> object:
         moves.append(arguments)
-        for fibre, ends in true_move(*arguments):
+        found = true_move(*arguments, **options)
+        for ends in found:
             if len(moves) > 2:
                 ends.regular[:] = False
-            yield fibre, ends
+        return found
 
-    monkeypatch.setattr(moving, "move_together", failing)
+    monkeypatch.setattr(moving, "move", failing)
     with pytest.raises(SamplingError, match="point 3 of 5: the path to it failed") as error:
         sample(circle, component, 5)
     assert error.value.found.points.shape == (2, 2)

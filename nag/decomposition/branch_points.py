@@ -93,7 +93,7 @@ def _sum_of_squares(
         total = flint.acb(0)
     for fibre in sheets.fibres:
         gamma = complex(unit_complex(rng))
-        ends = move(fibre, sheets.rows(sheets.base), sheets.rows(t), gamma, tracker)
+        (ends,) = move([fibre], sheets.rows(sheets.base), sheets.rows(t), gamma, tracker)
         if not ends.regular.all():
             raise BranchPointError("paths to another slice failed")
         system = ExactSystem.of(

@@ -25,10 +25,11 @@ from nag.decomposition.factor import IntersectionError
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.rank_drop import rank_drop
 from nag.witness.component_equations import component_fibres
-from nag.witness.fibres import Tracker, carried
+from nag.witness.fibres import Tracker, move_regular
 from nag.witness.given_component import check_component
 from nag.witness.points import with_fine
-from nag.witness.slices import random_rows, unit_complex
+from nag.witness.slices import unit_complex
+from nag.witness.units import Units
 from nag.witness.witness import WitnessSet
 
 # Corners of a circle, and its radius beside the distance of the next branch point.
@@ -120,9 +121,9 @@ def _sheets(
     system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
 ) -> Sheets:
     """The curve's points over a random value of a random form."""
-    row = random_rows(rng, 1, system.n)
+    row = Units.of(system.polynomials, system.n).random_rows(rng, 1)
     gamma = complex(unit_complex(rng))
-    fibres, _ = carried(
+    fibres, _ = move_regular(
         component_fibres(system, component), component.slice.rows, row, gamma, tracker
     )
     if fibres is None:
@@ -179,7 +180,7 @@ class _Cover:
         # Seen from outside, one after the other from the right to the left.
         self.values = sorted(values, key=lambda v: np.angle((v - base) / inwards))
         gamma, rows = complex(unit_complex(rng)), sheets.rows
-        fibres, _ = carried(sheets.fibres, rows(sheets.base), rows(base), gamma, tracker)
+        fibres, _ = move_regular(sheets.fibres, rows(sheets.base), rows(base), gamma, tracker)
         if fibres is None:
             raise GenusError("paths to the base point failed")
         self.sheets = Sheets(tuple(with_fine(fibres, rows(base))), sheets.normal, base)
@@ -189,7 +190,7 @@ class _Cover:
         rows, last = self.sheets.rows, self.sheets.base
         fibres = list(self.sheets.fibres)
         for t in [*corners, self.sheets.base]:
-            there, _ = carried(fibres, rows(last), rows(t), 1.0, self.tracker)
+            there, _ = move_regular(fibres, rows(last), rows(t), 1.0, self.tracker)
             if there is None:
                 raise GenusError("paths round a branch point failed")
             # Near a cusp sheets are closer to each other than to the value.

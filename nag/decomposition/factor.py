@@ -11,7 +11,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, Tracker, carried, cut_fibres
+from nag.witness.fibres import Fibre, Tracker, cut_fibres, move_regular
 from nag.witness.moving import orthonormal_rows
 from nag.witness.slices import unit_complex
 from nag.witness.units import Units
@@ -105,4 +105,4 @@ def on_flag(
     if len(rows) == 0:
         return fibres, PathCounts()
     gamma = complex(unit_complex(rng))
-    return carried(fibres, rows, flag[: len(rows)], gamma, tracker)
+    return move_regular(fibres, rows, flag[: len(rows)], gamma, tracker)

@@ -76,8 +76,7 @@ def _multidegree(
         finite = 0
         if d == 0 or np.linalg.matrix_rank(target[:, 1:]) == d:
             gamma = complex(unit_complex(rng))
-            for fibre in fibres:
-                ends = move(fibre, rows, target, gamma, tracker, endgame=True)
+            for ends in move(fibres, rows, target, gamma, tracker, endgame=True):
                 counts += ends.counts
                 if ends.failed.any():
                     return None, counts

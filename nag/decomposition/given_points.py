@@ -90,7 +90,7 @@ class CommonSlices:
         z, error, counts = fibre.points[0], start.accuracy, PathCounts()
         if d:
             gamma = complex(unit_complex(rng))
-            ends = move(fibre, rows, self.flag[:d], gamma, tracker)
+            (ends,) = move([fibre], rows, self.flag[:d], gamma, tracker)
             z, error, counts = ends.points[0], float(ends.accuracy[0]), ends.counts.judged_elsewhere
             if not ends.regular.all():
                 return self, None, counts

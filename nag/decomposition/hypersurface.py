@@ -24,10 +24,10 @@ from nag.witness.fibres import (
     Fibre,
     Moved,
     Tracker,
+    ends_of_paths,
     homogeneous,
     joined,
-    moved,
-    moved_close,
+    track_close_points,
 )
 from nag.witness.points import with_fine
 from nag.witness.slices import padded, unit_complex
@@ -109,7 +109,7 @@ def intersect(
     )
     homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
     paths = track(homotopy, points, settings=tracker.settings, threads=tracker.threads)
-    return moved(paths, keep=total)
+    return ends_of_paths(paths, keep=total)
 
 
 def _on_line(f: Polynomial, rows: np.ndarray) -> Moved | None:
@@ -156,7 +156,9 @@ def _intersect_close(
     target[d - 1, -1] = 1
     starts = [start for i in indices for start in with_roots(fibre.fine[i], f)]
     homotopy = moving_rows(_with_power(cut, f), source, target, gamma)
-    close = moved_close(homotopy, starts, cut.extended(f), flag[: d - 1], tracker, endgame=True)
+    close = track_close_points(
+        homotopy, starts, cut.extended(f), flag[: d - 1], tracker, endgame=True
+    )
     places = {
         k: (own[:, None] * degree + np.arange(degree)).ravel()
         for k, own in enumerate((plain, indices))

@@ -11,7 +11,7 @@ import numpy as np
 from nag.numerics.coincidence import BEYOND, MISS, compared
 from nag.witness.close_points import Fine, distance
 from nag.witness.fibres import Tracker
-from nag.witness.points import Points, moved_points
+from nag.witness.points import Points, move_points
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
@@ -143,8 +143,8 @@ def loop(
         middle[:, 1:] /= np.maximum(sizes, LEAST_SIZE * sizes.max())
         middle /= np.linalg.norm(middle[:, 1:], axis=1, keepdims=True)
     out, back = (complex(g) for g in unit_complex(rng, 2))
-    half, origins, counts = moved_points(points, start, middle, out, tracker)
-    again, order, spent = moved_points(half, range(len(half)), points.rows, back, tracker)
+    half, origins, counts = move_points(points, start, middle, out, tracker)
+    again, order, spent = move_points(half, range(len(half)), points.rows, back, tracker)
     places = located(again, points)
     if places is not None and not ends_are_distinct(again, places):
         places = None

@@ -16,7 +16,7 @@ from nag.decomposition.monodromy import places_among
 from nag.decomposition.splitting import Class, split
 from nag.witness.fibres import Tracker
 from nag.witness.frame import Frame
-from nag.witness.points import Points, moved_points
+from nag.witness.points import Points, move_points
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts
 
@@ -163,7 +163,7 @@ def _places(
     counts, there = PathCounts(), points.x[indices]
     if points.dimension:
         target, gamma = action.pulled_back(points.rows), complex(unit_complex(rng))
-        moved, _, counts = moved_points(points, indices, target, gamma, tracker)
+        moved, _, counts = move_points(points, indices, target, gamma, tracker)
         there = moved.x
     if len(there) < len(indices):
         return None, counts

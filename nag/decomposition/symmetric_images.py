@@ -150,7 +150,7 @@ def _moved(
         return images, 0.0, PathCounts()
     moved = Fibre(fibre.cut, fibre.dimension, images)
     there = rows * np.concatenate([[1.0], factor])
-    ends = move(moved, there, rows, complex(unit_complex(rng)), tracker)
+    (ends,) = move([moved], there, rows, complex(unit_complex(rng)), tracker)
     if not ends.regular.all():
         return None, 0.0, ends.counts.judged_elsewhere
     return ends.points, float(ends.accuracy.max(initial=0.0)), ends.counts.judged_elsewhere

@@ -18,7 +18,7 @@ from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.track import track
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Tracker, homogeneous, moved
+from nag.witness.fibres import Tracker, ends_of_paths, homogeneous
 from nag.witness.slices import random_rows
 from nag.witness.witness import PathCounts
 
@@ -49,7 +49,7 @@ def section_at_once(
         tracker.threads,
         endgame=False,
     )
-    ends = moved(paths, keep=n)
+    ends = ends_of_paths(paths, keep=n)
     if not ends.regular.all():
         return None, counts
     return Superset({d: [ends.fibre(own, d, range(len(x)))]}, flag, PathCounts(), ()), counts

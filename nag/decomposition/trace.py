@@ -111,7 +111,8 @@ class Trace:
             starts = _numbered(fibre, (1.0, -1.0))
             target = self._slices(points.rows, starts.cut)
             source = padded(points.rows, target.shape[1])
-            there = move(starts, source, target, self.gamma, tracker)
+            sizes = points.sizes
+            (there,) = move([starts], source, target, self.gamma, tracker, sizes=sizes)
             counts += there.counts.judged_elsewhere
             if not there.regular.all():
                 return None, counts

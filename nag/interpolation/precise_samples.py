@@ -24,6 +24,7 @@ from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.sampling import at_random
 from nag.witness.slices import padded, rows_through
+from nag.witness.units import Units
 from nag.witness.witness import WitnessSet
 
 # Digits beyond those asked for in which Newton's method computes.
@@ -92,7 +93,8 @@ def source_at(
     if dimension == 0:
         raise SourceError("the point is isolated; there is nothing to eliminate from")
     x = np.array([complex(float(c)) for c in point])
-    rows = rows_through(rng, dimension, x)
+    sizes = Units.of(system.polynomials, system.n).sizes
+    rows = rows_through(rng, dimension, x, np.concatenate([[1.0], sizes]))
     found = find_cut(Equations(system.polynomials, system.n), rows, x, ROUNDED, rng, False)
     if found is None:
         raise SourceError("the point is too near to a singular one")

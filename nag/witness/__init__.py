@@ -2,7 +2,7 @@
 
 Read in this order: `witness` (the data; `at_prompt` and `shown` for users), `slices`, `cutting`
 (the local equations that cut a set at its points) on `isosingular` (deflation), `fibres` and
-`points` (points on a slice, tracked to another), `comparable` (in coordinates of comparable sizes),
+`points` (points on a slice, tracked to another in coordinates of comparable sizes),
 `component_equations` (held, or found anew), `exact_points` (found in as many digits as are asked
 for), `close_points`, `confirm`, `multiplicity` and `close_to_sets` (what is known of them); then
 the operations on a set as it is given (`given_component`): `moving`, `membership`, `sampling`,

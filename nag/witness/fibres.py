@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 import numpy as np
 
@@ -33,7 +34,7 @@ from nag.witness.cutting import (
     regular_on,
     sharpen,
 )
-from nag.witness.slices import padded
+from nag.witness.slices import even_rows, padded
 from nag.witness.witness import PathCounts
 
 # Newton's constant of points that are close, over their inverse distance.
@@ -72,6 +73,11 @@ class Fibre:
     def x(self) -> np.ndarray:
         """The points without the unknowns that deflation added, shape ``(P, n)``."""
         return self.points[:, : self.cut.n]
+
+    @property
+    def sizes(self) -> np.ndarray:
+        """Sizes of the homogeneous coordinates ``(1, x)`` of the set, shape ``(1 + n,)``."""
+        return np.ldexp(1.0, np.concatenate([[0], self.cut.powers[: self.cut.n]]))
 
     def __len__(self) -> int:
         return len(self.points)
@@ -170,7 +176,7 @@ def affine(points: np.ndarray) -> np.ndarray:
     return points[:, 1:] / np.where(first == 0, 1e-300, first)
 
 
-def moved(paths: Paths, keep: int | None = None) -> Moved:
+def ends_of_paths(paths: Paths, keep: int | None = None) -> Moved:
     """The ends of ``paths`` as affine points, the first ``keep`` coordinates of them."""
     # NumPy takes long to compare with members of an enumeration.
     regular = paths.status == int(PathStatus.REGULAR)
@@ -210,25 +216,84 @@ def _words(ball: Ball) -> np.ndarray:
 
 
 def move(
+    fibres: Sequence[Fibre],
+    source: np.ndarray,
+    target: np.ndarray,
+    gamma: complex,
+    tracker: Tracker,
+    *,
+    endgame: bool = False,
+    through: Sequence[Number] = (),
+    sizes: np.ndarray | None = None,
+) -> list[Moved]:
+    """Move the slice of a set from the rows ``source`` to ``target``: the ends of each fibre.
+
+    All rows turn with the same ``gamma``: only then do all points of a fibre, and all fibres of a
+    set, move as one. Paths are tracked in coordinates in which those of the set are comparable: a
+    point's largest coordinates hide what Newton's method does to the others, and a generic slice
+    cuts by them alone; with lengths of 1e-8 beside angles one path in five failed. Scales are
+    powers of two, so that nothing is rounded.
+
+    Args:
+        through: an exact point that the target passes through. Where sheets cross, a slice that is
+            rounded beside the crossing meets them in as many points as near to each other.
+        sizes: those of a fibre of the set that rows are to be of comparable norms in, where not all
+            of its fibres are moved at once; else those of the first.
+    """
+    if not fibres:
+        return []
+    sizes = fibres[0].sizes if sizes is None else sizes
+    rows = even_rows(source, sizes), even_rows(target, sizes)
+    return [_move_scaled(fibre, *rows, gamma, tracker, endgame, through) for fibre in fibres]
+
+
+def _move_scaled(
     fibre: Fibre,
     source: np.ndarray,
     target: np.ndarray,
     gamma: complex,
     tracker: Tracker,
-    endgame: bool = False,
-    through: Sequence[Number] = (),
+    endgame: bool,
+    through: Sequence[Number],
 ) -> Moved:
-    """Move the slice of ``fibre`` from the rows ``source`` to the rows ``target``.
+    """The ends of a fibre, tracked in coordinates of comparable sizes."""
+    powers = fibre.cut.powers
+    if not powers.any():
+        return _track(fibre, source, target, gamma, tracker, endgame, through)
+    units = np.ldexp(1.0, np.concatenate([[0], powers]))[: target.shape[1]]
+    scaled = source * units, target * units
+    own = Fibre(fibre.cut.scaled, fibre.dimension, fibre.points * np.ldexp(1.0, -powers))
+    own = replace(own, fine=_scaled(fibre.fine, -powers, own.cut, scaled[0]))
+    there = [x * Fraction(2) ** -int(k) for x, k in zip(through, powers, strict=False)]
+    ends = _track(own, *scaled, gamma, tracker, endgame, there)
+    finite = np.where(ends.finite[:, None], ends.points, 0.0)
+    fine = _scaled(ends.fine, powers, fibre.cut, target)
+    return replace(ends, points=finite * np.ldexp(1.0, powers), fine=fine)
 
-    All rows turn with the same ``gamma``: only then do all points of a fibre, and all fibres of a
-    set, move as one.
 
-    Args:
-        through: an exact point that the target passes through. Where sheets cross, a slice that is
-            rounded beside the crossing meets them in as many points as near to each other.
+def _scaled(
+    fine: Mapping[int, Fine], powers: np.ndarray, cut: Cut, rows: np.ndarray
+) -> dict[int, Fine]:
+    """Points in coordinates that are two to the ``powers`` as large; Newton's constant is others.
+
+    There the points are zeros of ``cut`` on the slice ``rows``.
     """
+    words = {i: np.ldexp(each.words, powers[:, None, None]) for i, each in fine.items()}
+    return {i: rated(cut.polynomials, rows, replace(fine[i], words=w)) for i, w in words.items()}
+
+
+def _track(
+    fibre: Fibre,
+    source: np.ndarray,
+    target: np.ndarray,
+    gamma: complex,
+    tracker: Tracker,
+    endgame: bool,
+    through: Sequence[Number],
+) -> Moved:
+    """The ends of a fibre, tracked in its own coordinates."""
     if fibre.fine:
-        return _moved_apart(fibre, source, target, gamma, tracker, endgame, through)
+        return _track_apart(fibre, source, target, gamma, tracker, endgame, through)
     columns = 1 + fibre.cut.n + fibre.cut.aux
     if len(through):
         from nag.tracking.close_paths import moving_rows
@@ -245,10 +310,10 @@ def move(
         threads=tracker.threads,
         endgame=endgame,
     )
-    return moved(paths)
+    return ends_of_paths(paths)
 
 
-def _moved_apart(
+def _track_apart(
     fibre: Fibre,
     source: np.ndarray,
     target: np.ndarray,
@@ -257,7 +322,7 @@ def _moved_apart(
     endgame: bool,
     through: Sequence[Number],
 ) -> Moved:
-    """`move` where some points are close to others: their paths are tracked in more digits."""
+    """`_track` where some points are close to others: their paths are tracked in more digits."""
     from nag.tracking.close_paths import moving_rows
 
     indices = np.array(sorted(fibre.fine))
@@ -267,12 +332,12 @@ def _moved_apart(
     rows = padded(source, columns), padded(target, columns)
     starts = [fibre.fine[i] for i in indices]
     homotopy = moving_rows(fibre.cut.rows, *rows, gamma, through)
-    close = moved_close(homotopy, starts, fibre.cut, target, tracker, endgame)
-    others = move(rest, source, target, gamma, tracker, endgame, through)
+    close = track_close_points(homotopy, starts, fibre.cut, target, tracker, endgame)
+    others = _track(rest, source, target, gamma, tracker, endgame, through)
     return joined({0: plain, 1: indices}, (others, close))
 
 
-def moved_close(
+def track_close_points(
     homotopy: Homotopy,
     starts: Sequence[Fine],
     cut: Cut,
@@ -294,7 +359,7 @@ def moved_close(
         tracker.threads,
         endgame=endgame,
     )
-    close, total = moved(replace(paths, balls={}), keep=cut.n + cut.aux), cut.n + cut.aux
+    close, total = ends_of_paths(replace(paths, balls={}), keep=cut.n + cut.aux), cut.n + cut.aux
     fine = {
         i: rated(cut.polynomials, rows, affine_fine(_words(paths.balls[i]), 1.0).first(total))
         for i in np.flatnonzero(close.regular).tolist()
@@ -326,7 +391,7 @@ def join_fibres(parts: Sequence[Fibre]) -> Fibre:
     return Fibre(parts[0].cut, parts[0].dimension, points, fine)
 
 
-def carried(
+def move_regular(
     fibres: Sequence[Fibre],
     source: np.ndarray,
     target: np.ndarray,
@@ -335,8 +400,8 @@ def carried(
 ) -> tuple[list[Fibre] | None, PathCounts]:
     """The fibres on another generic slice, or None if a path did not arrive regularly."""
     counts, result = PathCounts(), []
-    for fibre in fibres:
-        ends = move(fibre, source, target, gamma, tracker)
+    moves = move(fibres, source, target, gamma, tracker)
+    for fibre, ends in zip(fibres, moves, strict=True):
         counts += ends.counts.judged_elsewhere
         if not ends.regular.all():
             return None, counts

@@ -16,14 +16,13 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
 from nag.numerics.zero_values import NONZERO
 from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
-from nag.witness.comparable import coordinate_sizes, move_together
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
-from nag.witness.fibres import Fibre, Moved, Tracker, join_fibres
+from nag.witness.fibres import Fibre, Moved, Tracker, join_fibres, move
 from nag.witness.gauss_newton import polish
 from nag.witness.given_component import check_decomposition, in_doubles
-from nag.witness.slices import padded, rows_through
+from nag.witness.slices import padded, rows_through, unit_complex
 from nag.witness.units import Units
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
@@ -86,10 +85,11 @@ def find_members(
     if not together:
         return [Membership.FOREIGN for _ in sets], counts
     first = together[0][0]
-    target = rows_through(rng, first.dimension, point, coordinate_sizes(first))
+    target = rows_through(rng, first.dimension, point, first.sizes)
     rows, fibres = (flag[: first.dimension], target), [fibre for fibre, _ in together]
-    moves = move_together(fibres, *rows, rng, tracker, through=given or ())
-    for (fibre, ends), (_, owners) in zip(moves, together, strict=True):
+    gamma = complex(unit_complex(rng))
+    moves = move(fibres, *rows, gamma, tracker, endgame=True, through=given or ())
+    for ends, (fibre, owners) in zip(moves, together, strict=True):
         counts += ends.counts.judged_elsewhere
         if bounded:
             ends = _near_ones_rated(point, accuracy, fibre, ends, target)
@@ -131,7 +131,7 @@ def _among_ends(
         error = accuracy * (1 + float(np.linalg.norm(point)))
         answers = {_at_end(point, error, fibre, ends, i, target, bounded) for i in ends.fine}
         ends = ends.without(ends.fine)
-    distances = _distances(point, ends, coordinate_sizes(fibre)[1:])[ends.finite]
+    distances = _distances(point, ends, fibre.sizes[1:])[ends.finite]
     if Membership.MEMBER in answers or compared(distances, accuracy)[0].any():
         return Membership.MEMBER
     errors = np.maximum(accuracy, ends.accuracy[ends.finite])
@@ -155,16 +155,13 @@ def _near_ones_rated(
     point: np.ndarray, accuracy: float, fibre: Fibre, ends: Moved, rows: np.ndarray
 ) -> Moved:
     """The ends with Newton's constant of those that are near to a point, and not at it."""
-    same, doubtful = compared(_distances(point, ends, coordinate_sizes(fibre)[1:]), accuracy)
+    same, doubtful = compared(_distances(point, ends, fibre.sizes[1:]), accuracy)
     # Where sizes are unequal, what is little beside the largest may be much for the point.
     away = _distances(point, ends, np.ones(len(point))) > np.maximum(accuracy, ends.accuracy)
-    # What is known of fine ones is relative to their sizes in the coordinates of their paths.
-    away[list(ends.fine)] = True
     near = ends.regular & (same | doubtful) & away
     fine = dict(ends.fine)
-    for i in np.flatnonzero(near).tolist():
-        end = fine[i] if i in fine else Fine.of_doubles(ends.points[i])
-        fine[i] = rated(fibre.cut.polynomials, rows, end)
+    for i in set(np.flatnonzero(near).tolist()) - fine.keys():
+        fine[i] = rated(fibre.cut.polynomials, rows, Fine.of_doubles(ends.points[i]))
     return replace(ends, fine=fine)
 
 

@@ -11,12 +11,11 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import ON
-from nag.witness.comparable import move_together
 from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import Sharp, in_order, sharpened
-from nag.witness.fibres import Fibre, Tracker
+from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.given_component import check_component
-from nag.witness.slices import to_slice
+from nag.witness.slices import to_slice, unit_complex
 from nag.witness.witness import Slice, WitnessSet
 
 # Rows whose singular values differ by more than this count as dependent.
@@ -86,7 +85,9 @@ def arrival(
     if not len(rows):
         return Arrival([sharpened(fibre, target) for fibre in fibres], 0, 0)
     found, infinite, irregular = [], 0, 0
-    for fibre, ends in move_together(fibres, rows, target, rng, tracker, endgame):
+    gamma = complex(unit_complex(rng))
+    moves = move(fibres, rows, target, gamma, tracker, endgame=endgame)
+    for fibre, ends in zip(fibres, moves, strict=True):
         infinite += ends.counts.at_infinity
         irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
         there = ends.fibre(fibre.cut, fibre.dimension, np.flatnonzero(ends.regular))

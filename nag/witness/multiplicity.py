@@ -18,9 +18,8 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import compared
 from nag.numerics.zero_values import WRITTEN, multiplicity_of_all, possible_zeros
-from nag.witness.comparable import coordinate_sizes, move_together
-from nag.witness.fibres import Fibre, Tracker
-from nag.witness.slices import padded, rows_through
+from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.slices import padded, rows_through, unit_complex
 
 if TYPE_CHECKING:
     import flint
@@ -72,9 +71,11 @@ def multiplicity_at(
     if dimension == 0:
         ends = [(fibre.x, np.ones(len(fibre), dtype=bool)) for fibre in fibres]
         return _come_together(point, accuracy, ends)
-    target = rows_through(rng, dimension, point, coordinate_sizes(fibres[0]))
+    target = rows_through(rng, dimension, point, fibres[0].sizes)
     ends = []
-    for fibre, moved in move_together(fibres, rows, target, rng, tracker):
+    gamma = complex(unit_complex(rng))
+    moves = move(fibres, rows, target, gamma, tracker, endgame=True)
+    for fibre, moved in zip(fibres, moves, strict=True):
         if moved.failed.any():
             return None
         ends.append((moved.points[moved.finite, : fibre.cut.n], moved.regular[moved.finite]))

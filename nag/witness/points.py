@@ -103,6 +103,12 @@ class Points:
         """The points without added unknowns, shape ``(P, n)``."""
         return np.array([z[: self.n] for z in self.z]).reshape(len(self), self.n)
 
+    @property
+    def sizes(self) -> np.ndarray:
+        """Sizes of the homogeneous coordinates ``(1, x)`` of the sets, shape ``(1 + n,)``."""
+        powers = self.cuts[0].powers[: self.n] if self.cuts else np.zeros(self.n, dtype=int)
+        return np.ldexp(1.0, np.concatenate([[0], powers]))
+
     def fibres(self, indices: Sequence[int]) -> list[tuple[Fibre, np.ndarray]]:
         """The points of given indices by their cuts, with the indices of those of each."""
         found = []
@@ -146,7 +152,7 @@ def with_fine(fibres: Sequence[Fibre], rows: np.ndarray) -> list[Fibre]:
     return [fibre for fibre, _ in points.fibres(range(len(points)))]
 
 
-def moved_points(
+def move_points(
     points: Points, indices: Sequence[int], target: np.ndarray, gamma: complex, tracker: Tracker
 ) -> tuple[Points, np.ndarray, PathCounts]:
     """Some points when the slice moves to another generic one.
@@ -156,8 +162,10 @@ def moved_points(
     """
     counts = PathCounts()
     found: dict[int, tuple[np.ndarray, Fine | None]] = {}
-    for fibre, own in points.fibres(indices):
-        there = move(fibre, points.rows, target, gamma, tracker)
+    parts = points.fibres(indices)
+    fibres, sizes = [fibre for fibre, _ in parts], points.sizes
+    moves = move(fibres, points.rows, target, gamma, tracker, sizes=sizes)
+    for there, (_, own) in zip(moves, parts, strict=True):
         counts += there.counts.judged_elsewhere
         for k in np.flatnonzero(there.regular).tolist():
             found[int(own[k])] = there.points[k], there.fine.get(k)

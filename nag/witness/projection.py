@@ -17,7 +17,6 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import SINGULAR
-from nag.witness.comparable import coordinate_sizes
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre, Tracker
@@ -171,7 +170,7 @@ def _pseudo_witness(
 ) -> tuple[tuple[int, int], np.ndarray, Arrival]:
     """Degrees of the image and of the fibre, the slice's rows, and the points on it."""
     rows, d = component.slice.rows, component.dimension
-    sizes = coordinate_sizes(fibres[0])
+    sizes = fibres[0].sizes
     target = _special_rows(rng, sizes, coordinates, r, d - r)
     there = arrival(fibres, rows, target, rng, tracker)
     # Finite points of a generic slice are regular (Bertini's theorem).

@@ -12,7 +12,6 @@ from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import ON
-from nag.witness.comparable import coordinate_sizes
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.given_component import check_component
@@ -128,7 +127,7 @@ def at_random(
             break
         chosen -= len(fibre)
     one = fibre.only(np.arange(len(fibre)) == chosen)
-    target = random_rows(rng, len(rows), fibre.cut.n) / coordinate_sizes(fibre)
+    target = random_rows(rng, len(rows), fibre.cut.n) / fibre.sizes
     return target, arrival([one], rows, target, rng, tracker, endgame=False)
 
 

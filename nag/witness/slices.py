@@ -47,13 +47,16 @@ def rows_through(
     return rows
 
 
-def evened(rows: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+def even_rows(rows: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     """The same slice by rows of norm about one where coordinates are divided by ``sizes``.
+
+    Further coordinates are of size one.
 
     Of two rows of very unequal norms one would decide until the very end of a path. Powers of two
     leave the slice as it is, so that points that are close to others are still on it.
     """
-    norms = np.linalg.norm(rows * sizes, axis=1, keepdims=True)
+    further = np.ones(rows.shape[1] - len(sizes))
+    norms = np.linalg.norm(rows * np.concatenate([sizes, further]), axis=1, keepdims=True)
     return rows / 2.0 ** np.rint(np.log2(norms))
 
 
