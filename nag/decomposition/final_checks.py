@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement, permutations
 from typing import TYPE_CHECKING
 
@@ -13,13 +13,14 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.numerics.zero_values import ON, SINGULAR
+from nag.witness.close_points import close_pairs, follow_slice
 from nag.witness.confirm import confirmed, zero_in_digits
 from nag.witness.cutting import Equations, numerical_corank
 from nag.witness.exact_points import Sharp, framed, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
-from nag.witness.points import Points
+from nag.witness.points import Points, with_fine
 from nag.witness.slices import complex_normal, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
@@ -163,22 +164,37 @@ class Examined:
     ) -> Examined:
         """The points of some classes.
 
-        Those of scaled coordinates are found anew in the original ones, to rounding.
+        A slice of other coordinates is rounded on its way to the original ones, if these have
+        another origin, and the points on it are found anew; those that are close to others there
+        follow it in their digits.
         """
-        rows, frame = points.rows, reduction.frame
+        frame = reduction.frame
+        cut, parts = frame.slice(points.rows), []
+        if not frame.is_plain:
+            points = points.with_digits(close_pairs(frame.points(points.x)))
         by_cuts = points.fibres(np.concatenate([each.indices for each in classes]))
-        cut, parts = frame.slice(rows), []
-        for fibre, own in by_cuts:
-            sharp = sharpened(fibre, rows, points.exact.only(own))
-            lifted = _lifted(sharp.fibre, reduction)
-            if (frame.scales != 1).any():
-                there = sharpened(lifted, cut.rows)
+        inner = [sharpened(fibre, points.rows, points.exact.only(own)) for fibre, own in by_cuts]
+        lifted = [_lifted(sharp.fibre, reduction) for sharp in inner]
+        if not frame.is_plain:
+            lifted = with_fine(lifted, cut.rows)
+        for (_, own), sharp, fibre in zip(by_cuts, inner, lifted, strict=True):
+            if not frame.exact:
+                fibre = _on_slice(fibre, cut.rows)
+            if not frame.is_plain:
+                there = sharpened(fibre, cut.rows)
             else:
-                there = Sharp(lifted, framed(frame, sharp.fibre.x, sharp.radii), sharp.digits)
-            coranks = np.array(_coranks(reduction.equations, rows, sharp.fibre, rng))
+                there = Sharp(fibre, framed(frame, sharp.fibre.x, sharp.radii), sharp.digits)
+            coranks = np.array(_coranks(reduction.equations, points.rows, sharp.fibre, rng))
             residuals = reduction.original.residuals(there.fibre.x).max(axis=1, initial=0.0)
             parts.append(_Part(own, sharp, there, coranks, residuals))
-        return cls(reduction, rows, cut, tuple(parts))
+        return cls(reduction, points.rows, cut, tuple(parts))
+
+
+def _on_slice(fibre: Fibre, rows: np.ndarray) -> Fibre:
+    """A fibre whose close points are on a slice beside ``rows``, these on ``rows``."""
+    polynomials = fibre.cut.polynomials
+    fine = {i: follow_slice(polynomials, rows, point) for i, point in fibre.fine.items()}
+    return replace(fibre, fine=fine)
 
 
 def _lifted(fibre: Fibre, reduction: Reduction) -> Fibre:

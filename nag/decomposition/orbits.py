@@ -40,7 +40,8 @@ class Action:
         """The action on the coordinates of a frame."""
         kept = list(frame.positions)
         M = symmetry.of_point(frame.T.T).T[kept] / frame.scales[:, None]
-        return cls(symmetry, M, symmetry.of_point(frame.t)[kept] / frame.scales)
+        m = (symmetry.of_point(frame.t) - frame.t)[kept] / frame.scales
+        return cls(symmetry, M, m)
 
     def __call__(self, y: np.ndarray) -> np.ndarray:
         """Images of points, shape ``(P, n)``."""

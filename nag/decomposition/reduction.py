@@ -13,13 +13,15 @@ from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.natural_coordinates import (
+    LEAST_SCALE,
+    NaturalCoordinates,
+    natural_coordinates,
+)
 from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.witness.close_points import DIGITS, Fine, in_words
 from nag.witness.cutting import Cut, Equations
 from nag.witness.frame import Frame
-
-# Coefficients of comparable size are left as they are: scales below this factor bring nothing.
-LEAST_SCALE = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,12 +30,14 @@ class Reduction:
 
     Attributes:
         system: the system that was given.
-        elimination: how linear equations were solved.
+        natural: the coordinates in which its linear equations were solved.
+        elimination: how these were solved.
         reduced: the system in the coordinates that are left, perhaps scaled.
         frame: how these sit in the original ones.
     """
 
     system: PolynomialSystem
+    natural: NaturalCoordinates
     elimination: Elimination
     reduced: PolynomialSystem
     frame: Frame
@@ -41,13 +45,16 @@ class Reduction:
 
     @classmethod
     def of(cls, system: PolynomialSystem, scaled: bool = False) -> Reduction:
-        """The reduction; ``scaled``: to coordinates in which coefficients are comparable."""
-        elimination = eliminate_linear(system, graphs=False)
-        reduced, frame = elimination.system, Frame.of(elimination)
+        """The reduction; ``scaled``: from natural coordinates, to comparable coefficients."""
+        natural = NaturalCoordinates.identity(system.n)
+        if scaled:
+            natural = natural_coordinates(system.polynomials, system.n)
+        elimination = eliminate_linear(natural.system(system), graphs=False)
+        reduced, frame = elimination.system, Frame.of(elimination, natural)
         if scaled:
             reduced, scales = scaled_system(reduced)
             frame = frame.scaled(scales)
-        return cls(system, elimination, reduced, frame)
+        return cls(system, natural, elimination, reduced, frame)
 
     @property
     def n(self) -> int:
@@ -60,8 +67,14 @@ class Reduction:
 
     @property
     def images(self) -> tuple[Polynomial, ...]:
-        """The original variables as polynomials in the coordinates without scales."""
+        """The natural coordinates as polynomials in the coordinates before these were scaled."""
         return self.elimination.images
+
+    @cached_property
+    def scales(self) -> np.ndarray:
+        """Of the coordinates beside the natural ones that they are, powers of two."""
+        natural = np.array([float(self.natural.scales[i]) for i in self.kept])
+        return np.exp2(np.rint(np.log2(self.frame.scales / natural)))
 
     def lifted(self, cut: Cut) -> Cut:
         """A square system in these coordinates as one in the original variables.
@@ -71,13 +84,14 @@ class Reduction:
         if cut not in self._lifted:
             n, total = self.system.n, self.system.n + cut.aux
             place = [*self.kept, *range(n, total)]
-            powers = np.round(np.log2(self.frame.scales)).astype(int)
+            powers = np.round(np.log2(self.scales)).astype(int)
             rows = [_unscaled(f, powers).with_variables(total, place) for f in cut.polynomials]
             for i, image in enumerate(self.images):
                 if i not in self.kept:
                     x = Polynomial.variable(total, i)
                     rows.append(x - image.with_variables(total, self.kept))
-            self._lifted[cut] = Cut(n, cut.aux, tuple(rows))
+            original = map(self.natural.original_polynomial, rows)
+            self._lifted[cut] = Cut(n, cut.aux, tuple(original))
         return self._lifted[cut]
 
     def lifted_fine(self, point: Fine) -> Fine:
@@ -87,9 +101,13 @@ class Reduction:
         from nag.numerics.digits import number
 
         with flint.ctx.workdps(2 * DIGITS):
-            y, scales = point.balls(), self.frame.scales.tolist()
+            y, scales = point.balls(), self.scales.tolist()
             own = [z * flint.arb(scale) for z, scale in zip(y, scales, strict=False)]
-            x = [f(own, number) for f in self.images]
+            natural = [f(own, number) for f in self.images]
+            x = [
+                z * number(scale) + number(b)
+                for z, scale, b in zip(natural, self.natural.scales, self.natural.origin, strict=True)
+            ]
             return in_words([*x, *y[self.n :]], point.curvature)
 
     @cached_property

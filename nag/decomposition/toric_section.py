@@ -40,11 +40,11 @@ def section_at_once(
     if x is None:
         return None, counts
     # At rest the points become zeros of the equations with all their coefficients, on the slice.
-    n, d, frame = reduction.n, section.turns.freedoms, reduction.frame
+    n, d = reduction.n, section.turns.freedoms
     own = Cut(n, 0, reduction.reduced.polynomials)
     paths = track(
         Homotopy(compile_rows(own.polynomials, n=n), flag[:d]),
-        homogeneous(x[:, frame.positions] / frame.scales),
+        homogeneous(x[:, reduction.kept] / reduction.scales),
         in_doubles(tracker.settings),
         tracker.threads,
         endgame=False,
@@ -67,12 +67,12 @@ def paths_at_once(system: PolynomialSystem) -> int | None:
 
 def _section(reduction: Reduction, flag: np.ndarray) -> IsotropicSection | None:
     """The section by as many rows of the flag as leave points; None for other systems."""
-    system, frame = reduction.system, reduction.frame
+    system = reduction.natural.system(reduction.system)
     turns = None if system.nonzero else looped_turns(system)
     if turns is None or turns.freedoms != reduction.n - len(reduction.reduced.polynomials):
         return None
     rows = flag[: turns.freedoms]
     slices = np.zeros((len(rows), 1 + system.n), dtype=complex)
     slices[:, 0] = rows[:, 0]
-    slices[:, [1 + i for i in frame.positions]] = rows[:, 1:] / frame.scales
+    slices[:, [1 + i for i in reduction.kept]] = rows[:, 1:] / reduction.scales
     return IsotropicSection(turns, slices)

@@ -19,6 +19,9 @@ from nag.algebra.polynomial import Exponents, Polynomial
 LARGEST = 200
 # Weight of unscaled variables where the coefficients do not ask for a scale.
 INERTIA = 1e-2
+# Binary orders that a coefficient may be off before those that are odd lose their weight, in so
+# many steps.
+ODD, SWEEPS = 10, 12
 # Least over largest singular value of the coefficients of rows that are made orthogonal.
 DEPENDENT, NEARLY_ORTHOGONAL = 1e-12, 0.1
 
@@ -34,7 +37,9 @@ def variable_scales(polynomials: Sequence[Polynomial], n: int) -> np.ndarray:
     """Integers k, shape ``(n,)``: with ``x_i = 2^k_i y_i`` the coefficients vary the least.
 
     The least squares problem of the logarithms of all coefficients, the equations free to be
-    scaled too.
+    scaled too. Where that leaves some far off, their absolute values count and not their squares
+    (by weights from step to step): a few odd coefficients, as the small constant that two sheets
+    close together have, do not decide.
     """
     several = [f.terms for f in polynomials if len(f.terms) > 1]
     if not several:
@@ -48,7 +53,28 @@ def variable_scales(polynomials: Sequence[Polynomial], n: int) -> np.ndarray:
     matrix = np.vstack([exponents - np.repeat(means, counts, axis=0), INERTIA * np.eye(n)])
     right = np.append(np.repeat(mean_sizes, counts) - sizes, np.zeros(n))
     solution, *_ = np.linalg.lstsq(matrix, right, rcond=None)
+    of_equation = np.repeat(np.arange(len(several)), counts)
+    for _ in range(SWEEPS):
+        # With the size of each equation at its best for these weights.
+        off = sizes + exponents @ solution
+        level = _medians(off, first, counts)
+        off = np.abs(off - level[of_equation])
+        if off.max() <= ODD:
+            break
+        weights = 1 / np.maximum(off, 1.0)
+        total = np.add.reduceat(weights, first)
+        means = np.add.reduceat(weights[:, None] * exponents, first) / total[:, None]
+        mean_sizes = np.add.reduceat(weights * sizes, first) / total
+        root = np.sqrt(weights)
+        matrix[: len(sizes)] = root[:, None] * (exponents - means[of_equation])
+        right[: len(sizes)] = root * (mean_sizes[of_equation] - sizes)
+        solution, *_ = np.linalg.lstsq(matrix, right, rcond=None)
     return np.clip(np.rint(solution), -LARGEST, LARGEST).astype(np.int64)
+
+
+def _medians(values: np.ndarray, first: np.ndarray, counts: np.ndarray) -> np.ndarray:
+    """The median of each equation's values."""
+    return np.array([np.median(values[a : a + k]) for a, k in zip(first, counts, strict=True)])
 
 
 def scaled_terms(f: Polynomial, scales: np.ndarray) -> dict[Exponents, Number]:

@@ -196,6 +196,31 @@ def zero_from(
     return None
 
 
+def follow_slice(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> Fine:
+    """The zero of a square system on a slice that a zero on a slice beside it belongs to.
+
+    The step along the tangent may be much longer than other zeros are far, as these move along:
+    only what is left after it, of the order of its square, has to be small beside their distance.
+    """
+    import flint
+
+    from nag.numerics.ball_polynomials import BallPolynomials
+
+    exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
+    with flint.ctx.workdps(2 * DIGITS):
+        x = [_middle(z) for z in point.balls()]
+        off = exact(x).mid()
+        for i in range(len(polynomials)):
+            off[i, 0] = 0
+        try:
+            step = exact.jacobian(x).mid().solve(off)
+        except ZeroDivisionError:
+            return point
+        there = in_words([_middle(z - step[i, 0]) for i, z in enumerate(x)], point.curvature)
+        found = zero_from(polynomials, rows, there, DIGITS)
+        return there if found is None else in_words(found[0], point.curvature)
+
+
 def _middle(z: Any) -> Any:
     import flint
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from nag.algebra.elimination import Elimination
 from nag.algebra.symmetry import SignedPermutation
+from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.witness.close_points import Fine
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
@@ -21,17 +22,20 @@ class Frame:
     """How reduced coordinates sit in the original ones: ``x = T y + t``.
 
     Attributes:
-        positions: the original coordinate that each y is, but for its scale.
-        scales: ``x = scale * y`` for these; powers of two.
+        positions: the original coordinate that each y is, but for its scale and its origin.
+        scales: ``x = scale * y + t`` for these.
+        exact: whether ``x = scale * y`` rounds nothing: powers of two about the same origin.
     """
 
     T: np.ndarray
     t: np.ndarray
     positions: tuple[int, ...]
     scales: np.ndarray
+    exact: bool = True
 
     @classmethod
-    def of(cls, elimination: Elimination) -> Frame:
+    def of(cls, elimination: Elimination, natural: NaturalCoordinates | None = None) -> Frame:
+        """The frame of what elimination leaves, in ``natural`` coordinates if they are others."""
         m = elimination.system.n
         T = np.zeros((len(elimination.images), m))
         t = np.zeros(len(elimination.images))
@@ -43,11 +47,26 @@ class Frame:
                     t[i] = float(coefficient)
         names = elimination.original_variables
         positions = tuple(names.index(v) for v in elimination.system.variables)
-        return cls(T, t, positions, np.ones(m))
+        if natural is None or natural.is_identity:
+            return cls(T, t, positions, np.ones(m))
+        units = np.array([float(s) for s in natural.scales])
+        t = units * t + np.array([float(b) for b in natural.origin])
+        scales = units[list(positions)]
+        return cls(units[:, None] * T, t, positions, scales, natural.is_exact_in_doubles)
 
     def scaled(self, scales: np.ndarray) -> Frame:
-        """The frame of new coordinates, ``scales`` times smaller."""
-        return Frame(self.T * scales, self.t, self.positions, self.scales * scales)
+        """The frame of new coordinates, ``scales`` times smaller, powers of two."""
+        return replace(self, T=self.T * scales, scales=self.scales * scales)
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether the coordinates are original ones as they are."""
+        return self.exact and bool((self.scales == 1).all())
+
+    def coordinates(self, x: np.ndarray) -> np.ndarray:
+        """The reduced coordinates of points of the set, shape ``(P, n)``; `points` undone."""
+        kept = list(self.positions)
+        return (x[:, kept] - self.t[kept]) / self.scales
 
     def points(self, y: np.ndarray) -> np.ndarray:
         return y @ self.T.T + self.t
@@ -76,7 +95,9 @@ class Frame:
         A = np.zeros((len(rows), len(self.t)), dtype=complex)
         A[:, self.positions] = rows[:, 1:] / self.scales
         b = -rows[:, 0]
-        if (self.scales != 1).any():
+        if not self.exact:
+            b = b + A @ self.t
+        if not self.is_plain:
             powers = -np.frexp(np.linalg.norm(A, axis=1))[1]
             A, b = A * np.ldexp(1.0, powers)[:, None], b * np.ldexp(1.0, powers)
         return Slice(A, b)

@@ -57,18 +57,22 @@ class Points:
 
     def _with_fine(self) -> Points:
         """With more digits of all points that are close to others, where they can be found."""
-        pairs, fine = close_pairs(self.x), dict(self.fine)
-        if not pairs:
-            return self
-        for i in sorted({i for pair in pairs for i in pair} - set(fine)):
-            found = self._in_digits(i, min(self._apart(pair, fine) for pair in pairs if i in pair))
-            if found is not None:
-                fine[i] = found
+        pairs = close_pairs(self.x)
+        fine = dict(self.with_digits(pairs).fine)
         for pair in pairs:
             steep = STEEPER * self._size(pair[0]) / max(self._apart(pair, fine), 1e-300)
             for i in set(pair) & set(fine):
                 fine[i] = replace(fine[i], curvature=max(fine[i].curvature, steep))
-        return replace(self, fine=fine)
+        return replace(self, fine=fine) if fine else self
+
+    def with_digits(self, pairs: Sequence[tuple[int, int]]) -> Points:
+        """With more digits of the points of some pairs, where they can be found."""
+        fine = dict(self.fine)
+        for i in sorted({i for pair in pairs for i in pair} - set(fine)):
+            found = self._in_digits(i, min(self._apart(pair, fine) for pair in pairs if i in pair))
+            if found is not None:
+                fine[i] = found
+        return replace(self, fine=fine) if pairs else self
 
     def _size(self, i: int) -> float:
         return 1 + float(np.linalg.norm(self.x[i]))

@@ -1,0 +1,331 @@
+"""Coordinates in which a system looks as if its origin and its units had been chosen for it.
+
+``f(y + c)`` has the leading form of ``f`` and, in the next degree, ``f_(d-1) + c . grad f_d``. The
+origin ``c`` is where as many of these coefficients as possible vanish, exactly: the centres of
+circles, spheres and quadrics, of products of them, and of anything that was translated from such
+coordinates. What leading forms do not determine, the next forms do, degree by degree. Scales make
+pure powers in one equation, as ``a x^2 + b y^2`` has, of one size, exactly where the root is
+rational, and leave coefficients of comparable size else. Where little is gained, nothing changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from math import isqrt, log2, prod
+
+import numpy as np
+
+from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.numerics.scaling import magnitude, scaled_terms, variable_scales
+
+# Least distance from 0, in radii of where the zeros lie, that makes a new origin worth its digits.
+FAR = 8.0
+# Scales below this bring nothing.
+LEAST_SCALE = 8
+# An origin may leave a variable this many binary orders larger than it was: roundings of scales.
+LARGER = 1
+# Numbers of so many bits are taken as they are; others to so many bits beyond the radius.
+SIMPLE, DIGITS = 128, 6
+# Terms beyond which no system is moved.
+MOST_TERMS = 20_000
+# Entries of the equations for an origin beyond which none is looked for.
+MOST_WORK = 1_000_000
+Row = dict[int, Fraction]
+
+
+@dataclass(frozen=True)
+class NaturalCoordinates:
+    """Variables ``y`` with ``x_i = scales[i] y_i + origin[i]``, exactly.
+
+    Attributes:
+        scales: positive.
+    """
+
+    scales: tuple[Fraction, ...]
+    origin: tuple[Fraction, ...]
+
+    @classmethod
+    def identity(cls, n: int) -> NaturalCoordinates:
+        """The variables as they are."""
+        return cls((Fraction(1),) * n, (Fraction(0),) * n)
+
+    @cached_property
+    def is_identity(self) -> bool:
+        return not any(self.origin) and all(s == 1 for s in self.scales)
+
+    @cached_property
+    def is_exact_in_doubles(self) -> bool:
+        """Whether to change coordinates rounds nothing."""
+        return not any(self.origin) and all(_is_power_of_two(s) for s in self.scales)
+
+    def polynomial(self, f: Polynomial) -> Polynomial:
+        """A polynomial in ``x`` as one in ``y``, over a power of two near its largest number."""
+        if self.is_identity:
+            return f
+        moved = shift_polynomial(f, self.origin)
+        factors = {e: _power_product(self.scales, e) for e in moved.terms}
+        return _even(Polynomial(f.n, {e: c * factors[e] for e, c in moved.terms.items()}))
+
+    def original_polynomial(self, f: Polynomial) -> Polynomial:
+        """A polynomial in ``y``, and in further variables that stay, as one in ``x``."""
+        if self.is_identity:
+            return f
+        inverse = [1 / s for s in self.scales] + [Fraction(1)] * (f.n - len(self.scales))
+        scaled = {e: c * _power_product(inverse, e) for e, c in f.terms.items()}
+        back = [-b for b in self.origin] + [Fraction(0)] * (f.n - len(self.origin))
+        return _even(shift_polynomial(Polynomial(f.n, scaled), back))
+
+    def system(self, system: PolynomialSystem) -> PolynomialSystem:
+        """A system in ``x`` as one in ``y``."""
+        if self.is_identity:
+            return system
+        return replace(
+            system,
+            polynomials=tuple(self.polynomial(f) for f in system.polynomials),
+            nonzero=tuple(self.polynomial(g) for g in system.nonzero),
+        )
+
+
+def natural_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoordinates:
+    """The coordinates that suit polynomials in ``n`` variables best; often those that they have."""
+    nothing = NaturalCoordinates.identity(n)
+    several = [f for f in polynomials if f.terms and f.degree]
+    if not several or not all(f.exact for f in several):
+        return nothing
+    origin = _accepted_origin(several, n)
+    moved = [shift_polynomial(f, origin) for f in several]
+    powers = variable_scales(moved, n)
+    if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
+        return nothing if not any(origin) else replace(nothing, origin=origin)
+    return NaturalCoordinates(_scales(moved, powers), origin)
+
+
+def shift_polynomial(f: Polynomial, origin: Sequence[Fraction]) -> Polynomial:
+    """``f(y + origin)``."""
+    if not any(origin[i] for i in f.support):
+        return f
+    variables = Polynomial.variables(f.n)
+    return f.compose([x + b if b else x for x, b in zip(variables, origin, strict=True)])
+
+
+def _accepted_origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
+    """The origin where it is far away for how close the zeros lie together around it; 0 else."""
+    nothing = (Fraction(0),) * n
+    origin = _origin(polynomials, n)
+    if not any(origin):
+        return nothing
+    before = variable_scales(polynomials, n)
+    sizes = np.array([magnitude(b) if b else -np.inf for b in origin])
+    # Zeros that are far from their origin make their coordinates as large as it is.
+    if not (sizes > before - log2(FAR)).any():
+        return nothing
+    moved = [shift_polynomial(f, origin) for f in polynomials]
+    after = variable_scales(moved, n)
+    kept = after <= before + LARGER
+    gain = (sizes - after)[kept].max(initial=-np.inf)
+    lost = _unevenness(moved, after) - _unevenness(polynomials, before)
+    if gain <= max(log2(FAR), lost):
+        return nothing
+    return tuple(
+        _simple(b, int(k)) if keep else Fraction(0)
+        for b, k, keep in zip(origin, after, kept, strict=True)
+    )
+
+
+def _unevenness(polynomials: Sequence[Polynomial], powers: np.ndarray) -> float:
+    """Binary orders between a coefficient and the median one of its equation: the median of all."""
+    off = [
+        np.abs(sizes - np.median(sizes))
+        for f in polynomials
+        for sizes in [np.array([magnitude(c) + np.dot(e, powers) for e, c in f.terms.items()])]
+    ]
+    return float(np.median(np.concatenate(off)))
+
+
+def _simple(b: Fraction, power: int) -> Fraction:
+    """A number as it is, if it is a short one; else near it, for a radius of ``2^power``."""
+    if b.numerator.bit_length() + b.denominator.bit_length() <= SIMPLE:
+        return b
+    unit = Fraction(2) ** (power - DIGITS)
+    return round(b / unit) * unit
+
+
+def _origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
+    """Where coefficients below the leading ones vanish, as many as can be made to; 0 if unknown.
+
+    Equations of few variables come first, those that others contradict are left out, and those of
+    degree one come last: a hyperplane is not far from anything.
+    """
+    origin = [Fraction(0)] * n
+    curved = sorted((f for f in polynomials if f.degree > 1), key=_simplicity)
+    flat = sorted((f for f in polynomials if f.degree == 1), key=_simplicity)
+    directions = [{i: Fraction(1)} for i in range(n)]
+    stages = [(curved, k) for k in range(1, max((f.degree for f in curved), default=0) + 1)]
+    for group, level in [*stages, (flat, 1)]:
+        if not directions:
+            break
+        if sum(_terms_of_shift(f, origin) for f in group) > MOST_TERMS:
+            return (Fraction(0),) * n
+        rows = [row for f in group for row in _conditions(shift_polynomial(f, origin), level)]
+        if len(rows) * len(directions) > MOST_WORK:
+            return (Fraction(0),) * n
+        step, directions = _solved(rows, directions)
+        for i, b in step.items():
+            origin[i] += b
+    return tuple(origin)
+
+
+def _simplicity(f: Polynomial) -> tuple[int, int]:
+    return len(f.support), len(f.terms)
+
+
+def _terms_of_shift(f: Polynomial, origin: Sequence[Fraction]) -> int:
+    """At most so many terms has ``f(y + origin)``, before any are collected."""
+    places = [i for i in f.support if origin[i]]
+    return sum(prod(1 + e[i] for i in places) for e in f.terms)
+
+
+def _conditions(f: Polynomial, level: int) -> list[tuple[Row, Fraction]]:
+    """Linear equations for a shift by which the form ``level`` degrees below the first vanishes.
+
+    For shifts that change no form above it; each a row and a right side.
+    """
+    top, rows = f.degree, dict[Exponents, Row]()
+    if level > top:
+        return []
+    for e, c in f.terms.items():
+        if sum(e) == top - level + 1:
+            for i, k in enumerate(e):
+                if k:
+                    row = rows.setdefault((*e[:i], k - 1, *e[i + 1 :]), {})
+                    row[i] = row.get(i, Fraction(0)) + k * c
+    below = sorted(rows, reverse=True)
+    return [(rows[e], -f.terms.get(e, Fraction(0))) for e in below]
+
+
+def _solved(
+    rows: Sequence[tuple[Row, Fraction]], directions: Sequence[Row]
+) -> tuple[Row, list[Row]]:
+    """A combination of directions that satisfies the first independent rows, and those left free.
+
+    Rows that depend on others before them are left out, whether they agree with them or not.
+    """
+    pivots: dict[int, tuple[Row, Fraction]] = {}
+    for row, right in rows:
+        own = {
+            k: value
+            for k, way in enumerate(directions)
+            if (value := sum((c * way[i] for i, c in row.items() if i in way), Fraction(0)))
+        }
+        while known := own.keys() & pivots.keys():
+            column = min(known)
+            base, value = pivots[column]
+            right -= own[column] * value
+            _add(own, base, -own[column])
+        if own:
+            column = min(own)
+            lead = own[column]
+            pivots[column] = {k: c / lead for k, c in own.items()}, right / lead
+            if len(pivots) == len(directions):
+                break
+    # Backwards: each pivot's row is freed of the later ones.
+    for column in sorted(pivots, reverse=True):
+        base, value = pivots[column]
+        for other in pivots:
+            if other != column and column in pivots[other][0]:
+                row, right = pivots[other]
+                pivots[other] = row, right - row[column] * value
+                _add(row, base, -row[column])
+    step: Row = {}
+    for column, (_, value) in pivots.items():
+        _add(step, directions[column], value)
+    free = []
+    for k, way in enumerate(directions):
+        if k not in pivots:
+            left = dict(way)
+            for column, (row, _) in pivots.items():
+                if k in row:
+                    _add(left, directions[column], -row[k])
+            free.append(left)
+    return step, free
+
+
+def _add(row: Row, other: Row, factor: Fraction) -> None:
+    """Add a multiple of another row; what becomes zero is left out."""
+    for i, c in other.items():
+        value = row.get(i, Fraction(0)) + factor * c
+        if value:
+            row[i] = value
+        else:
+            row.pop(i, None)
+
+
+def _scales(polynomials: Sequence[Polynomial], powers: np.ndarray) -> tuple[Fraction, ...]:
+    """Scales near the powers of two given, with which pure powers in an equation are of one size.
+
+    Args:
+        powers: binary logarithms, as `variable_scales` finds them.
+    """
+    n = len(powers)
+    # Variables whose scales hang together, each with its scale beside that of its group.
+    group, beside = list(range(n)), [Fraction(1)] * n
+    for f in sorted(polynomials, key=_simplicity):
+        for i, j, ratio in _equal_powers(f):
+            if group[i] != group[j]:
+                factor, old = ratio * beside[j] / beside[i], group[i]
+                for k in range(n):
+                    if group[k] == old:
+                        group[k], beside[k] = group[j], beside[k] * factor
+    scales = [Fraction(1)] * n
+    for name in set(group):
+        own = [k for k in range(n) if group[k] == name]
+        mean = round(sum(int(powers[k]) - magnitude(beside[k]) for k in own) / len(own))
+        for k in own:
+            scales[k] = beside[k] * Fraction(2) ** mean
+    return tuple(scales)
+
+
+def _equal_powers(f: Polynomial) -> list[tuple[int, int, Fraction]]:
+    """Variables i, j and ``s_i / s_j`` with which two pure powers of one degree are of one size."""
+    pure: dict[int, list[tuple[int, Fraction]]] = {}
+    for e, c in sorted(f.terms.items(), reverse=True):
+        k = sum(e)
+        if k > 1 and k in e:
+            pure.setdefault(k, []).append((e.index(k), abs(c)))
+    found = []
+    for k, powers in pure.items():
+        (j, d), *others = powers
+        for i, c in others:
+            ratio = _rational_root(d / c, k)
+            if ratio is not None:
+                found.append((i, j, ratio))
+    return found
+
+
+def _rational_root(c: Fraction, k: int) -> Fraction | None:
+    """The k-th root of a positive number, if it is rational."""
+    roots = []
+    for whole in (c.numerator, c.denominator):
+        root = isqrt(whole) if k == 2 else round(2.0 ** (log2(whole) / k))
+        if root**k != whole:
+            return None
+        roots.append(root)
+    return Fraction(*roots)
+
+
+def _power_product(numbers: Sequence[Fraction], exponents: Exponents) -> Fraction:
+    return prod((b**k for b, k in zip(numbers, exponents, strict=True) if k), start=Fraction(1))
+
+
+def _even(f: Polynomial) -> Polynomial:
+    """A polynomial over a power of two near its largest coefficient."""
+    return Polynomial(f.n, scaled_terms(f, np.zeros(f.n, dtype=np.int64)))
+
+
+def _is_power_of_two(s: Fraction) -> bool:
+    p, q = s.numerator, s.denominator
+    return p & (p - 1) == 0 and q & (q - 1) == 0
