@@ -357,26 +357,26 @@ numerics.digits: LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_RO
 ROUNDING, FIRST, LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function:
 ROUNDING; numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
 REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
-numerics.rounds_in_doubles: APART; numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
-numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP; numerics.zero_values: LEAST;
-numerics.series_zeros: RANK, ASTRAY, ARRIVED; tracking.certified_paths: ERROR, ALONG, ACROSS,
-LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST; tracking.close_paths: STEEP;
-tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch: LONGEST; tracking.ends.corrector:
-DOUBLES, NOISY; tracking.ends.inclusion: TINY; tracking.ends.initial_forms: GAIN;
-tracking.ends.kept_points: RESIDUAL, SECOND; tracking.ends.lane_scalars: IDLE, STEP, FINISH;
-tracking.ends.limits: LOG_2; tracking.ends.linear_algebra: LEAST, LARGEST; tracking.ends.runs:
-ACCURACY, CONTRACTION; tracking.linear_algebra: PIVOT, PHASE; tracking.taylor: EPSILON;
-tracking.numbers.complex_numbers: HALVED, SMALL_SQUARE, LARGER; tracking.numbers.double_double:
-EPSILON, SMALL; tracking.numbers.octuple_double: EPSILON, SMALL; tracking.numbers.quad_double:
-EPSILON, SMALL; tracking.predictor: PREDICT, CORRECT, TINY, FAR; tracking.projective: ROUNDING;
-tracking.track: LEAST, BASIN, FINEST; tracking.ends.end_run: TRIAL, SMALLER, SHORTEST,
-MOST_REJECTED, LAST_T; tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps: NEIGHBOURS;
-tracking.settings: TIGHTER, SHARPER; tracking.straight_run: LEAST, SHORTEST, OVERFLOW, ROUNDING,
-FARTHEST; solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING,
-WIDEST, TINY; solving.isolated_zero: ROUNDING; solving.lifted_solution: ROUGH;
-solving.missing_zeros: NEAR; solving.solution_classes: STEP; solving.start.centring: FAR, CONVERGED,
-DEPENDENT, FARTHEST; solving.start.choice: WORK; solving.start.family_monodromy: SHARP, ARRIVED;
-solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
+numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR; numerics.scaling: INERTIA,
+NEARLY_ORTHOGONAL; numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP;
+numerics.zero_values: LEAST; numerics.series_zeros: RANK, ASTRAY, ARRIVED; tracking.certified_paths:
+ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST;
+tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch:
+LONGEST; tracking.ends.corrector: DOUBLES, NOISY; tracking.ends.inclusion: TINY;
+tracking.ends.initial_forms: GAIN; tracking.ends.kept_points: RESIDUAL, SECOND;
+tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
+tracking.ends.linear_algebra: LEAST, LARGEST; tracking.ends.runs: ACCURACY, CONTRACTION;
+tracking.linear_algebra: PIVOT, PHASE; tracking.taylor: EPSILON; tracking.numbers.complex_numbers:
+HALVED, SMALL_SQUARE, LARGER; tracking.numbers.double_double: EPSILON, SMALL;
+tracking.numbers.octuple_double: EPSILON, SMALL; tracking.numbers.quad_double: EPSILON, SMALL;
+tracking.predictor: PREDICT, CORRECT, TINY, FAR; tracking.projective: ROUNDING; tracking.track:
+LEAST, BASIN, FINEST; tracking.ends.end_run: TRIAL, SMALLER, SHORTEST, MOST_REJECTED, LAST_T;
+tracking.ends.follow: FURTHER, FURTHEST; tracking.jumps: NEIGHBOURS; tracking.settings: TIGHTER,
+SHARPER; tracking.straight_run: LEAST, SHORTEST, OVERFLOW, ROUNDING, FARTHEST;
+solving.certified_paths: FURTHER; solving.kantorovich: EPS, SMALL, PROMISING, WIDEST, TINY;
+solving.isolated_zero: ROUNDING; solving.lifted_solution: ROUGH; solving.missing_zeros: NEAR;
+solving.solution_classes: STEP; solving.start.choice: WORK; solving.start.family_monodromy: SHARP,
+ARRIVED; solving.start.multihomogeneous: EXACT; solving.start.polyhedral: WIDTH, LENGTH;
 solving.start.target: HALF_UNIT; solving.tropical_zeros: ARRIVED, NEAR; witness.at_prompt: EXACT,
 INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED; witness.cutting: FLAT,
 ROUNDED, ROUNDING, LOSS, NOTHING; witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP,
@@ -389,6 +389,6 @@ decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; decomposition.
 EQUATIONS, MOVED, RADII, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
 mechanism.parts_decomposition: ROUNDED; files.close_points: ROUNDED; files.json_values: AGREES;
-check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE;
-cli.bench_decompose: PATIENCE; cli.running: INTERVAL.
+check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
+PATIENCE; cli.running: INTERVAL.
 """

@@ -20,6 +20,7 @@ from nag.decomposition import decompose
 from nag.files.cases import read_case
 from nag.files.certificate_export import solutions_document
 from nag.numerics.certified_points import CertifiedPoints
+from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.singular_point import analyse
 from nag.solving.certificate import certify_solutions
 from nag.solving.shown import number_text
@@ -100,7 +101,8 @@ def test_what_a_shift_of_variables_cancels_counts_as_an_error() -> None:
     largest = 0.0
     for _ in range(200):
         centres = tuple(Fraction(int(k), 7) for k in rng.integers(-40, 40, n))
-        target = Target(n, rows, (2, 0, -3), centres)
+        natural = NaturalCoordinates((Fraction(1),) * n, centres)
+        target = Target(n, rows, (2, 0, -3), natural)
         # Zeros that are small beside the centres, or not.
         x = [Fraction(int(k), 10 ** int(rng.integers(1, 4))) for k in rng.integers(-999, 999, n)]
         y = [(c - b) / Fraction(2) ** k for c, b, k in zip(x, centres, (2, 0, -3), strict=True)]

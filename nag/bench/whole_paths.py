@@ -133,8 +133,11 @@ class WholePaths:
         if not self.target.scales:
             return points
         with flint.ctx.workdps(FINEST):
-            factors = [flint.arb(2) ** k for k in self.target.scales]
-            origins = [number(b) for b in self.target.centres]
+            powers, natural = self.target.scales, self.target.natural
+            factors = [
+                number(s) * flint.arb(2) ** k for s, k in zip(natural.scales, powers, strict=True)
+            ]
+            origins = [number(b) for b in natural.origin]
             return [
                 [z * f + b for z, f, b in zip(x, factors, origins, strict=True)] for x in points
             ]

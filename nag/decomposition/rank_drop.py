@@ -200,7 +200,8 @@ def _restricted(component: WitnessSet, reduction: Reduction) -> WitnessSet:
     """A component in the coordinates that linear equations leave: the ranks drop where they did."""
     cut, frame = component.slice, reduction.frame
     rows = orthonormal_rows(frame.pulled_back(cut.A, cut.b))
-    points, radii = (frame.coordinates(x) for x in (component.points, component.radii))
+    points = frame.coordinates(component.points)
+    radii = component.radii[:, list(frame.positions)] / frame.scales
     here = Slice(rows[:, 1:], -rows[:, 0])
     return replace(component, slice=here, points=points, radii=radii, multidegree=None, fibres=())
 

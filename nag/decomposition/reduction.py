@@ -106,7 +106,9 @@ class Reduction:
             natural = [f(own, number) for f in self.images]
             x = [
                 z * number(scale) + number(b)
-                for z, scale, b in zip(natural, self.natural.scales, self.natural.origin, strict=True)
+                for z, scale, b in zip(
+                    natural, self.natural.scales, self.natural.origin, strict=True
+                )
             ]
             return in_words([*x, *y[self.n :]], point.curvature)
 

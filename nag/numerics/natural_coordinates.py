@@ -5,7 +5,8 @@ origin ``c`` is where as many of these coefficients as possible vanish, exactly:
 circles, spheres and quadrics, of products of them, and of anything that was translated from such
 coordinates. What leading forms do not determine, the next forms do, degree by degree. Scales make
 pure powers in one equation, as ``a x^2 + b y^2`` has, of one size, exactly where the root is
-rational, and leave coefficients of comparable size else. Where little is gained, nothing changes.
+rational, and leave coefficients of comparable size else. Where little is gained, or an equation
+would have more terms, nothing changes.
 """
 
 from __future__ import annotations
@@ -124,6 +125,8 @@ def _accepted_origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fractio
     if not (sizes > before - log2(FAR)).any():
         return nothing
     moved = [shift_polynomial(f, origin) for f in polynomials]
+    if any(len(g.terms) > len(f.terms) for f, g in zip(polynomials, moved, strict=True)):
+        return nothing
     after = variable_scales(moved, n)
     kept = after <= before + LARGER
     gain = (sizes - after)[kept].max(initial=-np.inf)

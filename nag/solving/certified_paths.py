@@ -147,10 +147,7 @@ def _start(
 
 def _coordinates(target: Target, start: Start, result: SolveResult) -> np.ndarray:
     """The solutions in the homotopy's coordinates."""
-    points = result.points
-    if target.scales:
-        origins = np.array([float(c) for c in target.centres])
-        points = (points - origins) / np.exp2(target.scales)
+    points = target.scaled_points(result.points)
     shift = len(start.groups)
     return np.hstack([np.ones((len(points), shift)), points]).astype(complex)
 

@@ -16,6 +16,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import sharp_zero, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.natural_coordinates import natural_coordinates
 from nag.numerics.zero_values import NONZERO, possible_zeros, vanishes_at_all
 from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.start.choice import FEW
@@ -50,14 +51,15 @@ class SquareProblem:
         # Of more paths, start systems with the monomials of the equations as given spare as many.
         equations = lower if prod(f.degree for f in lower) <= FEW else equations
         added = max(0, n - len(equations))
-        slices = [_random_linear(n, rng) for _ in range(added)]
-        square = _squared([*equations, *slices], n, rng)
-        target = Target.of(square, n, digits)
+        natural = natural_coordinates(equations, n)
+        whole = [natural.polynomial(f) for f in equations]
+        whole += [_random_linear(n, rng) for _ in range(added)]
+        target = Target.of(_squared(whole, n, rng), n, digits, natural)
         nonzero = tuple(target.scaled(f) for f in system.nonzero)
         if len(equations) + added == n:
             mended = tuple(Polynomial(n, terms) for terms in target.given)
         else:
-            mended = tuple(target.scaled(f) for f in [*equations, *slices])
+            mended = tuple(target.scaled(natural.original_polynomial(f)) for f in whole)
         return cls(system, mended, nonzero, target, added, len(equations) > n)
 
     def solves(self, x: np.ndarray) -> bool | None:

@@ -63,17 +63,13 @@ class Frame:
         """Whether the coordinates are original ones as they are."""
         return self.exact and bool((self.scales == 1).all())
 
-    def coordinates(self, x: np.ndarray) -> np.ndarray:
-        """The reduced coordinates of points of the set, shape ``(P, n)``; `points` undone."""
-        kept = list(self.positions)
-        return (x[:, kept] - self.t[kept]) / self.scales
-
     def points(self, y: np.ndarray) -> np.ndarray:
         return y @ self.T.T + self.t
 
     def coordinates(self, x: np.ndarray) -> np.ndarray:
         """The reduced coordinates of original points, the last axis theirs."""
-        return x[..., list(self.positions)] / self.scales
+        kept = list(self.positions)
+        return (x[..., kept] - self.t[kept]) / self.scales
 
     def error(self, y: np.ndarray, accuracy: float) -> float:
         """The largest error of `points`, relative to ``1 + |x|``, where y has that one to its size.
@@ -89,8 +85,9 @@ class Frame:
     def slice(self, rows: np.ndarray) -> Slice:
         """A slice of the reduced space as one of the original space: its coordinates are kept.
 
-        Nothing is rounded: where coordinates are scaled, rows are of norms about one, and no more
-        orthonormal, which would leave nothing of their entries for the largest coordinates.
+        Nothing is rounded but by another origin: where coordinates are scaled, rows are of norms
+        about one, and no more orthonormal, which would leave nothing of their entries for the
+        largest coordinates.
         """
         A = np.zeros((len(rows), len(self.t)), dtype=complex)
         A[:, self.positions] = rows[:, 1:] / self.scales

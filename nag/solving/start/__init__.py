@@ -1,6 +1,6 @@
 """Start systems: solved ones, from which paths lead to the target.
 
-Read in this order: `target` (a system made ready, by `centring`), `choice`, then the kinds:
+Read in this order: `target` (a system made ready), `choice`, then the kinds:
 `total_degree` with `interchange` (one path for all that are its images), `multihomogeneous`,
 `polyhedral` on `mixed_cells`, and `isotropic`, which takes one to turns in loops; `monodromy` on
 `fibre_monodromy` and `pencil`, `family_monodromy` with `scalings`.

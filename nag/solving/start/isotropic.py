@@ -139,7 +139,8 @@ def isotropic(
     Args:
         target: what is tracked of the system, with the same zeros.
     """
-    turns = looped_turns(system)
+    natural = system if target.natural is None else target.natural.system(system)
+    turns = looped_turns(natural)
     if turns is None or turns.freedoms:
         return None
     x, _ = IsotropicSection(turns, np.zeros((0, 1 + system.n))).zeros(settings, rng, threads)
@@ -148,7 +149,7 @@ def isotropic(
     groups = (tuple(range(target.n)),)
     degrees = np.array(target.degrees)[:, None]
     rows = homogenized(target.rows, target.n, groups, degrees)
-    points = np.hstack([np.ones((len(x), 1)), target.scaled_points(x)])
+    points = np.hstack([np.ones((len(x), 1)), x * np.exp2(-np.array(target.scales, dtype=float))])
     start = Start(
         "polyhedral",
         Homotopy(rows, digits=target.digits),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
@@ -13,8 +12,8 @@ import numpy as np
 from nag.algebra.combinations import of_fewest_terms
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
+from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
-from nag.solving.start.centring import centres, shifted
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import NOTHING, Known
@@ -35,8 +34,9 @@ class Target:
     Attributes:
         n: number of variables and of polynomials.
         rows: the terms, in variables ``y``.
-        scales, centres: the original variables are ``x_i = 2^scales[i] y_i + centres[i]``, with
-            integers and rational numbers.
+        scales: ``2^scales[i] y_i`` is the variable i in ``natural`` coordinates, with integers;
+            empty where the y are the original variables.
+        natural: coordinates that the system was brought to before.
         digits: decimal digits of the coefficients of the polynomials that the rows come from.
         given: these polynomials' terms in the variables ``y``, scaled, before rows of the same
             monomials were combined.
@@ -46,7 +46,7 @@ class Target:
     n: int
     rows: tuple[Terms, ...]
     scales: tuple[int, ...] = ()
-    centres: tuple[Fraction, ...] = ()
+    natural: NaturalCoordinates | None = None
     digits: int | None = None
     given: tuple[Terms, ...] = ()
     in_torus: bool = False
@@ -56,59 +56,71 @@ class Target:
             raise ValueError(f"{len(self.rows)} polynomials in {self.n} variables are not square")
 
     @classmethod
-    def of(cls, polynomials: Sequence[Polynomial], n: int, digits: int | None = None) -> Target:
-        """The polynomials with variables centred, and those and rows scaled by powers of two.
+    def of(
+        cls,
+        polynomials: Sequence[Polynomial],
+        n: int,
+        digits: int | None = None,
+        natural: NaturalCoordinates | None = None,
+    ) -> Target:
+        """The polynomials in natural coordinates, variables and rows scaled by powers of two.
 
         Args:
             digits: of the coefficients that those of the polynomials were worked out from, if they
                 are not these.
+            natural: the coordinates that the polynomials are in, if they have been brought there.
         """
         digits = most_digits(polynomials) if digits is None else digits
-        origins = centres(polynomials, n)
-        polynomials = [shifted(f, origins) for f in polynomials]
+        if natural is None:
+            natural = natural_coordinates(polynomials, n)
+            polynomials = [natural.polynomial(f) for f in polynomials]
         scales = variable_scales(polynomials, n)
         given = tuple(scaled_terms(f, scales) for f in polynomials)
         rows = independent_rows(given)
-        return cls(n, rows, tuple(scales.tolist()), origins, digits, given)
+        return cls(n, rows, tuple(scales.tolist()), natural, digits, given)
 
     def scaled(self, f: Polynomial) -> Polynomial:
         """``f``, a polynomial in the original variables, in the variables ``y``, scaled."""
-        if self.centres:
-            f = shifted(f, self.centres)
+        if self.natural is not None:
+            f = self.natural.polynomial(f)
         return Polynomial(self.n, scaled_terms(f, np.array(self.scales, dtype=np.int64)))
 
     def original(self, points: np.ndarray) -> np.ndarray:
         """Values of the original variables, from those of ``y``, shape ``(P, n)``."""
-        if not self.scales:
-            return points
-        origins = np.array([float(b) for b in self.centres])
-        return points * np.exp2(self.scales) + origins
+        return points * self._units + self._origin if self.scales else points
 
     def scaled_points(self, x: np.ndarray) -> np.ndarray:
         """Values of ``y``, from those of the original variables, shape ``(P, n)``."""
-        if not self.scales:
-            return x
-        return (x - np.array([float(b) for b in self.centres])) * np.exp2(-np.array(self.scales))
+        return (x - self._origin) / self._units if self.scales else x
+
+    @cached_property
+    def _units(self) -> np.ndarray:
+        units = np.exp2(self.scales)
+        return units if self.natural is None else units * np.array(self.natural.scales, dtype=float)
+
+    @cached_property
+    def _origin(self) -> np.ndarray:
+        return np.zeros(self.n) if self.natural is None else np.array(self.natural.origin, float)
 
     def rounding(self, points: np.ndarray) -> np.ndarray:
         """Errors that `original` adds, relative to one and the size of the result, shape ``(P,)``.
 
         A shift may cancel most of a coordinate, of which doubles round all of it.
         """
-        if not any(self.centres):
+        if self.natural is None or self.natural.is_exact_in_doubles:
             return np.zeros(len(points))
-        before = np.linalg.norm(points * np.exp2(self.scales), axis=1)
+        before = np.linalg.norm(points * self._units, axis=1)
         after = np.linalg.norm(self.original(points), axis=1)
-        shift = float(np.linalg.norm([float(b) for b in self.centres]))
+        shift = float(np.linalg.norm(self._origin))
         return HALF_UNIT * (before + shift + after) / (1 + after)
 
     def original_radii(self, point: np.ndarray, radii: np.ndarray | None) -> np.ndarray | None:
         """Errors of a point's original coordinates, from those of ``y``, shape ``(n,)``."""
         if radii is None or not self.scales:
             return radii
-        moved = np.array([b != 0 for b in self.centres])
-        rounding = np.where(moved, np.finfo(float).eps * np.abs(point), 0.0)
-        return radii * np.exp2(self.scales) + rounding
+        exact = self.natural is None or self.natural.is_exact_in_doubles
+        rounding = 0.0 if exact else np.finfo(float).eps * np.abs(point)
+        return radii * self._units + rounding
 
     @cached_property
     def degrees(self) -> tuple[int, ...]:

@@ -1,0 +1,153 @@
+"""Natural coordinates: exact there and back, found after any translation and scaling."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from systems import kinds
+
+from nag.algebra.evaluation import Evaluator
+from nag.algebra.polynomial import Polynomial
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition import decompose
+from nag.files.cases import read_case
+from nag.mechanism.model import model
+from nag.numerics.natural_coordinates import (
+    FAR,
+    NaturalCoordinates,
+    natural_coordinates,
+)
+from nag.solving.solve import solve
+
+CASES = Path(__file__).parent.parent / "cases"
+BENCHMARKS = CASES / "benchmarks"
+RADIUS = Fraction(1, 2000)
+ORIGINS = (Fraction(2, 3), Fraction(-5, 7), Fraction(9, 11))
+
+
+def multilinear(seed: int) -> list[Polynomial]:
+    """Three equations with all eight multilinear monomials in three variables: six zeros."""
+    rng = np.random.default_rng(seed)
+    support = [tuple(int(c) for c in np.binary_repr(k, 3)) for k in range(8)]
+    return [
+        Polynomial(3, {e: Fraction(int(c), 64) for e, c in zip(support, row, strict=True)})
+        for row in rng.integers(-64, 65, (3, 8)) | 1
+    ]
+
+
+def clustered(polynomials: list[Polynomial]) -> list[Polynomial]:
+    """The polynomials whose zeros are the given ones' times a small radius, about new origins."""
+    images = [(x - b) / RADIUS for x, b in zip(Polynomial.variables(3), ORIGINS, strict=True)]
+    return [f.compose(images) for f in polynomials]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_clustered_zeros_are_the_images_of_those_spread_out(seed: int) -> None:
+    spread = multilinear(seed)
+    wide = solve(PolynomialSystem(["x", "y", "z"], spread), seed=seed)
+    close = solve(PolynomialSystem(["x", "y", "z"], clustered(spread)), seed=seed)
+    assert wide.complete
+    assert close.complete
+    assert len(wide.solutions) == len(close.solutions) == 6
+    images = wide.points * float(RADIUS) + np.array([float(b) for b in ORIGINS])
+    for point in close.points:
+        distances = np.abs(images - point).max(axis=1)
+        assert distances.min() < 1e-12
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_origins_lie_near_the_zeros(seed: int) -> None:
+    spread = multilinear(seed)
+    zeros = solve(PolynomialSystem(["x", "y", "z"], spread), seed=seed).points
+    reach = float(RADIUS) * np.abs(zeros).max(axis=0)
+    found = natural_coordinates(clustered(spread), 3).origin
+    offset = np.array([float(a - b) for a, b in zip(found, ORIGINS, strict=True)])
+    assert (np.abs(offset) <= FAR * reach).all()
+
+
+def test_polynomials_go_there_and_back_exactly() -> None:
+    f = clustered(multilinear(0))[0]
+    point = (Fraction(1, 3), Fraction(4, 5), Fraction(-2, 7))
+    units = (Fraction(3), Fraction(1, 8), Fraction(10, 7))
+    natural = NaturalCoordinates(units, ORIGINS)
+    there = [(x - b) / s for x, b, s in zip(point, ORIGINS, units, strict=True)]
+    image, back = natural.polynomial(f), natural.original_polynomial(natural.polynomial(f))
+    ratio = image(there) / f(point)
+    assert ratio.numerator & (ratio.numerator - 1) == 0
+    assert ratio.denominator & (ratio.denominator - 1) == 0
+    assert {e: c * f.terms[0, 0, 0] for e, c in back.terms.items()} == {
+        e: c * back.terms[0, 0, 0] for e, c in f.terms.items()
+    }
+
+
+@pytest.mark.parametrize("name", ["inverse-6r", "katsura-6", "cyclic-5", "chandra-8", "cbms1"])
+def test_well_placed_variables_stay(name: str) -> None:
+    case = read_case(BENCHMARKS / f"{name}.toml")
+    system = case.system if case.mechanism is None else model(case.mechanism).system
+    assert natural_coordinates(system.polynomials, system.n).origin == (0,) * system.n
+
+
+def test_sparse_equations_are_not_made_denser() -> None:
+    x, y = Polynomial.variables(2)
+    far = Fraction(1000)
+    assert natural_coordinates([(x - far) ** 2 - 1, x * y - far], 2).origin == (0, 0)
+
+
+def test_equations_that_depend_on_each_other_have_one_origin() -> None:
+    x, y = Polynomial.variables(2)
+    f = (x - 1000) * (y - 1000) - 1
+    assert natural_coordinates([f, f * 3], 2).origin == (1000, 1000)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_translated_and_scaled_circles_are_found_exactly(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    plain = read_case(CASES / "rhombus-chain-2.toml").system
+    origin = [Fraction(int(b), 997) for b in rng.integers(-(10**7), 10**7, plain.n)]
+    units = [Fraction(10) ** int(k) for k in rng.integers(-4, 5, plain.n)]
+    # The pairs of a circle, and the ends of rods, hang together by its equation alone.
+    moved = NaturalCoordinates(tuple(1 / s for s in units), (Fraction(0),) * plain.n)
+    moved = moved.system(plain)
+    forms = [v - b for v, b in zip(Polynomial.variables(plain.n), origin, strict=True)]
+    moved = [f.compose(forms) for f in moved.polynomials]
+    found = natural_coordinates(moved, plain.n)
+    assert found.origin == tuple(origin)
+    circles = [f for f in plain.polynomials if f.degree == 2]
+    for f in circles:
+        i, j = sorted(f.support)
+        assert found.scales[i] / units[i] == found.scales[j] / units[j]
+
+
+@pytest.mark.parametrize("decades", [1, 3, 6])
+@pytest.mark.parametrize("name", ["rhombus-chain-2", "slider-crank", "double-rhombus"])
+def test_a_translated_system_is_decomposed_by_the_paths_of_the_plain_one(
+    name: str, decades: int
+) -> None:
+    rng = np.random.default_rng(decades)
+    plain = read_case(CASES / f"{name}.toml").system
+    origin = [Fraction(int(b), 997) for b in rng.integers(-997, 997, plain.n) * 10**decades]
+    forms = [v - b for v, b in zip(Polynomial.variables(plain.n), origin, strict=True)]
+    moved = replace(plain, polynomials=tuple(f.compose(forms) for f in plain.polynomials))
+    here, there = decompose(plain), decompose(moved)
+    assert there.complete
+    assert kinds(there) == kinds(here)
+    assert there.paths.tracked <= 2 * here.paths.tracked
+    shift = np.array([float(b) for b in origin])
+    evaluator = Evaluator.of(plain.polynomials, plain.n)
+    for component in there.components:
+        assert component.accuracy < 1e-14
+        residuals = evaluator.residuals(component.points - shift)
+        assert residuals.max() < 1e-14 * 10.0**decades
+
+
+def test_translated_sheets_are_told_apart() -> None:
+    x, y, z = (v - b for v, b in zip(Polynomial.variables(3), (701, -3000, 22), strict=True))
+    close = (x + y * 2 - 1) ** 2 - Fraction(2, 10**50)
+    answer = decompose(PolynomialSystem(["x", "y", "z"], [x**2 + y**2 + z**2 - 1, close]))
+    assert answer.complete
+    assert kinds(answer) == {(1, 2, 1): 2}
+    assert all(c.accuracy < 1e-15 for c in answer.components)
