@@ -2,11 +2,12 @@
 
     python tests/many_seeds.py --seeds 0:1000 [--case NAME ...] [--folder literature ...]
         [--below SECONDS] [--journal FILE] [--formulation E|H] [--symmetric] [--threads N]
-        [--changed]
+        [--changed] [--coordinates KIND:DECADES]
 
 Prints one line a case and the totals. With `--changed`, every seed decomposes the case in other
 coordinates, with other equations (see `nag.bench.atlas.changes`); multidegrees are those of
-the old ones.
+the old ones. With `--coordinates`, in coordinates that lie far from the case's own ones
+(see `nag.bench.atlas.changes.FAR_COORDINATES`), with the same equations.
 With a journal, a run that was cut off goes on where it stopped. Exit status 1 if any answer
 differs from what the case file knows, or is incomplete.
 """
@@ -25,7 +26,7 @@ import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.changes import changed
+from nag.bench.atlas.changes import FAR_COORDINATES, changed, in_far_coordinates
 from nag.decomposition import decompose
 from nag.files.cases import Truth, read_case
 from nag.files.problem import symmetries_of
@@ -92,9 +93,18 @@ def subject(path: Path, formulation: str | None, symmetric: bool) -> Subject:
     return Subject(name, system, tuple(case.truth), formulation, symmetries, case.assembly)
 
 
-def moved(of: Subject, seed: int) -> Subject:
-    """The same zero set in coordinates in which nothing is known of its multidegrees."""
-    system = changed(of.system, np.random.default_rng(seed))
+def moved(of: Subject, seed: int, far: str | None) -> Subject:
+    """The same zero set in coordinates in which nothing is known of its multidegrees.
+
+    Args:
+        far: kind and decades of coordinates; None for any change.
+    """
+    rng = np.random.default_rng(seed)
+    if far is None:
+        system = changed(of.system, rng)
+    else:
+        kind, decades = far.split(":")
+        system = replace(in_far_coordinates(of.system, kind, int(decades), rng), groups=())
     truth = tuple(replace(t, multidegree=None) for t in of.truth)
     return replace(of, system=system, truth=truth, parts=None)
 
@@ -147,7 +157,8 @@ def run(
     for k, seed in enumerate(seeds):
         result = known.get((of.name, seed))
         if result is None:
-            one = moved(of, seed) if options.changed else of
+            other = options.changed or options.coordinates
+            one = moved(of, seed, options.coordinates) if other else of
             result = decomposed(one, seed, options.threads, options.settings)
             if options.journal is not None:
                 with options.journal.open("a") as file:
@@ -184,6 +195,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--journal", type=Path, help="file that keeps the results of every seed")
     parser.add_argument("--symmetric", action="store_true", help="use the systems' symmetries")
     parser.add_argument("--changed", action="store_true", help="change coordinates and equations")
+    parser.add_argument("--coordinates", help=f"{'|'.join(FAR_COORDINATES)}:DECADES")
     parser.add_argument("--formulation", choices=["E", "H"])
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--settings", default="default")

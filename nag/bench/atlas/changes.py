@@ -121,6 +121,42 @@ def sparsely_changed(
     return replace(moved, polynomials=tuple(polynomials), groups=())
 
 
+# Coordinates that lie far from a system's own ones, by so many powers of ten: every variable
+# ``"translated"``, a ``"third"`` of them, or ``"one"``; ``"scaled"`` by powers of ten up to that;
+# in ``"dense"`` linear forms of that condition.
+FAR_COORDINATES = ("translated", "third", "one", "scaled", "dense")
+
+
+def in_far_coordinates(
+    system: PolynomialSystem, kind: str, decades: int, rng: np.random.Generator
+) -> PolynomialSystem:
+    """The system in coordinates of one of `FAR_COORDINATES`.
+
+    Args:
+        decades: how far they lie; for ``"dense"``, the condition of the linear forms.
+    """
+    n = system.n
+    forms = list(Polynomial.variables(n))
+    if kind == "scaled":
+        forms = [power(rng, decades) * x for x in forms]
+    elif kind == "dense":
+        weights = [Fraction(10) ** round(decades * i / max(n - 1, 1)) for i in range(n)]
+        inner, outer = _unimodular(n, rng), _unimodular(n, rng)
+        scaled = [weights[i] * _form(row, forms) for i, row in enumerate(inner)]
+        forms = [_form(row, scaled) for row in outer]
+    else:
+        count = {"translated": n, "third": -(-n // 3), "one": 1}[kind]
+        for i in rng.choice(n, count, replace=False).tolist():
+            forms[i] = forms[i] - Fraction(int(rng.integers(-(10**6), 10**6)), 10**6) * 10**decades
+    groups = () if kind == "dense" else system.groups
+    return replace(_in_forms(system, forms), groups=groups)
+
+
+def _form(row: Sequence[Fraction], forms: Sequence[Polynomial]) -> Polynomial:
+    """A combination of linear forms."""
+    return sum((c * x for c, x in zip(row, forms, strict=True)), start=forms[0] * 0)
+
+
 def _in_forms(system: PolynomialSystem, forms: list[Polynomial]) -> PolynomialSystem:
     """The system with affine forms put in for its variables."""
     polynomials = tuple(f.compose(forms) for f in system.polynomials)

@@ -111,6 +111,21 @@ def close_lines(k: int, rng: np.random.Generator) -> Problem:
     return Problem(plain((x + 2 * y - 1) ** 2 - 2 * _small(2 * k)), _curves((1, 2)), ONLY)
 
 
+def sheets_apart(k: int, rng: np.random.Generator) -> Problem:
+    """Two ellipsoids at a distance of 10^k, and a cubic surface through both: two sextic curves."""
+    x = Polynomial.variables(3)
+    sheets = []
+    for _ in range(2):
+        centre = [Fraction(int(b), 100) * Fraction(10) ** k for b in rng.integers(-99, 100, 3)]
+        y = [v - b for v, b in zip(x, centre, strict=True)]
+        axes = rng.integers(1, 6, 3).tolist()
+        sheets.append(sum((int(a) * v**2 for a, v in zip(axes, y, strict=True)), x[0] * 0) - 7)
+    cubic = x[0] ** 3 + 2 * x[1] ** 3 - 3 * x[2] ** 3
+    for v, c in zip(x, rng.integers(1, 9, 3).tolist(), strict=True):
+        cubic = cubic + v * int(c)
+    return Problem(plain(sheets[0] * sheets[1], cubic - 1), Counter({(1, 6, 1): 2}))
+
+
 def close_circles(k: int, rng: np.random.Generator) -> Problem:
     """Two concentric circles, the radii of which differ by 10^-k or so, not rational."""
     x, y = Polynomial.variables(2)

@@ -15,6 +15,7 @@ from nag.bench.atlas.moved import (
     DENSE,
     SOLVED,
     SPARSE,
+    case_in_far_coordinates,
     changed_case,
     moved_case,
     nine_points_moved,
@@ -27,6 +28,14 @@ Make = Callable[[Any, np.random.Generator], Problem]
 PATIENCE = {"solved-hard": 4, "sparse-large": 12, "solved-large": 12, "nine-point": 6}
 SEEDS = {"sparse-large": 4, "solved-large": 4, "nine-point": 4}
 DIGITS = (2, 4, 8, 12, 16, 20, 30)
+# Coordinates in which cases are decomposed, far from their own ones.
+FAR_COORDINATES = {
+    "translated": "cases, every variable translated by 10^k",
+    "third": "cases, a third of the variables translated by 10^k",
+    "one": "cases, one variable translated by 10^k",
+    "scaled": "cases, each variable scaled by another power of ten, to 10^k",
+    "dense": "cases of few variables in dense linear forms of condition 10^k",
+}
 
 
 @dataclass(frozen=True)
@@ -53,7 +62,7 @@ class Family:
     seeds: int | None = None
 
 
-def _two(make: Make, *first: int) -> Make:
+def _two(make: Make, *first: Any) -> Make:
     """A family of several knobs as one of its last."""
     return lambda value, rng: make((*first, value), rng)
 
@@ -193,6 +202,17 @@ FAMILIES: tuple[Family, ...] = (
     Family(
         "lengths", "a parallelogram's lengths at 10^k", "k",
         linkages.parallelogram, (1, 2, 4, 6, 8, -2, -4, -8), "decompose",
+    ),
+    *(
+        Family(
+            f"far-{kind}", text, "decades", _two(case_in_far_coordinates, kind),
+            tuple(range(0, 7)), "decompose", 2,
+        )
+        for kind, text in FAR_COORDINATES.items()
+    ),
+    Family(
+        "sheets-apart", "two surfaces far apart cut by one", "decades of the distance",
+        curves.sheets_apart, tuple(range(0, 7)), "decompose",
     ),
     *_cases(DENSE, "in other coordinates", moved_case, "decompose"),
     *_cases(SPARSE, "changed, still sparse", changed_case, "decompose"),

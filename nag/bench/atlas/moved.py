@@ -8,7 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.changes import Coordinates, mixed, sparsely_changed
+from nag.bench.atlas.changes import (
+    Coordinates,
+    in_far_coordinates,
+    mixed,
+    sparsely_changed,
+)
 from nag.bench.atlas.nine_points import CARRIED, NinePoints
 from nag.bench.atlas.points import Problem, points
 from nag.bench.verdicts import Components
@@ -144,6 +149,23 @@ def changed_case(name: str, rng: np.random.Generator) -> Problem:
     """The system of one of `CASES`, changed in one of the ways that keep it sparse."""
     system, truth = case_system(name)
     return Problem(sparsely_changed(system, rng), truth)
+
+
+# Of each folder those cases that are decomposed in half a second or less, in any coordinates.
+ANYWHERE = tuple(
+    name for group in (DENSE | SPARSE).values() for name in group if "benchmarks" not in name
+)
+# Unknowns beyond which a dense change leaves more terms than cases have.
+MOST_DENSE = 6
+
+
+def case_in_far_coordinates(knobs: tuple[str, int], rng: np.random.Generator) -> Problem:
+    """One of the cases, at random, in coordinates of a kind that lie far from its own ones."""
+    kind, decades = knobs
+    while True:
+        system, truth = case_system(ANYWHERE[rng.integers(len(ANYWHERE))])
+        if kind != "dense" or system.n <= MOST_DENSE:
+            return Problem(in_far_coordinates(system, kind, decades, rng), truth)
 
 
 def nine_points_moved(name: str, rng: np.random.Generator) -> Problem:
