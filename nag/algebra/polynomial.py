@@ -72,6 +72,13 @@ class Polynomial:
             ) from None
         object.__setattr__(self, "terms", MappingProxyType(kept))
 
+    @classmethod
+    def of_doubles(cls, n: int, terms: Mapping[Exponents, complex]) -> Polynomial:
+        """A polynomial whose coefficients are complex doubles, as a slice's are: to be tracked."""
+        made = cls(n, {})
+        object.__setattr__(made, "terms", MappingProxyType(dict(terms)))
+        return made
+
     def __reduce__(self) -> tuple[Any, ...]:
         return Polynomial, (self.n, dict(self.terms))
 

@@ -161,7 +161,7 @@ def _cut_family(
         terms = {(0,) * (n + 1): complex(row[0])}
         for i in range(n):
             terms[tuple(int(j == i) for j in range(n + 1))] = complex(row[i + 1])
-        equations.append(Polynomial(n + 1, terms))
+        equations.append(Polynomial.of_doubles(n + 1, terms))
     return Family(system.variables, ("parameter",), tuple(equations))
 
 
