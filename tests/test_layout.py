@@ -1,4 +1,4 @@
-"""The packages' imports run one way, and files and functions are of a size to be read."""
+"""The packages' imports run one way."""
 
 import ast
 import re
@@ -41,14 +41,6 @@ class Imported(NamedTuple):
     only_for_types: bool
 
 
-class Read(NamedTuple):
-    """What a file imports, and its functions with their lines and numbers of arguments."""
-
-    lines: int
-    imports: tuple[Imported, ...]
-    functions: tuple[tuple[str, int, int], ...]
-
-
 def statements(
     body: Iterable[ast.AST], later: bool = False, types: bool = False
 ) -> Iterator[tuple[ast.AST, bool, bool]]:
@@ -63,20 +55,16 @@ def statements(
 
 
 @cache
-def read(file: Path) -> Read:
-    text = file.read_text("utf-8")
-    imports, functions = [], []
-    for node, later, types in statements(ast.parse(text).body):
+def read(file: Path) -> tuple[Imported, ...]:
+    """What a file imports."""
+    imports = []
+    for node, later, types in statements(ast.parse(file.read_text("utf-8")).body):
         if isinstance(node, ast.ImportFrom) and node.module:
             names = (node.module, *(f"{node.module}.{a.name}" for a in node.names))
             imports += [Imported(name, later, types) for name in names]
         elif isinstance(node, ast.Import):
             imports += [Imported(alias.name, later, types) for alias in node.names]
-        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            given = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
-            arguments = sum(a.arg not in ("self", "cls") for a in given)
-            functions.append((node.name, node.end_lineno - node.lineno + 1, arguments))
-    return Read(len(text.splitlines()), tuple(imports), tuple(functions))
+    return tuple(imports)
 
 
 def test_every_package_has_its_place() -> None:
@@ -90,7 +78,7 @@ def test_packages_import_only_what_is_before_them(package: str) -> None:
     backwards = [
         f"{file.relative_to(NAG)}: {given.module}"
         for file in (NAG / package).rglob("*.py")
-        for given in read(file).imports
+        for given in read(file)
         if ".".join(given.module.split(".")[:2]) in later
     ]
     assert backwards == []
@@ -117,7 +105,7 @@ def test_imports_run_one_way_inside_packages_as_well() -> None:
     order = TopologicalSorter[str]()
     for module, file in files.items():
         asked = ASKED_FOR.get(module, set())
-        for name, later, only_for_types in read(file).imports:
+        for name, later, only_for_types in read(file):
             left_out = only_for_types or (later and (asked is None or name in asked))
             if name in files and not left_out:
                 order.add(module, name)
@@ -140,23 +128,3 @@ def test_every_package_says_where_each_of_its_files_comes_in_the_reading(package
     files = {p.stem for p in (NAG / package).glob("*.py")}
     folders = {p.parent.name for p in (NAG / package).glob("*/__init__.py")}
     assert (files | folders) - {"__init__"} <= named
-
-
-# Lines of a file, lines of a function with its docstring, arguments of a function without self.
-MOST_LINES, MOST_FUNCTION_LINES, MOST_ARGUMENTS = 400, 60, 7
-
-
-def sizes() -> list[tuple[str, int, int]]:
-    """Each file and function: what is measured, its size, the most it may be."""
-    found = []
-    for file in sorted(NAG.rglob("*.py")):
-        where, known = file.relative_to(NAG).as_posix(), read(file)
-        found.append((f"{where}: lines", known.lines, MOST_LINES))
-        for name, lines, arguments in known.functions:
-            found.append((f"{where}: lines of {name}", lines, MOST_FUNCTION_LINES))
-            found.append((f"{where}: arguments of {name}", arguments, MOST_ARGUMENTS))
-    return found
-
-
-def test_files_and_functions_are_of_a_size_to_be_read() -> None:
-    assert [f"{what}: {size}" for what, size, most in sizes() if size > most] == []

@@ -2,5 +2,6 @@
 
 Read in this order: `precise_samples` (random points of many digits), `point_cloud` (as many as are
 needed, in all variables), `vanishing` (polynomials that vanish), `essential` (maps to the other
-variables), `proof` (that they hold), `image_ideal` (all of it together).
+variables), `proof` (that they hold), `image_ideal` (all of it together); `conjugates` (components
+that are conjugate over the rational numbers).
 """
