@@ -59,6 +59,7 @@ numerics.far_along.FAR                      5       Scaled distance from a singu
                                                     no power of it is small.
 numerics.far_along.AT_MOST                  100     The same in variables that the set determines.
 numerics.local_dimension.ROUNDED            1e-8    Relative error of a point where none is told.
+numerics.local_dimension.MOST_ROUNDED       1e-8    Values, beside their terms, at rounded points.
 numerics.local_structure.FURTHEST           -1.3    Decimal logarithm of the largest distance in
                                                     which a zero is looked for.
 numerics.local_structure.NOTHING *          -90     The same of entries of the dual space's matrices
@@ -344,7 +345,6 @@ mechanism.assembly.REAL                     1e-8    Imaginary parts of real asse
 mechanism.real_assemblies.NONZERO           1e-8    Values at an assembly that must not vanish.
 mechanism.bonds.UNCLEAR                     0.03    How far orders of bonds may be from fractions.
 check.four_way.RESIDUAL                     1e-8    Values at witness points of exact components.
-cli.local.MOST_ROUNDED                      1e-8    Values, beside their terms, at rounded points.
 ==========================================  ======  ================================================
 
 Other values of these give the same answers, sooner or later: sizes of steps and work, bounds of

@@ -103,6 +103,10 @@ def test_another_configuration_may_be_given() -> None:
     mechanism = REPORTS["flat parallelogram"][0]
     tilted = nag.mobility(mechanism, [1, 0, "3/5", Fraction(4, 5)], formulation="E")
     assert (tilted.tangent_dimension, tilted.local_dimension, tilted.status) == (1, 1, "mobile")
+    angle = ["1", "0", "0.5403023058681398", "0.8414709848078965"]
+    turned = nag.mobility(mechanism, angle, formulation="E")
+    assert turned.components == tilted.components and not turned.open
+    assert nag.mobility(mechanism, [float(x) for x in angle], formulation="E").status == "mobile"
     rounded = nag.mobility(mechanism, [1.0, 1e-12, 1.0, 0.0], formulation="E", detail="local")
     assert (rounded.tangent_dimension, rounded.local_dimension) == (2, 1)
     with pytest.raises(NoSolution):

@@ -103,6 +103,16 @@ def test_a_zero_is_on_the_only_component_without_a_path(monkeypatch) -> None:
     ]
 
 
+def test_a_rounded_zero_is_on_the_components_that_the_zero_is_on() -> None:
+    answer = nag.decompose(["x^2 + y^2 - 1", "(x - y)*(x + 2*y - 1)"])
+    root = Fraction("0.7071067811865476")
+    points = [("rounded", (root, root)), ("off", (root, root + Fraction(1, 10**6)))]
+    rounded, off = through_points(answer, points)
+    assert rounded.solution and not rounded.doubt and not off.solution
+    (index,) = rounded.components
+    assert np.allclose(answer.components[index].points, float(root))
+
+
 def test_a_zero_on_what_is_excluded_need_not_be_on_the_only_component() -> None:
     system = nag.system("x*(x^2 + y^2 - 1)")
     answer = decompose(replace(system, nonzero=nag.system("x", "x y").polynomials))

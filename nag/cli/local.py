@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from nag.numerics.local_dimension import LocalDimension
 
 FORMAT = "nag-local-dimension"
-# Relative residual of a point that is taken for a rounded solution.
-MOST_ROUNDED = 1e-8
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,6 +40,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         UsageError: for bad input, or an export that cannot be written.
     """
     case, model = read_problem(options)
+    from nag.decomposition.through import zero_at
     from nag.files.problem import system_of
     from nag.numerics.shown import local_rows
     from nag.text.table import labelled, printable
@@ -49,7 +48,8 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     system = system_of(case, model)
     chosen = chosen_points(options, case, model)
     found = {name: judged(system, at, options) for name, at in chosen.items()}
-    through = _through(system, chosen, case, model, options) if options.check else {}
+    zeros = {name: zero_at(system, chosen[name], one) for name, one in found.items()}
+    through = _through(system, zeros, case, model, options) if options.check else {}
     complete = all(one.decided for one in found.values())
     lines = [printable(case.title)]
     for name, one in found.items():
@@ -95,25 +95,13 @@ def judged(
     Raises:
         UsageError: if it is not near a solution.
     """
-    import numpy as np
-
-    from nag.algebra.evaluation import Evaluator
-    from nag.numerics.local_dimension import ROUNDED, NoSolution, local_dimension
+    from nag.numerics.local_dimension import NoSolution, local_dimension_near
 
     try:
-        return local_dimension(system, at, seed=options.seed)
+        return local_dimension_near(system, at, seed=options.seed)
     except NoSolution as reason:
-        rounded = np.array([complex(float(x)) for x in at])
-        evaluator = Evaluator.of(system.polynomials, system.n)
-        residual = float(evaluator.residuals(rounded[None]).max(initial=0.0))
-        if not residual < MOST_ROUNDED:
-            raise UsageError(
-                f"{options.case}: {reason}; its relative residual is {residual:.1e}, give a "
-                "solution of the equations"
-            ) from None
-        # The error of a double zero is the square root of what is left of the equations.
-        error = max(ROUNDED, residual**0.5)
-        return local_dimension(system, rounded, accuracy=error, seed=options.seed)
+        text = f"{options.case}: {reason}, give a solution of the equations"
+        raise UsageError(text) from None
 
 
 def _point_text(name: str, at: tuple[Number, ...], system: PolynomialSystem) -> str:

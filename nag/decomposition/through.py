@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
 from nag.algebra.number import Number, is_zero
+from nag.algebra.system import PolynomialSystem
+from nag.numerics.local_dimension import LocalDimension, exact_numbers
 from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition
 
@@ -18,7 +22,7 @@ class Through:
 
     Attributes:
         name: name of the point.
-        solution: whether the point satisfies the equations.
+        solution: whether the point satisfies the equations, at least to rounding.
         components: indices of the components through it, among all that the orbits stand for.
         doubt: why the components are not known; empty if they are.
     """
@@ -37,20 +41,25 @@ def through_points(
     """Which components pass through named points of the system."""
     found, everything = [], expanded(decomposition)
     for name, point in points:
+        at = np.array([complex(float(x)) for x in point])
+        known: dict[str, Any] = {"exact": point}
         if not all(is_zero(value) for value in decomposition.system(point)):
-            found.append(Through(name, solution=False))
-            continue
-        if _is_on_the_only_one(everything, point):
+            from nag.witness.at_prompt import rounded_error
+
+            known = {"accuracy": rounded_error(decomposition.system, at)}
+            if known["accuracy"] is None:
+                found.append(Through(name, solution=False))
+                continue
+        if "exact" in known and _is_on_the_only_one(everything, point):
             found.append(Through(name, True, (0,)))
             continue
         from nag.witness.membership import components_through
 
-        at = np.array([complex(float(x)) for x in point])
         try:
             indices = components_through(
                 everything,
                 at,
-                exact=point,
+                **known,
                 seed=decomposition.seed,
                 threads=threads,
                 settings=decomposition.settings,
@@ -60,6 +69,22 @@ def through_points(
         except ValueError as error:
             found.append(Through(name, True, doubt=str(error)))
     return found
+
+
+def zero_at(
+    system: PolynomialSystem, point: Sequence[Any], known: LocalDimension
+) -> tuple[Number, ...]:
+    """A point, or the zero next to it if it is a rounded one, which a local dimension is that of.
+
+    In doubles, as they are; where the zero is not known, or not real, the point itself.
+    """
+    numbers = exact_numbers(point)
+    if numbers is not None and all(is_zero(value) for value in system(numbers)):
+        return numbers
+    at = known.point
+    if not known.digits or at.imag.any():
+        at = np.array([complex(float(x)) if numbers else complex(x) for x in point])
+    return tuple(Fraction(x) for x in at.real.tolist())
 
 
 def _is_on_the_only_one(decomposition: Decomposition, point: Sequence[Number]) -> bool:

@@ -13,7 +13,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.curve_genus import GenusError, genus
-from nag.decomposition.through import through_points
+from nag.decomposition.through import through_points, zero_at
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
@@ -30,7 +30,7 @@ from nag.mechanism.model import Model, model
 from nag.mechanism.parts_decomposition import decompose_parts
 from nag.mechanism.pins import PinModel
 from nag.mechanism.real_assemblies import real_doubt
-from nag.numerics.local_dimension import local_dimension
+from nag.numerics.local_dimension import local_dimension_near
 from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -150,7 +150,8 @@ def mobility(
 
     Raises:
         nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
-        nag.numerics.local_dimension.NoSolution: if an exact point is no configuration.
+        nag.numerics.local_dimension.NoSolution: if an exact point is no configuration, not even to
+            rounding.
         NoAssembly: if parts cannot be assembled.
         ValueError: if parts are to be looked at without a decomposition where no assembly is known,
             or another argument makes no sense; the message says which, and what would.
@@ -185,8 +186,9 @@ def mobility(
 def _report(
     subject: Subject, at: Sequence[Number], detail: str, options: dict[str, Any]
 ) -> MobilityReport:
-    found = local_dimension(subject.system, at, seed=options["seed"])
+    found = local_dimension_near(subject.system, at, seed=options["seed"])
     free, tangent = subject.freedoms, found.tangent_dimension
+    at = zero_at(subject.system, at, found)
     through, doubt = (None, "") if detail == "local" else _components(subject, at, **options)
     motions = []
     if detail == "curves" and through is not None:

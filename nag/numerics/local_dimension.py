@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.elimination import eliminate_linear
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_error, check_type, check_whole
 from nag.algebra.number import Irrational, Number, is_zero
@@ -30,6 +31,8 @@ from nag.numerics.read_only import fixed_array
 
 # Relative error that a point of doubles is taken to have.
 ROUNDED = 1e-8
+# Values of the equations, beside their terms, at an exact point that is taken for a rounded one.
+MOST_ROUNDED = 1e-8
 
 
 class NoSolution(ValueError):
@@ -141,6 +144,27 @@ def local_dimension(
         if found is not None:
             return found
     return bounds(system.polynomials, list(point), error, rng)
+
+
+def local_dimension_near(
+    system: PolynomialSystem, point: Sequence[Any] | np.ndarray, *, seed: int = 0
+) -> LocalDimension:
+    """The local dimension at the zero that a point stands for, which may be a rounded one.
+
+    Raises:
+        ValueError: if an argument makes no sense; the message says which, and what would.
+        NoSolution: if an exact point does not satisfy the equations, not even to rounding.
+    """
+    try:
+        return local_dimension(system, point, seed=seed)
+    except NoSolution as reason:
+        at = np.array([complex(float(x)) for x in point])
+        residual = float(Evaluator.of(system.polynomials, system.n).residuals(at[None]).max())
+        if not residual < MOST_ROUNDED:
+            text = f"{reason}; its relative residual is {residual:.1e}"
+            raise NoSolution(text) from None
+        # The error of a double zero is the square root of what is left of the equations.
+        return local_dimension(system, at, accuracy=max(ROUNDED, residual**0.5), seed=seed)
 
 
 def exact_numbers(point: Sequence[Any] | np.ndarray) -> tuple[Number, ...] | None:

@@ -45,6 +45,13 @@ def sampled(
     return found.points
 
 
+def rounded_error(system: PolynomialSystem, at: np.ndarray) -> float | None:
+    """The relative error that a zero known to rounding may have; None if the point is none."""
+    evaluator = Evaluator.of(system.polynomials, system.n)
+    residual = float(evaluator.residuals(at[None]).max(initial=0.0))
+    return max(INEXACT, 10 * residual) if residual < ROUNDED else None
+
+
 def contains(
     system: PolynomialSystem,
     component: WitnessSet,
