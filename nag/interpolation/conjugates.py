@@ -20,7 +20,6 @@ from nag.interpolation.precise_samples import Sample, Source, SourceError
 from nag.interpolation.vanishing import DIGITS, InterpolationError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.rational_relations import TooFewDigitsError, recognised
-from nag.witness.comparable import coordinate_sizes
 from nag.witness.fibres import Tracker
 from nag.witness.moving import arrival
 from nag.witness.projection import SHARP
@@ -70,7 +69,7 @@ class RationalSlice:
 
         The form of a single variable is this variable.
         """
-        sizes = coordinate_sizes(source.fibres[0])[[0, *(1 + i for i in coordinates)]]
+        sizes = source.fibres[0].sizes[[0, *(1 + i for i in coordinates)]]
         rows = rng.integers(1, LARGEST + 1, (dimension, len(sizes))) / sizes
         form = rng.integers(1, LARGEST + 1, len(coordinates)) / sizes[1:]
         return cls(tuple(coordinates), rows, np.ones(1) if len(form) == 1 else form)
@@ -84,7 +83,7 @@ class RationalSlice:
         n, r = source.system.n, len(self.rows)
         target = np.zeros((source.dimension, 1 + n), dtype=complex)
         target[:r, [0, *(1 + i for i in self.coordinates)]] = self.rows
-        sizes = coordinate_sizes(source.fibres[0])
+        sizes = source.fibres[0].sizes
         target[r:] = random_rows(rng, source.dimension - r, n) / sizes
         there = arrival(source.fibres, source.rows, target, rng, tracker)
         if there.irregular or not there.accuracy < SHARP:
