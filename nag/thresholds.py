@@ -386,7 +386,7 @@ SHORTEST, STILL; decomposition.branch_points: ARRIVED; decomposition.curve_genus
 SHRINK, LEAST_RADIUS; decomposition.discovery: ROUNDED, DEEP, MULTIPLE; decomposition.given_points:
 ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
 decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; decomposition.power_sums:
-EQUATIONS, MOVED, RADII, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
+EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
 mechanism.parts_decomposition: ROUNDED; files.close_points: ROUNDED; files.json_values: AGREES;
 check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:

@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+from systems import system
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
@@ -61,3 +62,19 @@ def test_no_points_have_no_values() -> None:
     evaluator = Evaluator.of([x**2 * y - 1, x], 2)
     assert evaluator.values(np.zeros((0, 2))).shape == (0, 2)
     assert evaluator.residuals(np.zeros((0, 2))).shape == (0, 2)
+
+
+def test_last_coefficients_are_those_of_values_at_power_series() -> None:
+    rng = np.random.default_rng(2)
+    polynomials = system("x y", "3*x^4*y - 2*x*y^2 + 5*y - 7", "x^3 - 1", "y + 2").polynomials
+    evaluator = Evaluator.of(polynomials, 2)
+    series = rng.normal(size=(4, 2, 5)) + 1j * rng.normal(size=(4, 2, 5))
+    # Values on as many points of a circle as there are coefficients.
+    u = np.exp(2j * np.pi * np.arange(32) / 32)
+    at = (series @ u ** np.arange(5)[:, None]).transpose(0, 2, 1)
+    values = evaluator.values(at.reshape(-1, 2)).reshape(4, 32, 3)
+    for k in range(1, 6):
+        expected = (values * u[:, None] ** (1 - k)).mean(axis=1)
+        assert np.abs(evaluator.last_coefficients(series[..., :k]) - expected).max() < 1e-12
+    alone = Evaluator.of(system("x y", "4").polynomials, 2)
+    assert np.abs(alone.last_coefficients(series)).max() == 0

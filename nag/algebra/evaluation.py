@@ -56,6 +56,18 @@ class Evaluator:
         return self._monomials(np.asarray(points, dtype=complex)) @ self.coefficients.T
 
     @np.errstate(over="ignore", invalid="ignore")
+    def last_coefficients(self, series: np.ndarray) -> np.ndarray:
+        """Coefficients of the highest power of values at power series, shape ``(P, rows)``.
+
+        Constant terms of the series that are large do not spoil them, as they multiply nothing but
+        what is in the coefficients.
+
+        Args:
+            series: of each coordinate, cut off behind that power, shape ``(P, n, K)``.
+        """
+        return self._monomials.last_coefficients(series) @ self.coefficients.T
+
+    @np.errstate(over="ignore", invalid="ignore")
     def sizes(self, points: np.ndarray) -> np.ndarray:
         """Sums of the absolute values of the terms, coordinates below one counted as one.
 
@@ -244,6 +256,33 @@ class _Monomials:
         for places in self.factors[1:]:
             values *= table[:, places]
         return values
+
+    def last_coefficients(self, series: np.ndarray) -> np.ndarray:
+        """Coefficients of the highest power at power series, ``(P, n, K)``, shape ``(P, M)``."""
+        count, n, length = series.shape
+        if not len(self.factors):
+            ones = np.ones((count, self.factors.shape[1]), dtype=series.dtype)
+            return ones * (length == 1)
+        table = np.zeros((count, n, self.top + 1, length), dtype=series.dtype)
+        table[..., 0, 0] = 1.0
+        for k in range(1, self.top + 1):
+            table[:, :, k] = series_products(table[:, :, k - 1], series)
+        table = table.reshape(count, n * (self.top + 1), length)
+        *others, last = self.factors
+        if not others:
+            return table[:, last, -1]
+        values = table[:, others[0]]
+        for places in others[1:]:
+            values = series_products(values, table[:, places])
+        return np.einsum("pmk,pmk->pm", values, table[:, last, ::-1])
+
+
+def series_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Products of power series along the last axis, cut off where they are."""
+    result, length = np.zeros_like(a), a.shape[-1]
+    for k in range(length):
+        result[..., k:] += a[..., : length - k] * b[..., k : k + 1]
+    return result
 
 
 def may_vanish(

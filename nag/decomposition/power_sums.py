@@ -16,6 +16,7 @@ from math import comb
 
 import numpy as np
 
+from nag.algebra.evaluation import series_products
 from nag.witness.cutting import Cut
 from nag.witness.points import Points
 from nag.witness.slices import complex_normal, padded
@@ -25,14 +26,11 @@ FEWEST_POWERS, MOST_POWERS, MOST_DEGREE, EQUATIONS = 4, 12, 4, 1.5
 # Singular values that are no errors of the equations, in units of these; and how far solutions of
 # equations may be from 0 and 1.
 CERTAIN, UNCLEAR = 100.0, 0.1
-# Relative errors that Newton's method begins with, and radii of circles over those of convergence,
-# both to see what is rounding.
-MOVED, RADII = 1e-12, (0.5, 0.35)
-# Points whose equations are computed at once.
-BLOCK = 1_000
-# Least error of a column: of rounding; and over that of the worst one, as indicators are read in
-# units of errors.
-ROUNDING, EVEN = 1e-16, 1e-4
+# Relative errors of points in doubles, and least errors of columns; and the least over that of the
+# worst column, as indicators are read in units of errors.
+ROUNDING, EVEN = 2e-16, 1e-4
+# Points that are looked at together.
+BLOCK = 300
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,44 +154,38 @@ def _equations(points: Points, series: np.ndarray, forms: Sequence[np.ndarray]) 
             values = own @ inside[first : first + BLOCK]
             power = values
             for _ in range(k - 1):
-                power = _products(power, values)
+                power = series_products(power, values)
             parts.append(power[:, :, k + 1 :].reshape(len(power), -1).T)
         blocks.append(np.concatenate(parts))
     rows = np.concatenate(blocks, axis=1)
     return np.concatenate([rows.real, rows.imag])
 
 
-def _products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Products of power series, along the last axis."""
-    result, length = np.zeros_like(a), a.shape[-1]
-    for k in range(length):
-        result[..., k:] += a[..., : length - k] * b[..., k : k + 1]
-    return result
-
-
 def _two_series(points: Points, powers: int, rng: np.random.Generator) -> list[np.ndarray]:
-    """The points as power series in u, two times, shape ``(P, n, 1 + powers)``.
+    """The points as power series in u, shape ``(P, n, 1 + powers)``.
 
-    What is rounded differs: the points that Newton's method begins with, and the circles on which
-    polynomials are evaluated.
+    Two times, at points that differ by rounding.
     """
     result = []
-    for shrink in RADII:
+    for _ in range(2):
         series = np.zeros((len(points), points.n, 1 + powers), dtype=complex)
-        for fibre, own in points.fibres(range(len(points))):
-            z = fibre.points * (1 + MOVED * complex_normal(rng, fibre.points.shape))
-            series[own] = _series(fibre.cut, points.rows, z, powers, shrink)[:, : points.n]
+        for first in range(0, len(points), BLOCK):
+            among = range(first, min(first + BLOCK, len(points)))
+            for fibre, own in points.fibres(among):
+                found = _series(fibre.cut, points.rows, fibre.points, powers, rng)
+                series[own] = found[:, : points.n]
         result.append(series)
     return result
 
 
-def _series(cut: Cut, rows: np.ndarray, z: np.ndarray, powers: int, shrink: float) -> np.ndarray:
+def _series(
+    cut: Cut, rows: np.ndarray, z: np.ndarray, powers: int, rng: np.random.Generator
+) -> np.ndarray:
     """Zeros of a cut on the slice ``rows(x) + u e = 0``, e the last one, as series in u.
 
     Args:
-        z: zeros for u = 0 but for errors, shape ``(P, m)``.
-        shrink: radius of the circles that polynomials are evaluated on, over an estimate of that
-            of convergence.
+        z: zeros for u = 0 but for errors, shape ``(P, m)``; what Newton's method makes of them is
+            rounded at random.
 
     Returns:
         Coefficients, shape ``(P, m, 1 + powers)``.
@@ -208,38 +200,12 @@ def _series(cut: Cut, rows: np.ndarray, z: np.ndarray, powers: int, shrink: floa
 
     values = np.concatenate([evaluator.values(z), rows[:, 0] + z @ slopes.T], axis=1)
     z = z - np.linalg.solve(jacobians(z), values[:, :, None])[:, :, 0]
+    z = z * (1 + ROUNDING * complex_normal(rng, z.shape))
     inverse = np.linalg.inv(jacobians(z))
     result = np.zeros((count, m, 1 + powers), dtype=complex)
     result[:, :, 0], result[:, :, 1] = z, -inverse[:, :, -1]
-    lengths = [np.linalg.norm(result[:, :, k], axis=1) for k in (0, 1)]
-    radius = lengths[0] / lengths[1]
-    # The first radius is a guess; what it gives shows a better one, for itself as well.
-    for k in (2, *range(2, powers + 1)):
-        result[:, :, k] = _next_coefficients(cut, inverse, result[:, :, :k], shrink * radius)
-        bend = np.linalg.norm(result[:, :, k], axis=1)
-        radius = np.minimum(radius, (lengths[1] / bend) ** (1 / (k - 1)))
+    # A coefficient makes up for that of the polynomials' values on what is known of the series.
+    for k in range(2, powers + 1):
+        left = evaluator.last_coefficients(result[:, :, : k + 1])
+        result[:, :, k] = -(inverse[:, :, : left.shape[1]] @ left[:, :, None])[:, :, 0]
     return result
-
-
-def _next_coefficients(
-    cut: Cut, inverse: np.ndarray, known: np.ndarray, radius: np.ndarray
-) -> np.ndarray:
-    """The next coefficients of zeros as power series.
-
-    They make up for those of the polynomials' values on what is known of the series, which values
-    on circles give.
-
-    Args:
-        inverse: of the Jacobian matrices, shape ``(P, m, m)``.
-        known: shape ``(P, m, k)``.
-        radius: of the circles, shape ``(P,)``.
-    """
-    count, m, k = known.shape
-    equations = len(cut.polynomials)
-    nodes = 1 + max(f.degree for f in cut.polynomials) * (k - 1)
-    circle = np.exp(2j * np.pi * np.arange(nodes) / nodes)
-    u = (radius[:, None] * circle)[:, :, None] ** np.arange(k)
-    at = (u @ known.transpose(0, 2, 1)).reshape(-1, m)
-    values = cut.evaluator.values(at).reshape(count, nodes, equations)
-    own = np.einsum("pne,n->pe", values, circle**-k) / nodes / radius[:, None] ** k
-    return -np.einsum("pme,pe->pm", inverse[:, :, :equations], own)
