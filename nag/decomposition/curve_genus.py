@@ -68,6 +68,7 @@ class Genus:
         return self.genus == 0
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def genus(
     system: PolynomialSystem,
     component: WitnessSet,

@@ -42,6 +42,7 @@ MULTIPLE = 1e-7
 MOST_REFUSALS = 3
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def discover(
     system: PolynomialSystem,
     *,

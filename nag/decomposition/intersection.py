@@ -81,6 +81,7 @@ class Intersection:
         return max((c.dimension for c in self.components), default=-1)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def intersect_components(
     system: PolynomialSystem,
     first: WitnessSet,
@@ -123,6 +124,7 @@ def intersect_components(
     return intersect_factors(*factors, seed=seed, tracker=Tracker(settings, threads, progress))
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def intersect_factors(
     first: Factor, second: Factor, *, seed: int, tracker: Tracker
 ) -> Intersection:
@@ -159,6 +161,7 @@ def _given(
     )
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def intersect_equations(
     system: PolynomialSystem,
     component: WitnessSet,
@@ -326,6 +329,7 @@ def _with_cuts(
     return fibres, lost
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def intersect_pair(
     decomposition: Decomposition, first: int, second: int, **options: object
 ) -> Intersection:

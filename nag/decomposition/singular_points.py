@@ -196,6 +196,7 @@ class _Search:
         )
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def singular_locus(
     decomposition: Decomposition,
     *,

@@ -240,6 +240,7 @@ class Trace:
         return smallest_zero_sums(totals, _integer(error, bits), self.weights)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def has_linear_trace(
     system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
 ) -> bool | None:

@@ -216,6 +216,9 @@ def _cut(value: Any, system: PolynomialSystem, place: str) -> Cut:
     names = as_texts(entry(table, "unknowns", place), f"{place}.unknowns")
     texts = entry(table, "polynomials", place)
     found = as_polynomials(texts, [*system.variables, *names], f"{place}.polynomials")
+    for i, f in enumerate(found):
+        if not f:
+            raise wrong(f"{place}.polynomials[{i}]", "a polynomial that is not zero")
     return Cut(system.n, len(names), tuple(found))
 
 
@@ -304,6 +307,8 @@ def _errors(table: dict[str, Any], points: np.ndarray, place: str) -> tuple[np.n
     digits = [as_count(value, f"{here}[{i}]", 1) for i, value in items]
     if len(digits) != len(points):
         raise wrong(here, "one number for each of the points")
+    if max(digits, default=0) > np.iinfo(np.int64).max:
+        raise wrong(here, "numbers of at most 64 bits")
     radii = np.array(rows, dtype=float).reshape(points.shape)
     radii[np.isnan(radii)] = np.inf
     if (radii < 0).any():

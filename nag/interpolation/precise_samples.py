@@ -60,6 +60,7 @@ class Source:
         return len(self.rows)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Source:
     """The witness points of a component.
 
@@ -170,6 +171,7 @@ def _widened(z: flint.acb, radius: flint.arb) -> flint.acb:
     return flint.acb(z.real + part, z.imag + part)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def samples(source: Source, count: int, rng: np.random.Generator, tracker: Tracker) -> list[Sample]:
     """Independent random points of the component.
 

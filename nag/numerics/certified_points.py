@@ -312,6 +312,8 @@ def independent_equations(
     if len(slices):
         q, _ = np.linalg.qr(slices[:, 1:].conj().T)
         jacobian = jacobian - (jacobian @ q) @ q.conj().T
+    # A gradient beyond the range of doubles says nothing.
+    jacobian[~np.isfinite(jacobian).all(axis=1)] = 0
     _, _, order = qr(jacobian.T, pivoting=True, mode="economic")
     return sorted(order[: len(point) - len(slices)].tolist())
 

@@ -139,6 +139,7 @@ class SolutionsCertificate:
         return self.bound is not None and self.zeros == self.bound and self._borne_out
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def certify_solutions(result: SolveResult) -> SolutionsCertificate:
     """Prove what can be proved of the solutions of a system."""
     system = result.system

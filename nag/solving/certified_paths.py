@@ -84,6 +84,7 @@ class ProvedPaths:
         return np.unique(self.ends[self.ends >= 0])
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
     """Prove the paths from a start system to the solutions of a result.
 

@@ -128,6 +128,7 @@ class DecompositionCertificate:
         return bool(self.components) and sum(self.bounds.values()) == self.most
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def certify_decomposition(decomposition: Decomposition) -> DecompositionCertificate:
     """Prove what can be proved of the witness points of all components."""
     system = decomposition.system
@@ -245,6 +246,7 @@ def _repeated(
     return tuple(sorted(same)), tuple(sorted(unknown))
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def certify_witness_points(system: PolynomialSystem, component: WitnessSet) -> CertifiedPoints:
     """What is proved of a component's points on its slice."""
     singular = np.full(component.degree, component.corank > component.dimension)

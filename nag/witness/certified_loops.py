@@ -53,6 +53,7 @@ class ProvedMonodromy:
         return self.zeros and len(self.orbits) > 0 and not self.orbits.any()
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def prove_monodromy(
     system: PolynomialSystem,
     component: WitnessSet,
@@ -82,6 +83,7 @@ def prove_monodromy(
     return ProvedMonodromy(tuple(permutations), orbits, steps, zeros)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def prove_all(decomposition: Decomposition, seed: int = 0) -> tuple[ProvedMonodromy, ...]:
     """Loops of all components, in their order; those whose points find no equations have none."""
     found = []

@@ -40,6 +40,7 @@ class Membership(Enum):
     UNDECIDED = "undecided"
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def is_member(
     point: np.ndarray,
     accuracy: float,
@@ -65,6 +66,7 @@ def is_member(
     return answer, counts
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def find_members(
     point: np.ndarray,
     accuracy: float,
@@ -238,6 +240,7 @@ def _angle(cut: Cut, rows: np.ndarray, end: Fine) -> float:
     return max(float(np.linalg.svd(np.array(unit), compute_uv=False)[-1]), 1e-300)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def memberships(
     decomposition: Decomposition,
     point: np.ndarray,
@@ -415,6 +418,7 @@ class UndecidedError(ValueError):
         super().__init__(text)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def components_through(
     decomposition: Decomposition,
     point: np.ndarray,

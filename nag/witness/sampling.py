@@ -63,6 +63,7 @@ class SamplingError(ValueError):
         super().__init__(reason)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def sample(
     system: PolynomialSystem,
     component: WitnessSet,
