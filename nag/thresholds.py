@@ -111,7 +111,7 @@ tracking.straight_run.NOISY                 10      Rounding errors of a correct
                                                     that it may be and need not contract any more:
                                                     such lay below 3.3, others above 30 but for 1 in
                                                     100, and a few between.
-tracking.straight_run.OVERLONG              1.25    Steps over what the radius of convergence at
+tracking.predictor.OVERLONG                 1.25    Steps over what the radius of convergence at
                                                     their ends allows, which is estimated: of 182
                                                     steps to another path 166 lay above 4/3 and 177
                                                     above 1.11; of others 0.3 and 4 in 100.
@@ -362,7 +362,7 @@ NEARLY_ORTHOGONAL; numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_S
 numerics.zero_values: LEAST; numerics.series_zeros: RANK, ASTRAY, ARRIVED; tracking.certified_paths:
 ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST;
 tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch:
-LONGEST; tracking.ends.corrector: DOUBLES, NOISY; tracking.ends.inclusion: TINY;
+LONGEST, TINY; tracking.ends.corrector: DOUBLES, NOISY; tracking.ends.inclusion: TINY;
 tracking.ends.initial_forms: GAIN; tracking.ends.kept_points: RESIDUAL, SECOND;
 tracking.ends.lane_scalars: IDLE, STEP, FINISH; tracking.ends.limits: LOG_2;
 tracking.ends.linear_algebra: LEAST, LARGEST; tracking.ends.runs: ACCURACY, CONTRACTION;

@@ -275,3 +275,19 @@ def test_a_box_smaller_than_doubles_can_be_proves_nothing() -> None:
     centre = np.zeros((2, 2, 2))
     centre[0, 0, 0], centre[1, 0, 0] = 1.0, 1e-305
     assert proved(Terms(homotopy), centre, np.zeros(2)) is None
+
+
+def test_a_step_in_more_digits_between_two_close_branch_points_leads_to_no_other_path() -> None:
+    # The paths are x = +-sqrt((t - m)^2 + gap^2): a prediction from far away sees them cross at m.
+    x, y = Polynomial.variables(2)
+    gap = Fraction(1, 5000)
+    for m in (Fraction(k, 100) for k in range(11, 95, 24)):
+        rows = compile_rows([x**2 - (y - m) ** 2 - gap**2])
+        homotopy = Homotopy(rows, np.array([[0, 0, 1]]), np.array([[-1.0, 0, 0]]))
+        far, near = (float((t - m) ** 2 + gap**2) ** 0.5 for t in (1, 0))
+        starts = homotopy.normalized(np.array([[1, far, 1], [1, -far, 1]]))
+        no = np.zeros(2, dtype=bool)
+        paths = follow(homotopy, Unfinished(starts, no, no, starts, np.ones(2), starts), Settings())
+        assert (paths.status == PathStatus.REGULAR).all()
+        ends = paths.points[:, 1] / paths.points[:, 0]
+        assert np.abs(ends - [near, -near]).max() < 1e-12

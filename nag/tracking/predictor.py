@@ -11,6 +11,8 @@ from nag.tracking.kernel_arrays import SCALARS
 PREDICT, CORRECT = 0.0, 1.0
 # Rows of the lanes' scalars, see `nag.tracking.straight_run`.
 T, GOAL, H, H_USED, FIRST, THETA, ACCURACY, GROWTH, SEEN_T, SEEN_RADIUS, LAST = range(SCALARS)
+# A step is rejected that is so many times as long as the radius of convergence at its end allows.
+OVERLONG = 1.25
 # Squares of coefficients that may have lost digits to the range of doubles.
 TINY = 1e-200
 # Radius of convergence, and step, of a series whose last coefficients vanish.

@@ -18,6 +18,7 @@ from nag.tracking.kernel_arrays import SCALARS, System, Work
 from nag.tracking.linear_algebra import factorize, substitute
 from nag.tracking.predictor import (
     CORRECT,
+    OVERLONG,
     PREDICT,
     estimate_radius,
     next_step,
@@ -56,12 +57,10 @@ ROUNDING = 1e-9
 LEAST = 1e-15
 # Steps, relative to t, at which a path is left to others.
 SHORTEST = 1e-10
-# A step is rejected that is so many times as long as the radius of convergence at its end allows.
-OVERLONG = 1.25
 # Corrections are rounding errors if they are at most so many times what these are estimated to be.
 NOISY = 10.0
-# Largest correction of a point that none has been made of.
-FARTHEST = 0.1
+# What stands for the last correction of a point where there is none.
+FARTHEST = 1.0
 # Corrections as large as this lead nowhere; their squares are still numbers.
 OVERFLOW = 1e100
 
@@ -225,9 +224,9 @@ def _too_long(w, lane, b):
 def _estimate_noise(s, w, b):
     """What rounding errors make of the corrections of lanes in which these do not contract.
 
-    It is asked for where the second is no small part of the first, or the first is larger than the
-    last one; but not where they are less than the error that is wanted, or so large that another
-    path could not be told from rounding errors.
+    It is asked for where the second is no small part of the first, or the first is none of the last
+    one; but not where they are less than the error that is wanted, or so large that another path
+    could not be told from rounding errors.
     """
     one = splat(1.0)
     zero = splat(0.0)
@@ -235,7 +234,7 @@ def _estimate_noise(s, w, b):
     second = load(w.norms, 1)
     last = load(w.scalars, LAST)
     stuck = select_less(first * splat(b.contraction * b.contraction), second, one, zero)
-    stuck = select_less(last * last, first, one, stuck)
+    stuck = select_less(last * last * splat(b.contraction * b.contraction), first, one, stuck)
     stuck = select_less(splat(b.newton_end * b.newton_end), second, stuck, zero)
     stuck = select_less(splat(b.floor * b.floor), second, zero, stuck)
     store(w.noise, 0, stuck)
@@ -269,8 +268,8 @@ def _judged(w, lane, b):
             return REJECTED
     else:
         c[8 * ROUNDS + lane] += 1
-        # Each correction is less than the last one, or a rounding error.
-        if first > max(f[8 * LAST + lane], noise) or not (theta <= 0.5 or rounding):
+        # Directions in which corrections do not contract may be hidden in the first ones by others.
+        if first > max(b.contraction * f[8 * LAST + lane], noise) or not (theta <= 0.5 or rounding):
             return REJECTED
     f[8 * LAST + lane] = second
     if state != STARTING and _too_long(w, lane, b):

@@ -16,15 +16,16 @@ from nag.tracking.numbers import double_double as number
 
 # Longest step, in log t.
 LONGEST = 40.0
+# A last term of a series that is as small as this is none.
+TINY = 1e-290
 
 
 def _keep(data, k, accepted, value):
     z.write(data, k, z.choose(splat(0.5), accepted, value, z.read(data, k)))
 
 
-def keep_series(s, r, order):
-    """Taylor coefficients of coordinates and logarithms into the base, in the accepted lanes."""
-    accepted = load(r.accepted, 0)
+def expand_logarithms(s, r, order):
+    """Taylor coefficients of the logarithms of the coordinates at the point."""
     nothing = z.exact(splat(0.0), splat(0.0))
     n = s.N
     size = n + 1 + s.value_products
@@ -40,9 +41,49 @@ def keep_series(s, r, order):
                 total = z.gather(total, left, z.read(r.series, (m - i - 1) * size + j))
             total = z.multiply(z.gathered(total), z.negative(inverse))
             z.write(r.change, m, total)
-            _keep(r.coordinates, (m - 1) * n + j, accepted, own)
-            log = z.stretch(total, number.same(s.inverses, m))
-            _keep(r.logarithms, (m - 1) * n + j, accepted, log)
+            z.write(r.fresh, (m - 1) * n + j, z.stretch(total, number.same(s.inverses, m)))
+
+
+def estimate_radius(s, r, order):
+    """Radius of convergence at the point, and the last term, into the first two measures.
+
+    Of each coordinate that series counts, its own or its logarithm's, whose last term is smaller.
+    """
+    zero = splat(0.0)
+    size = s.N + 1 + s.value_products
+    last = zero
+    second = zero
+    third = zero
+    for j in range(s.N):
+        weight = z.largest(load(r.weights, j), z.magnitude(z.read(r.slots, j)))
+        share = z.magnitude(z.read(r.slots, j)) / weight
+        weight = splat(1.0) / weight
+        plain = z.magnitude(z.read(r.series, (order - 1) * size + j)) * weight
+        log = z.magnitude(z.read(r.fresh, (order - 1) * s.N + j)) * share
+        last = z.largest(last, select_less(log, plain, log, plain))
+        own = z.magnitude(z.read(r.series, (order - 2) * size + j)) * weight
+        other = z.magnitude(z.read(r.fresh, (order - 2) * s.N + j)) * share
+        second = z.largest(second, select_less(log, plain, other, own))
+        own = z.magnitude(z.read(r.series, (order - 3) * size + j)) * weight
+        other = z.magnitude(z.read(r.fresh, (order - 3) * s.N + j)) * share
+        third = z.largest(third, select_less(log, plain, other, own))
+    least = splat(TINY)
+    inverse = splat(1.0) / z.largest(last, least)
+    radius = z.largest(second * inverse, square_root(third * inverse))
+    store(r.measures, 0, select_less(least, last, radius, splat(LONGEST)))
+    store(r.measures, 1, last)
+
+
+def keep_series(s, r, order):
+    """Taylor coefficients of coordinates and logarithms into the base, in the accepted lanes."""
+    accepted = load(r.accepted, 0)
+    n = s.N
+    size = n + 1 + s.value_products
+    for j in range(n):
+        for m in range(1, order + 1):
+            k = (m - 1) * n + j
+            _keep(r.coordinates, k, accepted, z.read(r.series, (m - 1) * size + j))
+            _keep(r.logarithms, k, accepted, z.read(r.fresh, k))
         _round(s, r, order, j)
 
 

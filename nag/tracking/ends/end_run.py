@@ -13,6 +13,9 @@ from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import any_less, load, select_less, splat, store
 from nag.machine_code.records import Reals, Wholes
 from nag.tracking.ends.branch import (
+    LONGEST,
+    estimate_radius,
+    expand_logarithms,
     extrapolate,
     predict,
     reach,
@@ -41,6 +44,9 @@ from nag.tracking.ends.lane_scalars import (
     REJECTED,
     ROUGH,
     SAVED,
+    SCALARS,
+    SEEN_RADIUS,
+    SEEN_T,
     SETTLED,
     STEP,
     TAKEN,
@@ -57,6 +63,7 @@ from nag.tracking.ends.linear_algebra import (
 from nag.tracking.ends.records import Equations, Room
 from nag.tracking.numbers import double_double, octuple_double, quad_double
 from nag.tracking.numbers import double_double as number
+from nag.tracking.predictor import OVERLONG
 
 # How a path ended: it is lost where its rounding errors, or its steps, leave it nothing to go on.
 OPEN, REGULAR, LIMIT, LOST, TOO_LONG = range(5)
@@ -80,14 +87,13 @@ class Batch(NamedTuple):
     to 0 where a safe point is found. ``latest``: largest t at which a limit is taken for one.
     ``outcome, winding, steps, evaluations``: one for each path. ``points``: like ``starts``, the
     end, or where the path is, at ``t``; ``safe, safe_t``: likewise the last point that is known
-    well.
-    ``limits``: of those that have one, see `extrapolate`, shape (count, N, 4, 2, words).
+    well. ``limits``: of those that have one, see `extrapolate`, shape (count, N, 4, 2, words).
     ``errors``: rounding errors of the coordinates, shape (count, N); ``met``: 1 for those that have
-    exceeded them a thousandfold. ``curvature``: estimate of
-    Newton's constant. ``accuracy``: expected error of a prediction; ``contraction``: largest
-    contraction of Newton's method after it; ``tail``: largest last term of a power series that is
-    taken to converge. ``max_steps``: of each path, 0 for those
-    that are only tried. ``close``: 1 where other paths may run beside these, in directions of which
+    exceeded them a thousandfold. ``curvature``: estimate of Newton's constant. ``accuracy``:
+    expected error of a prediction; ``contraction``: largest contraction of Newton's method after
+    it; ``tail``: largest last term of a power series that is taken to converge; ``radius_factor``:
+    largest step as part of the radius of convergence. ``max_steps``: of each path, 0 for those that
+    are only tried. ``close``: 1 where other paths may run beside these, in directions of which
     corrections along the paths say nothing.
     """
 
@@ -118,6 +124,7 @@ class Batch(NamedTuple):
     accuracy: float
     contraction: float
     tail: float
+    radius_factor: float
 
 
 def _put(s, r, lane, data, path):
@@ -133,7 +140,7 @@ def _set_time(r, lane, t, path, zero):
 
 def _fill(s, r, f, lane, path, b):
     """Put a path into a lane."""
-    for k in range(21):
+    for k in range(SCALARS):
         f[8 * k + lane] = 0.0
     f[8 * PATH + lane] = path
     f[8 * TRIED + lane] = TRIAL
@@ -224,6 +231,40 @@ def _rejected(s, r, f, lane, b):
     f[8 * WANTED + lane] = 1.0
 
 
+def _too_long(r, f, lane, b):
+    """Whether a step is too long for the series at its end, whose radius is kept if so.
+
+    See `nag.tracking.predictor.radius_as_seen`; where the series holds on the whole way back to
+    the beginning of the step, its last coefficients may be rounding errors.
+    """
+    h = f[8 * H + lane]
+    radius = r.measures[lane]
+    if f[8 * BASE + lane] < 0.5 or h <= OVERLONG * b.radius_factor * (radius + h):
+        return False
+    if r.measures[8 + lane] * h ** (1.0 * b.order) <= b.accuracy:
+        return False
+    f[8 * SEEN_T + lane] = r.t[lane]
+    f[8 * SEEN_RADIUS + lane] = radius
+    return True
+
+
+def _nearest(f, lane):
+    """Radius of convergence at a lane's base as seen from further on, in the logarithm of t."""
+    seen = f[8 * SEEN_T + lane]
+    if not 0.0 < seen < f[8 * T + lane]:
+        return LONGEST
+    return math.log(f[8 * T + lane] / seen) + f[8 * SEEN_RADIUS + lane]
+
+
+def _shorten(s, r, f, lane, b):
+    """Another step from the base of one that was too long, by what that one saw."""
+    f[8 * H + lane] = b.radius_factor * _nearest(f, lane)
+    f[8 * REJECTED + lane] += 1.0
+    f[8 * WANTED + lane] = 1.0
+    if f[8 * REJECTED + lane] > MOST_REJECTED:
+        _close(s, r, f, lane, b, LOST, r.base)
+
+
 def _predict(s, r, f, order):
     """Where the lanes that want it are to be corrected next."""
     one = splat(1.0)
@@ -254,7 +295,7 @@ def _advance(s, r, f, lane, b, best, winding):
         return
     steep = max(curvature, steepest(f, lane)) if b.close > 0 else curvature
     goal = min(b.accuracy, b.contraction / steep)
-    h = reach(s, r, b.order, lane, goal)
+    h = min(reach(s, r, b.order, lane, goal), b.radius_factor * _nearest(f, lane))
     if converged_here:
         # Further in, rounding errors grow: no further than a limit is wanted.
         h = min(h, max(2.0, math.log(f[8 * T + lane] / b.latest[path])))
@@ -328,8 +369,13 @@ def follow_batch(s: Equations, r: Room, b: Batch) -> None:
                 stepping += 1
         if stepping > 0:
             _expand(s, r, b.order)
+            expand_logarithms(s, r, b.order)
+            estimate_radius(s, r, b.order)
             for lane in range(8):
                 f[8 * EVALUATED + lane] += r.accepted[lane] * b.order
+                if r.accepted[lane] > 0.5 and _too_long(r, f, lane, b):
+                    r.accepted[lane] = 0.0
+                    _shorten(s, r, f, lane, b)
             keep(s, r, f, b.order)
             _best_winding(s, r, b)
             if any_less(load(r.measures, 0), splat(2.0 * b.tail)):

@@ -2,7 +2,8 @@
 
 # What a lane does.
 IDLE, STEP, FINISH = 0.0, 1.0, 2.0
-# Rows of the lanes' scalars.
+# Rows of the lanes' scalars, and their number.
+SCALARS = 23
 (
     MODE,
     PATH,
@@ -25,4 +26,6 @@ IDLE, STEP, FINISH = 0.0, 1.0, 2.0
     SAVED,
     EVALUATED,
     ROUGH,
-) = range(21)
+    SEEN_T,
+    SEEN_RADIUS,
+) = range(SCALARS)

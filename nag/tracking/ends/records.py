@@ -12,6 +12,7 @@ import numpy as np
 from nag.algebra.number import Irrational, Number, rounded_fraction
 from nag.machine_code.lanes import aligned, separate
 from nag.machine_code.records import Reals, Wholes
+from nag.tracking.ends.lane_scalars import SCALARS
 from nag.tracking.homotopy import Homotopy
 
 
@@ -71,16 +72,16 @@ class Room(NamedTuple):
     coefficients of the blocks, and of the linear rows' moving parts, order by order from 0 on.
     ``matrix, right, noise``: Jacobian, and two right-hand sides. ``pivots, columns, scales``: of
     its factors. ``sizes``: of the terms of each row. ``patch, levels``: linear forms that
-    normalise, and their values. ``base``: the last accepted point, ``time``: t there;
-    ``safe, safe_time``: the last base that was known well, and t there. ``coordinates,
-    logarithms``: Taylor coefficients of the coordinates and of their logarithms at the base, order
-    by order from 1 on; ``plain, logs``: the same rounded to doubles, coordinate by coordinate from
-    order 0 on. ``weights, errors``: sizes in which corrections count, and rounding errors, of each
-    coordinate at the point; ``least, floors``: the least sizes that columns are scaled by, and in
-    which corrections count; ``base_sizes``: of the coordinates at the base, ``base_weights,
-    base_errors``: as above there; ``met``: 1 for those that have exceeded their rounding errors.
-    ``scalars``: see the kernel. ``measures``: of the last
-    correction. ``accepted``: 1 in the lanes whose step is accepted. ``limits``: see
+    normalise, and their values. ``base``: the last accepted point, ``time``: t there; ``safe,
+    safe_time``: the last base that was known well, and t there. ``coordinates, logarithms``: Taylor
+    coefficients of the coordinates and of their logarithms at the base, order by order from 1 on;
+    ``fresh``: those of the logarithms at the point; ``plain, logs``: the same rounded to doubles,
+    coordinate by coordinate from order 0 on. ``weights, errors``: sizes in which corrections count,
+    and rounding errors, of each coordinate at the point; ``least, floors``: the least sizes that
+    columns are scaled by, and in which corrections count; ``base_sizes``: of the coordinates at the
+    base, ``base_weights, base_errors``: as above there; ``met``: 1 for those that have exceeded
+    their rounding errors. ``scalars``: see the kernel. ``measures``: of the last correction.
+    ``accepted``: 1 in the lanes whose step is accepted. ``limits``: see
     `nag.tracking.ends.branch.extrapolate`.
     """
 
@@ -106,6 +107,7 @@ class Room(NamedTuple):
     safe_time: Reals
     coordinates: Reals
     logarithms: Reals
+    fresh: Reals
     plain: Reals
     logs: Reals
     weights: Reals
@@ -122,8 +124,7 @@ class Room(NamedTuple):
     limits: Reals
 
 
-# Numbers of the rows of the lanes' scalars, and of inverses of whole numbers.
-SCALARS = 21
+# Inverses of whole numbers.
 MOST_INVERSES = 64
 
 
@@ -284,6 +285,7 @@ def room(homotopy: Homotopy, count: int, order: int) -> Room:
         count,
         2 * count * N,
         count,
+        2 * count * order * N,
         2 * count * order * N,
         2 * count * order * N,
     ]
