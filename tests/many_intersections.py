@@ -1,10 +1,11 @@
 """Intersect random pairs of components in coordinates of very unequal sizes; count the verdicts.
 
-    python tests/many_intersections.py [--pairs 0:60] [--seeds 0:1] [--largest 10]
+    python tests/many_intersections.py [--pairs 0:60] [--seeds 0:1] [--largest 10] [--equations]
 
 Each variable of a pair is in a unit of its own, ten to a random power between -LARGEST and LARGEST.
 The truth is that of the pair without units, by minimal primes modulo a prime (Singular): for each
-dimension the sum of the degrees of the components. Prints a line for each pair that is not right,
+dimension the sum of the degrees of the components. With `--equations` the first component meets
+the equations of the second one instead. Prints a line for each pair that is not right,
 and the totals; exit status 1 if an answer that is called complete is wrong.
 """
 
@@ -26,7 +27,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import NAMES
-from nag.decomposition import decompose, intersect_components
+from nag.decomposition import decompose, intersect_components, intersect_equations
 from nag.decomposition.intersection import Intersection
 from nag.numerics.zero_values import ON
 from nag.witness.witness import Decomposition, WitnessSet
@@ -129,7 +130,9 @@ def chosen(
     return whole.components[found[0]] if len(found) == 1 else None
 
 
-def intersected(pair: Pair, powers: Sequence[int], seed: int) -> Intersection | str:
+def intersected(
+    pair: Pair, powers: Sequence[int], seed: int, equations: bool
+) -> Intersection | str:
     """The intersection in units; why there is none if the components were not found."""
     names = NAMES[: pair.n]
     first, second = in_units(pair.first, powers), in_units(pair.second, powers)
@@ -139,7 +142,11 @@ def intersected(pair: Pair, powers: Sequence[int], seed: int) -> Intersection | 
     components = [chosen(w, each, powers) for w, each in zip(wholes, own, strict=True)]
     if None in components or not all(whole.complete for whole in wholes):
         return "the components were not found"
-    return intersect_components(wholes[0].system, *components, seed=seed)
+    system = wholes[0].system
+    if equations:
+        further = PolynomialSystem(names, second)
+        return intersect_equations(system, components[0], further, seed=seed)
+    return intersect_components(system, *components, seed=seed)
 
 
 def verdict(found: Intersection | str, right: Counter[int]) -> tuple[str, str]:
@@ -166,6 +173,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--pairs", type=span, default=range(60))
     parser.add_argument("--seeds", type=span, default=range(1))
     parser.add_argument("--largest", type=int, default=10)
+    parser.add_argument("--equations", action="store_true")
     options = parser.parse_args(arguments)
     process, totals, begin = Singular(), Counter(), time.process_time()
     process.ask(PRIMES, LIMIT)
@@ -182,7 +190,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             rng = np.random.default_rng([number, seed, 32])
             powers = rng.integers(-options.largest, options.largest + 1, pair.n).tolist()
             try:
-                word, text = verdict(intersected(pair, powers, seed), right)
+                word, text = verdict(intersected(pair, powers, seed, options.equations), right)
             except Exception as error:  # A campaign is not to end with one pair.
                 word, text = "error", f"{type(error).__name__}: {error}"
             totals[word] += 1

@@ -112,3 +112,12 @@ def test_intersections_come_back_in_the_units_that_were_given() -> None:
     assert off.max() < 1e-14
     sizes = np.abs(curves[1].points).max(axis=0)
     assert (curves[1].radii < 1e-14 * sizes).all()
+
+
+def test_components_whose_slices_were_drawn_in_different_units_meet() -> None:
+    # The plane says nothing of the units of z and w, the quadric nothing of that of x.
+    plain = nag.system("(9*y*z - y^2 - 2*y*w - 9*z^2 + 6*z)*(77*x + 9/8*y - 1)", "x y z w")
+    whole = decompose(in_units(plain, (10, -7, -7, 8)))
+    found = intersect_pair(whole, 0, 1)
+    assert found.complete
+    assert [(c.dimension, c.degree) for c in found.components] == [(2, 2)]

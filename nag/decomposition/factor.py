@@ -12,8 +12,8 @@ from nag.decomposition.reduction import Reduction
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, Tracker, cut_fibres, move_regular
-from nag.witness.moving import orthonormal_rows
-from nag.witness.slices import unit_complex
+from nag.witness.moving import SliceError, orthonormal_rows
+from nag.witness.slices import even_rows, unit_complex
 from nag.witness.units import Units
 from nag.witness.witness import PathCounts, WitnessSet
 
@@ -59,7 +59,13 @@ class Factor:
     @property
     def rows(self) -> np.ndarray:
         cut = self.component.slice
-        return orthonormal_rows(self.reduction.frame.pulled_back(cut.A, cut.b))
+        rows = self.reduction.frame.pulled_back(cut.A, cut.b)
+        own = Units.of(self.reduction.reduced.polynomials, self.n)
+        sizes = np.concatenate([[1.0], own.sizes])
+        try:
+            return orthonormal_rows(rows * sizes) / sizes
+        except SliceError:
+            return even_rows(rows, sizes)
 
     def fibres(self, rng: np.random.Generator) -> list[Fibre]:
         """The witness points with cuts, deflated ones if the component is not reduced.
