@@ -17,8 +17,9 @@ from nag.decomposition.excluded import excluded
 from nag.decomposition.hypersurface import HypersurfaceSection, Sections, hypersurface_section
 from nag.numerics.coincidence import SAFETY, clusters, coincident
 from nag.numerics.zero_values import ON, vanishes_at
-from nag.witness.close_to_sets import Meant, among, meant, regular_fibre
+from nag.witness.close_to_sets import Meant, among, meant
 from nag.witness.cutting import Cut, Equations, dyadic, leading_power
+from nag.witness.cutting_in_digits import admit_zero, is_alone
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.witness import PathCounts
@@ -245,11 +246,8 @@ class _Stage:
             known = among(zero, own, rows)
             if known or any(vanishes_at(zero, g) for g in self.avoid):
                 continue
-            fibre = regular_fibre(zero, so_far, rows)
-            if fibre is None or known is None:
+            if known is None or not admit_zero(zero, own, so_far, rows, self.rng):
                 notes.append("a point close to a larger set could not be made regular")
-            else:
-                own.append(fibre)
         return notes, found
 
     def add(
@@ -289,15 +287,18 @@ class _Stage:
             return None, counts
         if answer is Membership.UNDECIDED:
             return [f"a point of dimension {d} could not be told from a larger set"], counts
-        if any(
-            admit(x, accuracy, kept[d], each, rows, rng, deflate=True)
+        own = list(kept[d])
+        admitted = any(
+            admit(x, accuracy, own, each, rows, rng, deflate=True)
             for each in dict.fromkeys((holding, so_far))
-        ):
+        )
+        if admitted and _new_are_alone(kept[d], own, so_far, rows):
+            kept[d][:] = own
             return [], counts
         # Zeros so close together that doubles can neither tell nor cut them.
         doubts, found = self.beside(cluster, so_far, kept[d], rows)
         if found.decided and found.zeros and not doubts:
-            return [], counts
+            return _not_all_found(cluster, found, so_far, d), counts
         return [f"a singular point of dimension {d} could not be made regular"], counts
 
     def superset(
@@ -333,6 +334,30 @@ class _Stage:
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
         points = len(notes) - higher if 0 in crossed.ends else 0
         return Superset(kept, flag, PathCounts(), tuple(notes), points), counts
+
+
+def _new_are_alone(
+    before: Sequence[Fibre], after: Sequence[Fibre], so_far: Equations, rows: np.ndarray
+) -> bool:
+    """Whether points that doubles put last into fibres are zeros of all equations, and alone."""
+    known = [len(fibre) for fibre in before]
+    known += [0] * (len(after) - len(before))
+    return all(
+        is_alone(fibre, i, so_far, rows)
+        for fibre, first in zip(after, known, strict=True)
+        for i in range(first, len(fibre))
+    )
+
+
+def _not_all_found(cluster: _Cluster, found: Meant, so_far: Equations, d: int) -> list[str]:
+    """A doubt where fewer zeros were found, with multiplicities, than paths ended there.
+
+    Further equations than cut a set may make it less multiple than the paths show.
+    """
+    total = sum(zero.multiplicity for zero in found.zeros)
+    square = len(so_far.polynomials) == so_far.n - d
+    lost = square and total < len(cluster)
+    return [f"zeros of dimension {d} close to each other were not all found"] if lost else []
 
 
 @dataclass(frozen=True, eq=False)

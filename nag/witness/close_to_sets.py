@@ -13,23 +13,17 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
-from nag.algebra.polynomial import Polynomial
-from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import coincident
-from nag.numerics.digits import log_norm, middle, point
-from nag.numerics.pivots import pivots
+from nag.numerics.digits import log_norm, point
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.witness.close_points import in_words, rated
 from nag.witness.confirm import zero_in_digits
-from nag.witness.cutting import Cut, Equations
+from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre
 from nag.witness.slices import padded
 
-# Digits in which zeros are looked at, and in which a pivot is none (decimal logarithm); zeros
-# nearer to each other than this, relative to one, are the same.
-DIGITS, ZERO, SAME = 100, -80.0, -80.0
-# How many digits larger slices are made than equations.
-FIRST = 40
+# Digits in which zeros are looked at; those nearer to each other than this (decimal logarithm),
+# relative to one, are the same.
+DIGITS, SAME = 100, -80.0
 # Doubles are no more accurate than this, relative to the point; regular ends nearer to a zero than
 # this are compared with it in digits.
 ROUNDED, CLOSE = 1e-15, 1e-9
@@ -103,37 +97,3 @@ def among(zero: SingularEnd, fibres: Sequence[Fibre], rows: np.ndarray) -> bool 
 
 def _same(x: Sequence[flint.acb], y: Sequence[flint.acb]) -> bool:
     return log_norm(a - b for a, b in zip(x, y, strict=True)) < SAME
-
-
-def regular_fibre(zero: SingularEnd, equations: Equations, rows: np.ndarray) -> Fibre | None:
-    """A regular isolated zero with as many equations as cut it; None if it is multiple."""
-    if zero.multiplicity != 1:
-        return None
-    slices = padded(rows, 1 + equations.n)
-    with flint.ctx.workdps(DIGITS):
-        x = point(zero.digits)
-        chosen = _independent(equations.polynomials, slices, x)
-        if chosen is None:
-            return None
-        subset = tuple(equations.polynomials[i] for i in chosen)
-        fine = rated(subset, rows, in_words(x, 1.0))
-    return Fibre(Cut(equations.n, 0, subset), len(rows), fine.rounded[None], {0: fine})
-
-
-def _independent(
-    polynomials: Sequence[Polynomial], slices: np.ndarray, x: list[flint.acb]
-) -> list[int] | None:
-    """Equations that determine a point on slices; None if they do not."""
-    n, need = len(x), len(x) - len(slices)
-    if len(polynomials) == need:
-        return list(range(need))
-    jacobian = BallPolynomials.of(polynomials, slices).jacobian(x).tolist()
-    matrix = []
-    for i, row in enumerate(jacobian):
-        size = max((abs(z).mid() for z in row), default=flint.arb(0))
-        # The slices are the largest by far, and come first.
-        unit = size if i < len(polynomials) else size / flint.arb(10) ** FIRST
-        matrix.append([middle(z / unit) if size else middle(z) for z in row])
-    chosen, _ = pivots(lambda _: matrix, n, 0, ZERO)
-    found = sorted(i for i in chosen if i < len(polynomials))
-    return found if len(found) == need and len(chosen) == n else None

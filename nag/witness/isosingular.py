@@ -27,8 +27,12 @@ MOST_TERMS = 100_000
 
 @dataclass(frozen=True, eq=False)
 class Level:
-    """One deflation step: ``J(z) (Q1 + Q2 L) = 0`` in new unknowns ``L``, column by column."""
+    """One deflation step: ``J(z) (Q1 + Q2 L) = 0`` in new unknowns ``L``, column by column.
 
+    ``J`` is the Jacobian of the ``polynomials``, ``base`` evaluates them.
+    """
+
+    polynomials: Sequence[Polynomial]
     base: Evaluator
     q1: np.ndarray
     q2: np.ndarray
@@ -69,7 +73,7 @@ class Deflated:
         """The equations together with ``J (q1 + q2 L) = 0`` in new unknowns ``L``."""
         polynomials = _with_null_vectors(self.polynomials, self.total, q1, q2)
         total = self.total + q1.shape[1] * q2.shape[1]
-        levels = (*self.levels, Level(self.evaluator, q1, q2))
+        levels = (*self.levels, Level(self.polynomials, self.evaluator, q1, q2))
         return Deflated(polynomials, Evaluator.of(polynomials, total), self.n, total, levels)
 
 

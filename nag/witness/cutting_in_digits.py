@@ -1,0 +1,176 @@
+"""Square systems that cut a set at a zero that is known to a hundred digits.
+
+Doubles read ranks of sheets that are 1e-9 apart as those of one sheet of the multiplicities'
+sum: deflated so, the equations have another zero than the given ones have there. Ranks at a zero
+in digits are those at the zero itself (Hauenstein & Wampler, Isosingular sets and deflation, 2013).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import flint
+import numpy as np
+
+from nag.algebra.high_precision import vanish_in_balls
+from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import middle, point
+from nag.numerics.pivots import pivots
+from nag.numerics.singular_point import SingularEnd
+from nag.witness.close_points import CLOSE, Fine, in_words, rated
+from nag.witness.confirm import zero_in_digits
+from nag.witness.cutting import MOST_DEFLATIONS, Cut, Equations, dyadic
+from nag.witness.fibres import Fibre
+from nag.witness.isosingular import Deflated
+from nag.witness.slices import padded
+
+# Digits that are computed with, and in which a pivot is none (decimal logarithm).
+DIGITS, ZERO = 150, -80.0
+# How many digits larger slices are made than equations.
+FIRST = 40
+
+
+def admit_zero(
+    zero: SingularEnd,
+    fibres: list[Fibre],
+    equations: Equations,
+    rows: np.ndarray,
+    rng: np.random.Generator,
+) -> bool:
+    """Put an isolated zero on ``rows`` into the fibre whose cut makes it regular.
+
+    A cut is found if there is none: some of the equations, of a deflation if the zero is multiple.
+    As `nag.witness.fibres.admit`, for zeros that doubles need not tell from others.
+    """
+    with flint.ctx.workdps(DIGITS):
+        x = point(zero.digits)
+        for i, fibre in enumerate(fibres):
+            if fibre.cut.deflated != (zero.multiplicity != 1):
+                continue
+            z = _lifted(fibre.cut, x)
+            if z is not None and _is_regular_zero(fibre.cut, rows, z):
+                fine = rated(fibre.cut.polynomials, rows, in_words(z, 1.0))
+                points = np.vstack([fibre.points, fine.rounded])
+                known = {**fibre.fine, len(fibre): fine}
+                fibres[i] = Fibre(fibre.cut, fibre.dimension, points, known)
+                return True
+        found = _find_cut(equations, rows, x, rng)
+        if found is None:
+            return False
+        cut, z = found
+        fine = rated(cut.polynomials, rows, in_words(z, 1.0))
+    fibres.append(Fibre(cut, len(rows), fine.rounded[None], {0: fine}))
+    return True
+
+
+def is_alone(fibre: Fibre, i: int, equations: Equations, rows: np.ndarray) -> bool:
+    """Whether a point that doubles found is the zero of all equations, and no other is close."""
+    cut, z = fibre.cut, fibre.points[i]
+    start = Fine.of_doubles(z)
+    if not rated(cut.polynomials, rows, start).curvature < 1 / CLOSE:
+        return False
+    digits = zero_in_digits(cut, rows, z)
+    return digits is not None and vanish_in_balls(equations.polynomials, digits[: cut.n])
+
+
+def _lifted(cut: Cut, x: list[flint.acb]) -> list[flint.acb] | None:
+    """A point with the unknowns that deflation added; None where they are not determined."""
+    for level in cut.levels:
+        unknowns = _unknowns(level.polynomials, level.q1, level.q2, x)
+        if unknowns is None:
+            return None
+        x = [*x, *unknowns]
+    return x if len(x) == cut.n + cut.aux else None
+
+
+def _is_regular_zero(cut: Cut, rows: np.ndarray, z: list[flint.acb]) -> bool:
+    if not vanish_in_balls(cut.polynomials, z):
+        return False
+    return _independent(cut.polynomials, padded(rows, 1 + len(z)), z) is not None
+
+
+def _find_cut(
+    equations: Equations, rows: np.ndarray, x: list[flint.acb], rng: np.random.Generator
+) -> tuple[Cut, list[flint.acb]] | None:
+    """A square system with ``x`` as a regular zero on the slice, and ``x`` with its unknowns."""
+    n, z = equations.n, x
+    system = Deflated.none(equations.polynomials, equations.evaluator, n)
+    for _ in range(1 + MOST_DEFLATIONS):
+        chosen = _independent(system.polynomials, padded(rows, 1 + len(z)), z)
+        if chosen is not None:
+            subset = tuple(system.polynomials[i] for i in chosen)
+            return Cut(n, system.total - n, subset, system.levels), z
+        free = system.total - len(rows)
+        q = dyadic(rng, (system.total, free))
+        m = free - len(_block(_times(_slopes(system.polynomials, z), q), free)[1])
+        if not m or system.too_large(free, m):
+            return None
+        q1, q2 = q[:, :m], q[:, m:]
+        unknowns = _unknowns(system.polynomials, q1, q2, z)
+        if unknowns is None:
+            return None
+        system, z = system.once_more(q1, q2), [*z, *unknowns]
+    return None
+
+
+def _unknowns(
+    polynomials: Sequence[Polynomial], q1: np.ndarray, q2: np.ndarray, z: list[flint.acb]
+) -> list[flint.acb] | None:
+    """The ``L`` with ``J (q1 + q2 L) = 0`` at ``z``, column by column; None where there are more.
+
+    That equations besides those that determine it hold as well is for the caller to see.
+    """
+    slopes = _slopes(polynomials, z)
+    matrix, right = _times(slopes, q2), _times(slopes, q1)
+    places, columns = _block(matrix, q2.shape[1])
+    if len(columns) < q2.shape[1]:
+        return None
+    block = flint.acb_mat([[matrix[i][j] for j in range(q2.shape[1])] for i in places])
+    values = flint.acb_mat([[-right[i][j] for j in range(q1.shape[1])] for i in places])
+    try:
+        table = block.solve(values).tolist()
+    except ZeroDivisionError:
+        return None
+    return [middle(row[j]) for j in range(q1.shape[1]) for row in table]
+
+
+def _slopes(polynomials: Sequence[Polynomial], z: list[flint.acb]) -> flint.acb_mat:
+    blank = np.zeros((0, 1 + len(z)), dtype=complex)
+    return BallPolynomials.of(polynomials, blank).jacobian(z).mid()
+
+
+def _times(slopes: flint.acb_mat, q: np.ndarray) -> list[list[flint.acb]]:
+    """The Jacobian times a matrix, its rows divided by their own sizes in the Jacobian."""
+    sizes = [_size(row) for row in slopes.tolist()]
+    product = slopes * flint.acb_mat([[flint.acb(float(c)) for c in row] for row in q])
+    return [
+        [middle(c / size) if size else middle(c) for c in row]
+        for row, size in zip(product.tolist(), sizes, strict=True)
+    ]
+
+
+def _block(matrix: list[list[flint.acb]], columns: int) -> tuple[list[int], list[int]]:
+    """Rows and columns of the largest regular block of a matrix, in digits."""
+    return pivots(lambda _: matrix, columns, 0, ZERO) if matrix else ([], [])
+
+
+def _size(row: Sequence[flint.acb]) -> flint.arb:
+    return max((abs(z).mid() for z in row), default=flint.arb(0))
+
+
+def _independent(
+    polynomials: Sequence[Polynomial], slices: np.ndarray, x: list[flint.acb]
+) -> list[int] | None:
+    """As many equations as determine a point on slices; None if they do not."""
+    n, need = len(x), len(x) - len(slices)
+    jacobian = BallPolynomials.of(polynomials, slices).jacobian(x).tolist()
+    matrix = []
+    for i, row in enumerate(jacobian):
+        size = _size(row)
+        # The slices are the largest by far, and come first.
+        unit = size if i < len(polynomials) else size / flint.arb(10) ** FIRST
+        matrix.append([middle(z / unit) if size else middle(z) for z in row])
+    chosen, _ = _block(matrix, n)
+    found = sorted(i for i in chosen if i < len(polynomials))
+    return found if len(found) == need and len(chosen) == n else None
