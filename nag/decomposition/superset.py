@@ -7,7 +7,7 @@ carries the equations that cut it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
@@ -26,6 +26,9 @@ from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
+# Failed paths that are known to lead next to a point are known to so much of it, no better: what
+# they were seen to go to is the limit of several branches that are one to the digits they had.
+ASTRAY = 1e-6
 # Part of the usual work after which a multiple zero beside a set passes for a point of it.
 IN_PASSING = 0.02
 
@@ -35,7 +38,8 @@ class Superset:
     """Witness points of every dimension, on the leading rows of a flag of slices.
 
     ``notes`` tell of singular ends that no cut was found for. ``about_points``: how many of these,
-    and of the failed paths, are about points of dimension 0.
+    and of the failed paths, are about points of dimension 0. ``recovered``: how many failed paths
+    led to zeros that were found where these seemed to lead, by dimension.
     """
 
     fibres: dict[int, list[Fibre]]
@@ -43,6 +47,7 @@ class Superset:
     counts: PathCounts
     notes: tuple[str, ...]
     about_points: int = 0
+    recovered: Mapping[int, int] = field(default_factory=dict)
 
     @property
     def only_points(self) -> bool:
@@ -75,12 +80,14 @@ class _Candidates:
     """Ends of one dimension: fibres of regular ones, and clusters of singular ones.
 
     A cluster is its points, the best known one first, with their errors. ``unclear``: ends of which
-    it is not known whether they are excluded.
+    it is not known whether they are excluded. ``lost``: clusters about where failed paths seem to
+    lead, with other singular ends there.
     """
 
     fibres: list[Fibre]
     singular: list[_Cluster]
     unclear: int
+    lost: list[_Cluster]
 
 
 def _collect(
@@ -93,6 +100,7 @@ def _collect(
     unclear = 0
     seen = np.zeros((0, n), dtype=complex)
     singular, errors = [np.zeros((0, n), dtype=complex)], [np.zeros(0)]
+    failed = [np.zeros((0, n), dtype=complex)]
     for cut, ends in pieces:
         x = ends.points[:, :n]
         left_out, doubtful = excluded(nonzero, cut, rows, ends)
@@ -109,10 +117,15 @@ def _collect(
         rest = allowed & ~ends.regular
         singular.append(x[rest])
         errors.append(ends.accuracy[rest])
+        failed.append(x[ends.failed & (ends.accuracy < ASTRAY)])
     points, accuracy = np.vstack(singular), np.concatenate(errors)
     groups = clusters(points, accuracy)
     several = [[(points[i], float(accuracy[i])) for i in g] for g in groups]
-    return _Candidates(fibres, several, unclear)
+    lost = np.vstack(failed)
+    around = clusters(lost, np.full(len(lost), ASTRAY))
+    return _Candidates(
+        fibres, several, unclear, [[(lost[i], ASTRAY) for i in own] for own in around]
+    )
 
 
 def _mixed(f: Polynomial, others: Sequence[Polynomial], rng: np.random.Generator) -> Polynomial:
@@ -239,9 +252,10 @@ class _Stage:
         own: list[Fibre],
         rows: np.ndarray,
         patience: float = 1.0,
+        whole: bool = False,
     ) -> tuple[list[str], Meant]:
         """Add the isolated zeros that ends in doubles may stand for; doubts, and what was found."""
-        notes, found = [], meant(cluster, so_far, rows, self.rng, patience)
+        notes, found = [], meant(cluster, so_far, rows, self.rng, patience, whole)
         for zero in found.zeros:
             known = among(zero, own, rows)
             if known or any(vanishes_at(zero, g) for g in self.avoid):
@@ -261,10 +275,16 @@ class _Stage:
     ) -> tuple[list[str] | None, PathCounts]:
         """Add what singular ends stand for, unless larger sets hold them; what is in doubt."""
         (x, accuracy), rows, rng = cluster[0], flag[:d], self.rng
-        if admit(x, accuracy, kept[d], so_far, rows, rng, deflate=False):
+        simple = list(kept[d])
+        if admit(x, accuracy, simple, so_far, rows, rng, deflate=False):
             # Ends that seemed to be one may be simple zeros close together.
             for other, error in cluster[1:]:
-                admit(other, error, kept[d], so_far, rows, rng, deflate=False)
+                admit(other, error, simple, so_far, rows, rng, deflate=False)
+            if not _new_are_alone(kept[d], simple, so_far, rows):
+                doubts, found = self.beside(cluster, so_far, kept[d], rows)
+                if found.decided and found.zeros and not doubts:
+                    return _not_all_found(cluster, found, so_far, d), PathCounts()
+            kept[d][:] = simple
             return [], PathCounts()
         answer, counts = self.larger(x, accuracy, d, kept, flag)
         if answer is not Membership.FOREIGN:
@@ -301,6 +321,23 @@ class _Stage:
             return _not_all_found(cluster, found, so_far, d), counts
         return [f"a singular point of dimension {d} could not be made regular"], counts
 
+    def recover(
+        self, lost: Sequence[_Cluster], own: list[Fibre], so_far: Equations, rows: np.ndarray
+    ) -> int:
+        """Add the zeros where failed paths seem to lead; of how many paths they are the ends.
+
+        Zeros close to each other are where a path is the last to be told from others: in the end
+        it needs as many digits as they have distances multiplied, and there are as many zeros,
+        with multiplicities, as paths.
+        """
+        recovered = 0
+        for cluster in lost:
+            doubts, found = self.beside(cluster, so_far, own, rows, whole=True)
+            if found.decided and found.zeros and not doubts:
+                total = sum(zero.multiplicity for zero in found.zeros)
+                recovered += len(cluster) if total >= len(cluster) else 0
+        return recovered
+
     def superset(
         self, f: Polynomial, crossed: HypersurfaceSection, deflate: bool
     ) -> tuple[Superset | None, PathCounts]:
@@ -312,7 +349,7 @@ class _Stage:
         flag = crossed.before.flag
         so_far = Equations((*self.before, f), self.n)
         kept = {d: list(fibres) for d, fibres in crossed.kept.items()}
-        counts, notes, higher = PathCounts(), [], 0
+        counts, notes, higher, recovered = PathCounts(), [], 0, {}
         for d in sorted(crossed.ends, reverse=True):
             higher = len(notes)
             candidates = _collect(crossed.ends[d], flag[:d], self.avoid)
@@ -331,9 +368,11 @@ class _Stage:
                 if doubts is None:
                     return None, counts
                 notes += doubts
+            found = self.recover(candidates.lost, kept[d], so_far, flag[:d])
+            recovered |= {d: found} if found else {}
         kept = {d: [fibre for fibre in fibres if len(fibre)] for d, fibres in kept.items()}
         points = len(notes) - higher if 0 in crossed.ends else 0
-        return Superset(kept, flag, PathCounts(), tuple(notes), points), counts
+        return Superset(kept, flag, PathCounts(), tuple(notes), points, recovered), counts
 
 
 def _new_are_alone(
@@ -405,7 +444,8 @@ def witness_superset(
         found = best.superset
         equations[k] = best.polynomial
         notes += found.notes
-        points += found.about_points + best.crossed.failed_to(0)
-        failed, infinite = best.crossed.counts.failed, best.crossed.counts.at_infinity
+        points += found.about_points + best.crossed.failed_to(0) - found.recovered.get(0, 0)
+        failed = best.crossed.counts.failed - sum(found.recovered.values())
+        infinite = best.crossed.counts.at_infinity
         counts += PathCounts(spent.tracked, failed, infinite)
     return Superset(found.fibres, found.flag, counts, tuple(notes), points)

@@ -49,12 +49,14 @@ def meant(
     rows: np.ndarray,
     rng: np.random.Generator,
     patience: float = 1.0,
+    whole: bool = False,
 ) -> Meant:
     """The isolated zeros on the slice ``rows`` that ends may stand for; others lie on larger sets.
 
     Args:
         ends: limits in doubles with their errors, relative to each coordinate.
         patience: part of the usual work after which multiple zeros are left undecided.
+        whole: whether errors are relative to the point, not to each of its coordinates.
     """
     zeros: list[SingularEnd] = []
     met: list[list[flint.acb]] = []
@@ -63,11 +65,13 @@ def meant(
     # What lies within the error of one end is looked at with it: the least known ones come first.
     for x, accuracy in sorted(ends, key=lambda end: -end[1]):
         error = max(accuracy, ROUNDED)
-        if (np.abs(seen - x) <= REACH * error * np.abs(x)).all(axis=1).any():
-            continue
         # The coordinates of a limit either vanish or are known each by itself.
-        known = error * np.abs(x)
-        end = analyse(equations.polynomials, x, known, rng, slices, patience=patience)
+        known = error * (1 + np.full(len(x), np.linalg.norm(x)) if whole else np.abs(x))
+        if (np.abs(seen - x) <= REACH * known).all(axis=1).any():
+            continue
+        end = analyse(
+            equations.polynomials, x, error if whole else known, rng, slices, patience=patience
+        )
         seen = np.vstack([seen, x])
         decided &= end.place is not Place.UNDECIDED
         located &= bool(end.digits)
