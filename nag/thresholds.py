@@ -253,7 +253,8 @@ witness.close_to_sets.REACH                 10      Errors of an end within whic
                                                     once.
 witness.close_to_sets.SAME                  -80     Decimal logarithm of the distance of points that
                                                     are one, of 100 digits.
-witness.close_to_sets.ZERO                  -80     The same of a pivot that is none.
+witness.cutting_in_digits.ZERO              -80     Decimal logarithm of a pivot that is none, at
+                                                    zeros of 100 digits.
 witness.close_points.CLOSE                  1e-4    Relative distance of points that are tracked in
                                                     more digits: corrections that need not contract
                                                     any more may be as large as a hundredth of it.
@@ -329,6 +330,8 @@ decomposition.power_sums.CERTAIN            100     Singular values of equations
 decomposition.power_sums.UNCLEAR            0.1     How far from 0 and 1 indicators may be.
 decomposition.splitting.MOST_LOOPS *        100     Loops before points are left undecided; 23 were
                                                     the most needed.
+decomposition.ends.ASTRAY                   1e-6    Where a failed path seems to lead, relative to
+                                                    the point: zeros are looked for there in digits.
 decomposition.superset.IN_PASSING           0.02    Part of the usual work after which a multiple
                                                     zero that lies on a larger set as far as doubles
                                                     can tell passes for a point of it; simple ones

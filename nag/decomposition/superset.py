@@ -13,22 +13,19 @@ from fractions import Fraction
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition.excluded import excluded
+from nag.decomposition.ends import Cluster, collect
 from nag.decomposition.hypersurface import HypersurfaceSection, Sections, hypersurface_section
-from nag.numerics.coincidence import SAFETY, clusters, coincident
+from nag.numerics.coincidence import SAFETY, coincident
 from nag.numerics.zero_values import ON, vanishes_at
 from nag.witness.close_to_sets import Meant, among, meant
 from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.cutting_in_digits import admit_zero, is_alone
-from nag.witness.fibres import Fibre, Moved, Tracker, admit
+from nag.witness.fibres import Fibre, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.witness import PathCounts
 
 # Relative error of regular ends of paths.
 REGULAR = 1e-13
-# Failed paths that are known to lead next to a point are known to so much of it, no better: what
-# they were seen to go to is the limit of several branches that are one to the digits they had.
-ASTRAY = 1e-6
 # Part of the usual work after which a multiple zero beside a set passes for a point of it.
 IN_PASSING = 0.02
 
@@ -70,62 +67,6 @@ def intersection_order(equations: Sequence[Polynomial]) -> list[int]:
         order.append(best)
         known |= supports[best]
     return order
-
-
-_Cluster = list[tuple[np.ndarray, float]]
-
-
-@dataclass(frozen=True, eq=False)
-class _Candidates:
-    """Ends of one dimension: fibres of regular ones, and clusters of singular ones.
-
-    A cluster is its points, the best known one first, with their errors. ``unclear``: ends of which
-    it is not known whether they are excluded. ``lost``: clusters about where failed paths seem to
-    lead, with other singular ends there.
-    """
-
-    fibres: list[Fibre]
-    singular: list[_Cluster]
-    unclear: int
-    lost: list[_Cluster]
-
-
-def _collect(
-    pieces: Sequence[tuple[Cut, Moved]],
-    rows: np.ndarray,
-    nonzero: Sequence[Polynomial],
-) -> _Candidates:
-    d, n = len(rows), rows.shape[1] - 1
-    fibres: list[Fibre] = []
-    unclear = 0
-    seen = np.zeros((0, n), dtype=complex)
-    singular, errors = [np.zeros((0, n), dtype=complex)], [np.zeros(0)]
-    failed = [np.zeros((0, n), dtype=complex)]
-    for cut, ends in pieces:
-        x = ends.points[:, :n]
-        left_out, doubtful = excluded(nonzero, cut, rows, ends)
-        allowed, unclear = ends.finite & ~left_out, unclear + doubtful
-        # The tracker has seen that ends of one piece are distinct.
-        chosen = [
-            i
-            for i in np.flatnonzero(allowed & ends.regular)
-            if not (len(seen) and coincident(seen, x[i], ends.accuracy[i]).any())
-        ]
-        if chosen:
-            seen = np.vstack([seen, x[chosen]])
-            fibres.append(ends.fibre(cut, d, chosen))
-        rest = allowed & ~ends.regular
-        singular.append(x[rest])
-        errors.append(ends.accuracy[rest])
-        failed.append(x[ends.failed & (ends.accuracy < ASTRAY)])
-    points, accuracy = np.vstack(singular), np.concatenate(errors)
-    groups = clusters(points, accuracy)
-    several = [[(points[i], float(accuracy[i])) for i in g] for g in groups]
-    lost = np.vstack(failed)
-    around = clusters(lost, np.full(len(lost), ASTRAY))
-    return _Candidates(
-        fibres, several, unclear, [[(lost[i], ASTRAY) for i in own] for own in around]
-    )
 
 
 def _mixed(f: Polynomial, others: Sequence[Polynomial], rng: np.random.Generator) -> Polynomial:
@@ -247,7 +188,7 @@ class _Stage:
 
     def beside(
         self,
-        cluster: _Cluster,
+        cluster: Cluster,
         so_far: Equations,
         own: list[Fibre],
         rows: np.ndarray,
@@ -266,7 +207,7 @@ class _Stage:
 
     def add(
         self,
-        cluster: _Cluster,
+        cluster: Cluster,
         kept: dict[int, list[Fibre]],
         so_far: Equations,
         flag: np.ndarray,
@@ -322,7 +263,11 @@ class _Stage:
         return [f"a singular point of dimension {d} could not be made regular"], counts
 
     def recover(
-        self, lost: Sequence[_Cluster], own: list[Fibre], so_far: Equations, rows: np.ndarray
+        self,
+        lost: Sequence[tuple[Cluster, int]],
+        own: list[Fibre],
+        so_far: Equations,
+        rows: np.ndarray,
     ) -> int:
         """Add the zeros where failed paths seem to lead; of how many paths they are the ends.
 
@@ -331,11 +276,11 @@ class _Stage:
         with multiplicities, as paths.
         """
         recovered = 0
-        for cluster in lost:
+        for cluster, near in lost:
             doubts, found = self.beside(cluster, so_far, own, rows, whole=True)
             if found.decided and found.zeros and not doubts:
                 total = sum(zero.multiplicity for zero in found.zeros)
-                recovered += len(cluster) if total >= len(cluster) else 0
+                recovered += len(cluster) if total >= near else 0
         return recovered
 
     def superset(
@@ -352,7 +297,7 @@ class _Stage:
         counts, notes, higher, recovered = PathCounts(), [], 0, {}
         for d in sorted(crossed.ends, reverse=True):
             higher = len(notes)
-            candidates = _collect(crossed.ends[d], flag[:d], self.avoid)
+            candidates = collect(crossed.ends[d], flag[:d], self.avoid)
             if candidates.unclear:
                 notes.append(f"{candidates.unclear} points may be such as are excluded")
             for fibre in candidates.fibres:
@@ -388,7 +333,7 @@ def _new_are_alone(
     )
 
 
-def _not_all_found(cluster: _Cluster, found: Meant, so_far: Equations, d: int) -> list[str]:
+def _not_all_found(cluster: Cluster, found: Meant, so_far: Equations, d: int) -> list[str]:
     """A doubt where fewer zeros were found, with multiplicities, than paths ended there.
 
     Further equations than cut a set may make it less multiple than the paths show.

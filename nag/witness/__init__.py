@@ -4,9 +4,10 @@ Read in this order: `witness` (the data; `at_prompt` and `shown` for users), `sl
 (the local equations that cut a set at its points) on `isosingular` (deflation), `fibres` and
 `points` (points on a slice, tracked to another in coordinates of comparable sizes),
 `component_equations` (held, or found anew), `exact_points` (found in as many digits as are asked
-for), `close_points`, `confirm`, `multiplicity` and `close_to_sets` (what is known of them); then
-the operations on a set as it is given (`given_component`): `moving`, `membership`, `sampling`,
-`projection`, `real_points` by `gauss_newton`. `units` leads to coordinates of comparable sizes and
-back, `frame` back to the coordinates and the components that the user has; `certificate` with
-`component_claims`, and `certified_loops` prove.
+for), `close_points`, `confirm`, `multiplicity`, `close_to_sets` and `cutting_in_digits` (what is
+known of them, and of those that doubles do not tell apart); then the operations on a set as it is
+given (`given_component`): `moving`, `membership`, `sampling`, `projection`, `real_points` by
+`gauss_newton`. `units` leads to coordinates of comparable sizes and back, `frame` back to the
+coordinates and the components that the user has; `certificate` with `component_claims`, and
+`certified_loops` prove.
 """

@@ -187,26 +187,35 @@ def ends_of_paths(paths: Paths, keep: int | None = None) -> Moved:
     points = affine(paths.points)
     points = points if keep is None else points[:, :keep]
     counts = PathCounts(len(finite), int(failed.sum()), int(infinite.sum()))
-    fine = _fine(paths, points, regular) if paths.balls else {}
+    fine = _fine(paths, points, regular, finite & ~regular) if paths.balls else {}
     return Moved(points, finite, regular, failed, accuracy, counts, fine)
 
 
-def _fine(paths: Paths, points: np.ndarray, regular: np.ndarray) -> dict[int, Fine]:
-    """The digits of regular ends in balls that are close to others."""
-    known = np.array(sorted(i for i in paths.balls if regular[i]), dtype=int)
+def _fine(
+    paths: Paths, points: np.ndarray, regular: np.ndarray, singular: np.ndarray
+) -> dict[int, Fine]:
+    """The digits of regular ends in balls that are close to others, regular or singular ones."""
+    own = [i for i in paths.balls if regular[i]]
+    known = np.array(sorted({*own, *np.flatnonzero(singular).tolist()}), dtype=int)
     found: dict[int, Fine] = {}
     for pair in close_pairs(points[known]):
-        own = [int(known[k]) for k in pair]
+        ends = [int(known[k]) for k in pair]
+        if not regular[ends].any():
+            continue
         first, second = (
-            found[i]
-            if i in found
-            else affine_fine(_words(paths.balls[i]), 1.0).first(points.shape[1])
-            for i in own
+            found.get(i)
+            or (
+                affine_fine(_words(paths.balls[i]), 1.0).first(points.shape[1])
+                if regular[i]
+                else Fine.of_doubles(points[i])
+            )
+            for i in ends
         )
-        size = 1 + float(np.linalg.norm(points[own[0]]))
-        apart = max(distance(points[own[0]], first, points[own[1]], second), 1e-300)
-        for i, each in zip(own, (first, second), strict=True):
-            found[i] = Fine(each.words, max(each.curvature, STEEPER * size / apart))
+        size = 1 + float(np.linalg.norm(points[ends[0]]))
+        apart = max(distance(points[ends[0]], first, points[ends[1]], second), 1e-300)
+        for i, each in zip(ends, (first, second), strict=True):
+            if regular[i]:
+                found[i] = Fine(each.words, max(each.curvature, STEEPER * size / apart))
     return found
 
 
