@@ -217,3 +217,45 @@ def test_double_curves_on_close_planes_are_as_many_and_as_multiple(k: int) -> No
     assert answer.complete
     found = sorted((c.dimension, c.degree, c.multiplicity) for c in answer.components)
     assert found == [(1, 2, 1), (1, 2, 2), (1, 2, 2)]
+
+
+CIRCLE, CUBIC = "(x^2 + y^2 - 1)", "(x^3 + y^3 + z^2*x + y*z - 2*x + 1)"
+# Curves of which no equation is a product, multiple on sheets 10^-k apart; the degrees and
+# multiplicities of all.
+MULTIPLE = {
+    "two double ones": (
+        [CIRCLE + "+ z^2*(z - {0})^2", CIRCLE + "*(x + 2*y + 3*z - 5)"],
+        [(2, 2), (2, 2), (4, 1)],
+    ),
+    "two conjugate double ones": (
+        [CIRCLE + "+ (z^2 - 2*{0}^2)^2", CIRCLE + "*(x + 2*y + 3*z - 5)"],
+        [(2, 2), (2, 2), (4, 1)],
+    ),
+    "a double and a simple one": (
+        [CIRCLE + "+ z^2*(z - {0})", CIRCLE + "*(x + 2*y + 3*z - 5)"],
+        [(2, 1), (2, 2), (3, 1)],
+    ),
+    "conjugate double cubics, slanting": (
+        [
+            "((z + x)^2 - 2*{0}^2)^2 + x*" + CUBIC,
+            "(x + 1)*" + CUBIC + "- 2*((z + x)^2 - 2*{0}^2)^2",
+        ],
+        [(3, 2), (3, 2), (4, 1)],
+    ),
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "k"),
+    [
+        *(("two double ones", k) for k in (3, 8, 15)),
+        *(("two conjugate double ones", k) for k in (6, 15)),
+        *(("a double and a simple one", k) for k in (6, 10, 15)),
+        ("conjugate double cubics, slanting", 6),
+    ],
+)
+def test_multiple_curves_on_close_sheets_have_deflations_of_their_own(name: str, k: int) -> None:
+    equations, kinds = MULTIPLE[name]
+    answer = nag.decompose([text.format(f"(1/10^{k})") for text in equations])
+    assert answer.complete
+    assert sorted((c.degree, c.multiplicity) for c in answer.components) == kinds
