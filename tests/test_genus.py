@@ -19,6 +19,9 @@ CURVES = {
     "a quartic": ("x y", "x^4 + y^4 - x*y^2 - 1", 3),
     "a lemniscate": ("x y", "(x^2 + y^2)^2 - x^2 + y^2", 0),
     "a double cover of the line": ("x y", "y^2 - x^5 - x - 1", 2),
+    "a cusp on a parabola": ("x y", "(y - x^2)^2 - x^7", 0),
+    "one branch of four sheets": ("x y", "y^4 - x^9", 0),
+    "a double cover in unequal units": ("x y", "y^2 - x*(x - 10^6)*(x - 10^12)", 1),
     "two quadrics": ("x y z", "x^2 + y^2 + z^2 - 1, x*y - z", 1),
     "a twisted cubic": ("x y z", "y - x^2, z - x^3", 0),
     # A quadric and a cubic meet in a curve of genus 4, less one for each point where they touch.

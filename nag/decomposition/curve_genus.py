@@ -28,7 +28,7 @@ from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Tracker, move_regular
 from nag.witness.given_component import check_component
 from nag.witness.points import with_fine
-from nag.witness.slices import unit_complex
+from nag.witness.slices import random_rows, unit_complex
 from nag.witness.units import Units
 from nag.witness.witness import WitnessSet
 
@@ -106,11 +106,16 @@ def genus(
     if component.dimension != 1:
         raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
     rng, tracker = np.random.default_rng([seed, 9, 0]), Tracker(settings, threads)
+    units = Units.of(system.polynomials, system.n)
+    system = units.of_system(system)
+    component = units.of_component(component, system)
     try:
         sheets = _sheets(system, component, rng, tracker)
         values = branch_points(sheets, rng, tracker)
         # Sheets that are exchanged round a cusp have bounded derivatives there.
         cusps = rank_drop(system, component, seed=seed, threads=threads, settings=settings)
+        if cusps.notes:
+            raise GenusError(f"its singular points are not all known: {'; '.join(cusps.notes)}")
         values += [complex(v) for v in cusps.isolated() @ sheets.normal]
         cover = _Cover(sheets, values, rng, tracker)
         return _riemann_hurwitz(cover.permutations(), cover.round_all(), component.degree)
@@ -122,7 +127,7 @@ def _sheets(
     system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
 ) -> Sheets:
     """The curve's points over a random value of a random form."""
-    row = Units.of(system.polynomials, system.n).random_rows(rng, 1)
+    row = random_rows(rng, 1, system.n)
     gamma = complex(unit_complex(rng))
     fibres, _ = move_regular(
         component_fibres(system, component), component.slice.rows, row, gamma, tracker

@@ -33,10 +33,12 @@ from nag.decomposition.intersection import Intersection, intersect_equations
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import clusters
 from nag.numerics.local_dimension import local_dimension
+from nag.solving.solve import solve
 from nag.witness.component_equations import component_system
+from nag.witness.membership import Membership, memberships
 from nag.witness.moving import orthonormal_rows
 from nag.witness.projection import Projection, ProjectionError, project
-from nag.witness.witness import PathCounts, Slice, WitnessSet
+from nag.witness.witness import Decomposition, PathCounts, Slice, WitnessSet
 
 # Bits of random numbers: a chart must leave out no vector that turns up, be it as simple as it may.
 BITS = 24
@@ -161,9 +163,35 @@ class _Search:
         start = _times_space(self.component, total - own.n, rng)
         found = intersect_equations(product, start, conditions, **self.options)
         self.paths += found.paths
+        if found.notes and self._solved(product, conditions):
+            return
         self.notes += found.notes
         for one in found.components:
             self._judge(found, one)
+
+    def _solved(self, product: PolynomialSystem, conditions: PolynomialSystem) -> bool:
+        """Keep the component's points where the rank drops, if all such points are isolated ones.
+
+        Of a point where many come together, as of a cusp of high order, no regular equations are
+        found in passing, and none are needed.
+        """
+        equations = dict.fromkeys((*product.polynomials, *conditions.polynomials))
+        whole = replace(conditions, polynomials=tuple(equations), nonzero=product.nonzero)
+        found = solve(whole, **self.options)
+        self.paths += PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
+        if not found.complete or found.positive_dimensional or len(found.undecided):
+            return False
+        own, error, kept = self.own.n, ROUNDED, []
+        alone = Decomposition(self.own, (self.component,), PathCounts(), 0, "default", (), False)
+        for solution in found.solutions:
+            x, error = solution.point[:own], max(error, solution.accuracy)
+            (answer,) = memberships(alone, x, accuracy=solution.accuracy, **self.options)
+            if answer is Membership.UNDECIDED:
+                return False
+            kept += [x] if answer is Membership.MEMBER else []
+        if kept:
+            self.sets.append(SetOfPoints(0, len(kept), np.array(kept), error))
+        return True
 
     def joined(self, conditions: PolynomialSystem, rng: np.random.Generator) -> _Search:
         """A search by conditions that leave nothing out, beside what is known of larger sets."""
