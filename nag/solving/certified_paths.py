@@ -6,7 +6,6 @@ exact system, in scaled variables.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -114,7 +113,9 @@ def prove_paths(result: SolveResult, threads: int = 1) -> ProvedPaths:
         # Solutions far out, or near infinity, are nobody's until t is very small.
         paths = certified_paths(system, paths.ends, paths.reached, endgame)
     arrived = (paths.reached == 0) & (ends < 0)
-    others = _affine(problem.target, start, homotopy.groups, paths.ends.centres[arrived])
+    with np.errstate(all="ignore"):
+        others = problem.target.original(start.affine(paths.ends.centres[arrived]))
+    others = others[np.isfinite(others).all(axis=1)]
     return ProvedPaths(start.name, distinct(starts), paths.reached, ends, steps, others)
 
 
@@ -151,21 +152,6 @@ def _coordinates(target: Target, start: Start, result: SolveResult) -> np.ndarra
     points = target.scaled_points(result.points)
     shift = len(start.groups)
     return np.hstack([np.ones((len(points), shift)), points]).astype(complex)
-
-
-def _affine(
-    target: Target, start: Start, groups: Sequence[Sequence[int]], ends: np.ndarray
-) -> np.ndarray:
-    """Points in the homotopy's coordinates as solutions; those at infinity are left out."""
-    shift = len(start.groups)
-    points = np.array(ends, dtype=complex)
-    with np.errstate(all="ignore"):
-        for places in map(list, groups):
-            points[:, places] /= points[:, [min(places)]]
-        points = points[:, shift:]
-        if target.scales:
-            points = points * np.exp2(target.scales) + [float(c) for c in target.centres]
-    return points[np.isfinite(points).all(axis=1)]
 
 
 def _charted(points: np.ndarray, patches: np.ndarray) -> np.ndarray:
