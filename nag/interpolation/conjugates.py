@@ -13,7 +13,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import flint
-import networkx as nx
 import numpy as np
 
 from nag.interpolation.precise_samples import Sample, Source, SourceError
@@ -165,19 +164,17 @@ def _classes(
     values: Sequence[Sequence[flint.acb]], factors: Sequence[flint.fmpq_poly]
 ) -> list[ConjugateClass]:
     """Components by the factors that vanish at their values; equal images count once."""
-    graph = nx.Graph()
-    graph.add_nodes_from(range(len(factors)))
-    of = []
+    parts: list[set[int]] = []
     for own in values:
-        hit = [k for k, f in enumerate(factors) if any(_at(f, v).contains(0) for v in own)]
-        nx.add_path(graph, hit)
-        of.append(hit[0])
+        hit = {k for k, f in enumerate(factors) if any(_at(f, v).contains(0) for v in own)}
+        joined = hit.union(*(part for part in parts if part & hit))
+        parts = [part for part in parts if not part & hit] + [joined]
     found = []
-    for part in sorted(nx.connected_components(graph), key=min):
+    for part in sorted(parts, key=min):
         members: list[int] = []
         for i, own in enumerate(values):
-            new = not any(own[0].overlaps(v) for k in members for v in values[k])
-            if of[i] in part and new:
+            here = any(_at(factors[k], own[0]).contains(0) for k in part)
+            if here and not any(own[0].overlaps(v) for k in members for v in values[k]):
                 members.append(i)
         product = flint.fmpq_poly([1])
         for k in sorted(part):

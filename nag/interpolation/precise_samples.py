@@ -29,8 +29,8 @@ from nag.witness.witness import WitnessSet
 
 # Digits beyond those asked for in which Newton's method computes.
 SPARE = 25
-# Each step of Newton's method with a Jacobian in doubles gains at least this many digits.
-GAIN = 4
+# Steps of Newton's method before its digits double.
+FIRST_STEPS = 4
 # Relative error of an exact point that is rounded to doubles.
 ROUNDED = 1e-15
 
@@ -135,35 +135,42 @@ class Sample:
         Raises:
             SourceError: if Newton's method does not converge.
         """
-        scales = [max(abs(float(c)) for c in f.terms.values()) for f in self.cut.polynomials]
         rows = padded(self.rows, 1 + len(self.z))
-        jacobian = self.cut.evaluator.jacobian(self.z)
-        try:
-            inverse = np.linalg.inv(np.vstack([jacobian, rows[:, 1:]]))
-        except np.linalg.LinAlgError:
-            raise SourceError("a sampled point is singular to rounding") from None
         with flint.ctx.workdps(digits + SPARE):
             point = [flint.acb(complex(x)) for x in self.z]
             sliced = [flint.acb(complex(c)) for row in rows for c in row]
-            slices = flint.acb_mat(len(rows), 1 + len(self.z), sliced)
-            small = flint.arb(10) ** (-digits - SPARE // 2)
-            for _ in range(4 + digits // GAIN):
+            slices = flint.acb_mat(len(rows), 1 + len(point), sliced)
+            normals = [[slices[i, 1 + j] for j in range(len(point))] for i in range(len(rows))]
+            small = flint.arb(10) ** -digits
+            for _ in range(FIRST_STEPS + digits.bit_length()):
                 values = self.functions(point).entries()
-                values = [v / s for v, s in zip(values, scales, strict=True)]
                 values += (slices * flint.acb_mat([[1], *([x] for x in point)])).entries()
-                values = [v.mid() for v in values]
-                size = max((abs(v).mid() for v in values), default=flint.arb(0))
-                if size < small:
+                slopes = [*self.functions.jacobian(point).tolist(), *normals]
+                try:
+                    step = _solution(slopes, values)
+                except ZeroDivisionError:
+                    raise SourceError("a sampled point is singular to rounding") from None
+                sizes = [1 + abs(x).mid() for x in point]
+                point = [(x - d).mid() for x, d in zip(point, step, strict=True)]
+                if all(abs(d) < small * s for d, s in zip(step, sizes, strict=True)):
                     break
-                step = inverse @ np.array([complex(v / size) for v in values])
-                point = [
-                    (x - size * flint.acb(complex(d))).mid()
-                    for x, d in zip(point, step, strict=True)
-                ]
             else:
                 raise SourceError("Newton's method does not converge at a sampled point")
             radius = flint.arb(10) ** -digits
             return [_widened(x, radius * (1 + abs(x).mid())) for x in point[: self.cut.n]]
+
+
+def _solution(
+    matrix: Sequence[Sequence[flint.acb]], values: Sequence[flint.acb]
+) -> list[flint.acb]:
+    """The solution of linear equations, numbers of exact middles taken.
+
+    Raises:
+        ZeroDivisionError: if they are not known to be regular.
+    """
+    middles = [[c.mid() for c in row] for row in matrix]
+    right = flint.acb_mat(len(values), 1, [v.mid() for v in values])
+    return [x.mid() for x in flint.acb_mat(middles).solve(right).entries()]
 
 
 def _widened(z: flint.acb, radius: flint.arb) -> flint.acb:
