@@ -78,6 +78,8 @@ class _State:
         whole: sets of points that are components, as far as is known.
         tested: whether traces of sets are linear, by the bytes of their indices.
         unclear: bytes of the indices of points among which the components were not clear.
+        growing: whether the last loop found points: then others are likely to be missing, and only
+            classes are looked at that may be whole.
         lost: whether a path of the trace ended at a point of another component.
     """
 
@@ -89,6 +91,7 @@ class _State:
     whole: list[np.ndarray] = field(default_factory=list)
     tested: dict[bytes, bool | None] = field(default_factory=dict)
     unclear: set[bytes] = field(default_factory=set)
+    growing: bool = False
     lost: bool = False
     discarded: int = 0
     counts: PathCounts = field(default_factory=PathCounts)
@@ -167,7 +170,7 @@ def _found_components(state: _State, tracker: Tracker) -> bool:
         state.counts += spent
         if state.trace is None:
             return False
-        found = _smallest_unions(state, list(open_points[:, None]))
+        found = None if state.growing else _smallest_unions(state, list(open_points[:, None]))
         if found is not None:
             state.whole += found
             break
@@ -179,7 +182,7 @@ def _found_components(state: _State, tracker: Tracker) -> bool:
 
 def _took_back(state: _State, classes: Sequence[np.ndarray]) -> bool:
     """Confirm unions of classes of loops; whether loops turned out to be wrong, and are gone."""
-    unions = _smallest_unions(state, classes)
+    unions = None if state.growing else _smallest_unions(state, classes)
     if unions is None:
         unions = [own for own in classes if _is_linear(state, own)]
     for union in unions:
@@ -213,8 +216,10 @@ def _smallest_unions(state: _State, units: Sequence[np.ndarray]) -> list[np.ndar
     key = b"".join(own.tobytes() + b"|" for own in units)
     if not units or key in state.unclear:
         return None if units else []
-    unions = None
-    if FEW_CLASSES < len(units) <= MOST_CLASSES:
+    unions, count = None, sum(map(len, units))
+    # Power sums cost by the points, lattices by the units.
+    few = FEW_CLASSES if count <= MOST_CLASSES else MOST_IN_LATTICE
+    if few < len(units) <= MOST_CLASSES:
         unions = _unions_by_sums(state, units)
     if unions is None and len(units) <= MOST_IN_LATTICE:
         places, state.trace = state.trace.smallest_unions(state.points, units)
@@ -296,7 +301,9 @@ def _looped(state: _State, open_points: np.ndarray, tracker: Tracker, scaled: bo
     new = None if found.places is None else found.places < 0
     if new is None or not np.isin(found.places[~new], open_points).all():
         state.discarded += 1
+        state.growing = False
         return False
+    state.growing = bool(new.any())
     places = np.where(new, len(state.points) + np.cumsum(new) - 1, found.places)
     for k in np.flatnonzero(new).tolist():
         cut = state.points.cuts[state.points.which[found.origins[k]]]
