@@ -15,7 +15,7 @@ others, and have equations with these together.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import groupby
 from typing import Literal
@@ -43,6 +43,7 @@ from nag.interpolation.vanishing import (
     primitive,
 )
 from nag.numerics.digits import number
+from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
 from nag.witness.given_component import check_system
@@ -150,7 +151,8 @@ def singular_parameters(
     """
     check_running(seed, threads, settings)
     n = _variables(system, count)
-    whole = _null_space_system(system, n, np.random.default_rng([seed, 8]))
+    natural = natural_coordinates(system.polynomials, system.n)
+    whole = _null_space_system(natural.system(system), n, np.random.default_rng([seed, 8]))
     found = decompose(whole, seed=seed, threads=threads, settings=settings)
     ideal, components = _ideal(whole), expanded(found).components
     family = _Family(whole, ideal, tuple(range(n, n + count)), seed, Tracker(settings, threads))
@@ -160,6 +162,8 @@ def singular_parameters(
         open_notes.append(
             "a Groebner basis has singular points of another dimension or degree than were found"
         )
+    parameters = NaturalCoordinates(natural.scales[n:], natural.origin[n:])
+    sets = [_in_original_coordinates(each, parameters) for each in sets]
     names = system.variables[n:]
     notes = (*found.notes, *open_notes)
     if not (found.complete or notes):
@@ -167,6 +171,12 @@ def singular_parameters(
     ordered = tuple(sorted(sets, key=lambda each: (-each.dimension, each.text(names))))
     proved = agree and not notes and all(c.dimension < count for c in components)
     return SingularParameters(names, ordered, found.paths, not notes, notes, proved)
+
+
+def _in_original_coordinates(known: ParameterSet, natural: NaturalCoordinates) -> ParameterSet:
+    """A set of parameters where equations are those of the parameters that were given."""
+    equations = [_primitive(natural.original_polynomial(f)) for f in known.equations]
+    return replace(known, equations=tuple(sorted(equations, key=_written)))
 
 
 def _variables(system: PolynomialSystem, count: int) -> int:
