@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
@@ -14,14 +14,13 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.natural_coordinates import (
-    LEAST_SCALE,
     NaturalCoordinates,
     natural_coordinates,
 )
-from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.witness.close_points import DIGITS, Fine, in_words
 from nag.witness.cutting import Cut, Equations
 from nag.witness.frame import Frame
+from nag.witness.units import Units
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +51,8 @@ class Reduction:
         elimination = eliminate_linear(natural.system(system), graphs=False)
         reduced, frame = elimination.system, Frame.of(elimination, natural)
         if scaled:
-            reduced, scales = scaled_system(reduced)
-            frame = frame.scaled(scales)
+            units = Units.of(reduced.polynomials, reduced.n)
+            reduced, frame = units.of_system(reduced), frame.scaled(units.sizes)
         return cls(system, natural, elimination, reduced, frame)
 
     @property
@@ -137,21 +136,3 @@ def _unscaled(f: Polynomial, powers: Sequence[int]) -> Polynomial:
         shift = sum(int(p) * k for p, k in zip(powers, exponents, strict=False))
         terms[exponents] = c * Fraction(2) ** -shift
     return Polynomial(f.n, terms)
-
-
-def scaled_system(system: PolynomialSystem) -> tuple[PolynomialSystem, np.ndarray]:
-    """The system in coordinates that make its coefficients comparable, and their scales.
-
-    Scales are powers of two, so that nothing is rounded; they are one where little is gained.
-    """
-    powers = variable_scales(system.polynomials, system.n)
-    if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
-        return system, np.ones(system.n)
-    nonzero = [scaled_terms(f, powers) for f in system.nonzero]
-    polynomials = [scaled_terms(f, powers) for f in system.polynomials]
-    scaled = replace(
-        system,
-        polynomials=tuple(Polynomial(system.n, terms) for terms in polynomials),
-        nonzero=tuple(Polynomial(system.n, terms) for terms in nonzero),
-    )
-    return scaled, 2.0**powers

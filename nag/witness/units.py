@@ -15,14 +15,12 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.natural_coordinates import LEAST_SCALE
 from nag.numerics.scaling import scaled_terms, variable_scales
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, Slice, WitnessSet
-
-# Sizes that differ by less than this factor are comparable.
-LEAST_SCALE = 8
 
 
 @dataclass(frozen=True, eq=False)
