@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_points import BranchPointError, Sheets, branch_points
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.monodromy import places_among
-from nag.decomposition.rank_drop import rank_drop
+from nag.decomposition.rank_drop import rank_drop, rank_drop_points
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Tracker, move_regular
 from nag.witness.given_component import check_component
@@ -113,14 +114,34 @@ def genus(
         sheets = _sheets(system, component, rng, tracker)
         values = branch_points(sheets, rng, tracker)
         # Sheets that are exchanged round a cusp have bounded derivatives there.
-        cusps = rank_drop(system, component, seed=seed, threads=threads, settings=settings)
-        if cusps.notes:
-            raise GenusError(f"its singular points are not all known: {'; '.join(cusps.notes)}")
-        values += [complex(v) for v in cusps.isolated() @ sheets.normal]
+        options = {"seed": seed, "threads": threads, "settings": settings}
+        cusps = _singular_points(system, component, options)
+        values += [complex(v) for v in cusps @ sheets.normal]
         cover = _Cover(sheets, values, rng, tracker)
         return _riemann_hurwitz(cover.permutations(), cover.round_all(), component.degree)
     except (BranchPointError, IntersectionError) as error:
         raise GenusError(str(error)) from None
+
+
+def _singular_points(
+    system: PolynomialSystem, component: WitnessSet, options: dict[str, Any]
+) -> np.ndarray:
+    """The curve's singular points, perhaps with others, round whose values nothing is exchanged.
+
+    Raises:
+        GenusError: if one of them may be missing.
+    """
+    try:
+        found = rank_drop(system, component, **options)
+        if not found.notes:
+            return found.isolated()
+        reason = "; ".join(found.notes)
+    except IntersectionError as error:
+        reason = str(error)
+    points = rank_drop_points(system, component, **options)
+    if points is None:
+        raise GenusError(f"its singular points are not all known: {reason}")
+    return points
 
 
 def _sheets(

@@ -33,6 +33,7 @@ from nag.decomposition.intersection import Intersection, intersect_equations
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import clusters
 from nag.numerics.local_dimension import local_dimension
+from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.witness.component_equations import component_system
 from nag.witness.membership import Membership, memberships
@@ -127,6 +128,54 @@ def rank_drop(
     return RankDrop(tuple(sets), search.paths, tuple(dict.fromkeys(search.notes)), system.n)
 
 
+def rank_drop_points(
+    system: PolynomialSystem,
+    component: WitnessSet,
+    *,
+    seed: int = 0,
+    threads: int = 1,
+    settings: str = "default",
+) -> np.ndarray | None:
+    """Finitely many points, among which are all where a component's Jacobian drops in rank.
+
+    Others may be among them: of other components, and where only combinations of more equations
+    than are needed are dependent. Nothing is taken from the component but its dimension.
+
+    Returns:
+        Complex, shape ``(P, n)``; None where there may be infinitely many, or one may be missing.
+    """
+    reduction = Reduction.of(component_system(system, component), scaled=True)
+    own, frame = reduction.reduced, reduction.frame
+    rng = np.random.default_rng(seed)
+    conditions = _left_null_space(own, own.n - component.dimension, rng)
+    options = {"seed": seed, "threads": threads, "settings": settings}
+    found = _isolated_pairs(own, conditions, options)
+    return frame.points(found.points[:, : own.n]) if _is_whole(found) else None
+
+
+def _in_variables(own: PolynomialSystem, conditions: PolynomialSystem) -> PolynomialSystem:
+    """A system in its own variables and the further ones of conditions."""
+    lifted, nonzero = (
+        tuple(f.with_variables(conditions.n, range(own.n)) for f in polynomials)
+        for polynomials in (own.polynomials, own.nonzero)
+    )
+    return PolynomialSystem(conditions.variables, lifted, nonzero)
+
+
+def _isolated_pairs(
+    own: PolynomialSystem, conditions: PolynomialSystem, options: dict[str, Any]
+) -> SolveResult:
+    """The isolated zeros of a system and conditions, in the variables of these."""
+    product = _in_variables(own, conditions)
+    equations = dict.fromkeys((*product.polynomials, *conditions.polynomials))
+    return solve(replace(product, polynomials=tuple(equations)), **options)
+
+
+def _is_whole(found: SolveResult) -> bool:
+    """Whether all zeros are known to be isolated ones that were found."""
+    return found.complete and not found.positive_dimensional and not len(found.undecided)
+
+
 @dataclass(eq=False)
 class _Search:
     """What was found of the points where the rank of a component's equations is less than usual.
@@ -155,31 +204,25 @@ class _Search:
             nag.decomposition.factor.IntersectionError: if the witness points are no regular zeros.
         """
         own, total = self.own, conditions.n
-        lifted, nonzero = (
-            tuple(f.with_variables(total, range(own.n)) for f in polynomials)
-            for polynomials in (own.polynomials, own.nonzero)
-        )
-        product = PolynomialSystem(conditions.variables, lifted, nonzero)
+        product = _in_variables(own, conditions)
         start = _times_space(self.component, total - own.n, rng)
         found = intersect_equations(product, start, conditions, **self.options)
         self.paths += found.paths
-        if found.notes and self._solved(product, conditions):
+        if found.notes and self._solved(conditions):
             return
         self.notes += found.notes
         for one in found.components:
             self._judge(found, one)
 
-    def _solved(self, product: PolynomialSystem, conditions: PolynomialSystem) -> bool:
+    def _solved(self, conditions: PolynomialSystem) -> bool:
         """Keep the component's points where the rank drops, if all such points are isolated ones.
 
         Of a point where many come together, as of a cusp of high order, no regular equations are
         found in passing, and none are needed.
         """
-        equations = dict.fromkeys((*product.polynomials, *conditions.polynomials))
-        whole = replace(conditions, polynomials=tuple(equations), nonzero=product.nonzero)
-        found = solve(whole, **self.options)
+        found = _isolated_pairs(self.own, conditions, self.options)
         self.paths += PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
-        if not found.complete or found.positive_dimensional or len(found.undecided):
+        if not _is_whole(found):
             return False
         own, error, kept = self.own.n, ROUNDED, []
         alone = Decomposition(self.own, (self.component,), PathCounts(), 0, "default", (), False)
