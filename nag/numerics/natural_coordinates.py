@@ -11,11 +11,11 @@ would have more terms, nothing changes.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from math import isqrt, log2, prod
+from math import comb, isqrt, log2, prod
 
 import numpy as np
 
@@ -33,8 +33,6 @@ LARGER = 1
 SIMPLE, DIGITS = 128, 6
 # Terms beyond which no system is moved.
 MOST_TERMS = 20_000
-# Entries of the equations for an origin beyond which none is looked for.
-MOST_WORK = 1_000_000
 Row = dict[int, Fraction]
 
 
@@ -107,10 +105,20 @@ def natural_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoo
 
 def shift_polynomial(f: Polynomial, origin: Sequence[Fraction]) -> Polynomial:
     """``f(y + origin)``."""
-    if not any(origin[i] for i in f.support):
+    places = [i for i in f.support if origin[i]]
+    if not places:
         return f
-    variables = Polynomial.variables(f.n)
-    return f.compose([x + b if b else x for x, b in zip(variables, origin, strict=True)])
+    terms = dict(f.terms)
+    for i in places:
+        b, whole = origin[i], terms
+        terms = {e: c for e, c in whole.items() if not e[i]}
+        for e, c in whole.items():
+            k = e[i]
+            for j in range(k + 1 if k else 0):
+                key = (*e[:i], k - j, *e[i + 1 :])
+                value = c * b**j * comb(k, j) if j else c
+                terms[key] = terms[key] + value if key in terms else value
+    return Polynomial(f.n, terms)
 
 
 def _accepted_origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
@@ -130,8 +138,10 @@ def _accepted_origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fractio
     after = variable_scales(moved, n)
     kept = after <= before + LARGER
     gain = (sizes - after)[kept].max(initial=-np.inf)
-    lost = _unevenness(moved, after) - _unevenness(polynomials, before)
-    if gain <= max(log2(FAR), lost):
+    if gain <= log2(FAR):
+        return nothing
+    # What is gained in distance must not be lost in coefficients that no scales make comparable.
+    if gain <= _unevenness(moved, after) - _unevenness(polynomials, before):
         return nothing
     return tuple(
         _simple(b, int(k)) if keep else Fraction(0)
@@ -141,11 +151,11 @@ def _accepted_origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fractio
 
 def _unevenness(polynomials: Sequence[Polynomial], powers: np.ndarray) -> float:
     """Binary orders between a coefficient and the median one of its equation: the median of all."""
-    off = [
-        np.abs(sizes - np.median(sizes))
-        for f in polynomials
-        for sizes in [np.array([magnitude(c) + np.dot(e, powers) for e, c in f.terms.items()])]
-    ]
+    off = []
+    for f in polynomials:
+        sizes = np.array([magnitude(c) for c in f.terms.values()])
+        sizes += np.array(list(f.terms)) @ powers
+        off.append(np.abs(sizes - np.median(sizes)))
     return float(np.median(np.concatenate(off)))
 
 
@@ -173,10 +183,10 @@ def _origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
             break
         if sum(_terms_of_shift(f, origin) for f in group) > MOST_TERMS:
             return (Fraction(0),) * n
-        rows = [row for f in group for row in _conditions(shift_polynomial(f, origin), level)]
-        if len(rows) * len(directions) > MOST_WORK:
-            return (Fraction(0),) * n
-        step, directions = _solved(rows, directions)
+        moved = (shift_polynomial(f, origin) for f in group)
+        step, directions = _solved(
+            (row for f in moved for row in _conditions(f, level)), directions
+        )
         for i, b in step.items():
             origin[i] += b
     return tuple(origin)
@@ -211,7 +221,7 @@ def _conditions(f: Polynomial, level: int) -> list[tuple[Row, Fraction]]:
 
 
 def _solved(
-    rows: Sequence[tuple[Row, Fraction]], directions: Sequence[Row]
+    rows: Iterable[tuple[Row, Fraction]], directions: Sequence[Row]
 ) -> tuple[Row, list[Row]]:
     """A combination of directions that satisfies the first independent rows, and those left free.
 

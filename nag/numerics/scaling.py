@@ -19,8 +19,8 @@ from nag.algebra.polynomial import Exponents, Polynomial
 LARGEST = 200
 # Weight of unscaled variables where the coefficients do not ask for a scale.
 INERTIA = 1e-2
-# Binary orders that a coefficient may be off before those that are odd lose their weight, in so
-# many steps.
+# Binary orders between the coefficients of an equation from which on those that are odd lose their
+# weight, in so many steps.
 ODD, SWEEPS = 10, 12
 # Least over largest singular value of the coefficients of rows that are made orthogonal.
 DEPENDENT, NEARLY_ORTHOGONAL = 1e-12, 0.1
@@ -55,12 +55,11 @@ def variable_scales(polynomials: Sequence[Polynomial], n: int) -> np.ndarray:
     solution, *_ = np.linalg.lstsq(matrix, right, rcond=None)
     of_equation = np.repeat(np.arange(len(several)), counts)
     for _ in range(SWEEPS):
-        # With the size of each equation at its best for these weights.
         off = sizes + exponents @ solution
-        level = _medians(off, first, counts)
-        off = np.abs(off - level[of_equation])
-        if off.max() <= ODD:
+        if (np.maximum.reduceat(off, first) - np.minimum.reduceat(off, first)).max() <= ODD:
             break
+        # With the size of each equation at its best for these weights.
+        off = np.abs(off - _medians(off, first, counts)[of_equation])
         weights = 1 / np.maximum(off, 1.0)
         total = np.add.reduceat(weights, first)
         means = np.add.reduceat(weights[:, None] * exponents, first) / total[:, None]
