@@ -255,6 +255,8 @@ witness.close_to_sets.SAME                  -80     Decimal logarithm of the dis
                                                     are one, of 100 digits.
 witness.cutting_in_digits.ZERO              -80     Decimal logarithm of a pivot that is none, at
                                                     zeros of 100 digits.
+witness.cutting_in_digits.LONG              12      Digits of coefficients from which on multiple
+                                                    zeros are told in digits from the first.
 witness.close_points.CLOSE                  1e-4    Relative distance of points that are tracked in
                                                     more digits: corrections that need not contract
                                                     any more may be as large as a hundredth of it.

@@ -206,7 +206,8 @@ def test_ends_in_more_words_than_are_compared_keep_the_leading_ones() -> None:
 def test_sheets_too_close_to_be_told_apart_are_left_open(equations: list[str], degree: int) -> None:
     answer = nag.decompose(equations)
     found = sum(c.degree * c.multiplicity for c in answer.components)
-    assert answer.complete == (found == degree)
+    # All points may be found, and yet be too close for paths to say what belongs together.
+    assert not answer.complete or found == degree
 
 
 @pytest.mark.parametrize("k", [6, 9, 12, 20, 25])

@@ -29,6 +29,9 @@ from nag.witness.slices import padded
 DIGITS, ZERO = 150, -80.0
 # How many digits larger slices are made than equations.
 FIRST = 40
+# Equations whose coefficients have more digits may be as good as zero, in a hundred digits, between
+# zeros that are close to each other: of z^3 (z - e) at the scale of e, e^4 is left.
+LONG = 12
 
 
 def admit_zero(
@@ -67,6 +70,8 @@ def admit_zero(
 def is_alone(fibre: Fibre, i: int, equations: Equations, rows: np.ndarray) -> bool:
     """Whether a point that doubles found is the zero of all equations, and no other is close."""
     cut, z = fibre.cut, fibre.points[i]
+    if cut.deflated and max(f.digits for f in equations.polynomials) > LONG:
+        return False
     start = Fine.of_doubles(z)
     if not rated(cut.polynomials, rows, start).curvature < 1 / CLOSE:
         return False
