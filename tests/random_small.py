@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
 
@@ -12,7 +12,7 @@ from numpy.random import Generator
 
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.bench.atlas.changes import NAMES
+from nag.bench.atlas.changes import FAR_COORDINATES, NAMES, in_far_coordinates
 
 Equations = Sequence[Polynomial]
 
@@ -22,6 +22,8 @@ LARGEST_DEGREES = 120
 # Powers of ten by which coefficients differ.
 SPREADS = (0, 2, 5)
 DEGENERATE_ODDS = 0.1
+# Powers of ten by which coordinates lie away from a system's own ones, up to this.
+DECADES, DENSE_DECADES = 6, 3
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,20 @@ def small_system(seed: int, number: int) -> Small:
         kind = str(rng.choice(list(DEGENERATIONS)))
         equations = DEGENERATIONS[kind](equations, degrees, spread, rng)
     return Small(kind, PolynomialSystem(NAMES[:n], tuple(equations)))
+
+
+def far_coordinates(seed: int, number: int) -> tuple[str, int]:
+    """One of `FAR_COORDINATES` for the system of this number, and how far they lie."""
+    rng = np.random.default_rng([seed, number, 21])
+    kind = str(rng.choice(FAR_COORDINATES))
+    return kind, int(rng.integers((DENSE_DECADES if kind == "dense" else DECADES) + 1))
+
+
+def far_system(seed: int, number: int) -> Small:
+    """The system of this number in its `far_coordinates`."""
+    small, (kind, decades) = small_system(seed, number), far_coordinates(seed, number)
+    rng = np.random.default_rng([seed, number, 22])
+    return replace(small, system=in_far_coordinates(small.system, kind, decades, rng))
 
 
 def _monomials(n: int, degree: int) -> list[Exponents]:

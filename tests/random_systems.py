@@ -1,15 +1,18 @@
 """Solve and decompose random small systems and compare with exact counts.
 
     python tests/random_systems.py --count N --seed S [--first K] [--jobs J] [--limit SECONDS]
-        [--number NUMBER ...] [--method solve|decompose] [--journal FILE] [--all]
+        [--number NUMBER ...] [--method solve|decompose] [--journal FILE] [--all] [--coordinates]
 
 System number K of seed S depends on these two only. An answer is right, incomplete, slow (ended
 at the limit of processor time) or wrong: called complete and not what `exact_counts` says. Where
 that says nothing, complete answers of the two methods are compared with each other: they agree or
-differ, or are unchecked. Prints the equations of systems with an answer that is wrong, an error
-or differs, one line for other answers that are not right with `--all`, and a summary. With a
-journal, a run that was cut off goes on where it stopped. Exit status 1 if an answer is wrong, an
-error or differs.
+differ, or are unchecked. With `--coordinates`, each system is solved and decomposed in coordinates
+that lie far from its own ones, of a kind and a distance drawn for it (`far_coordinates`); what is
+known is counted in its own ones, and verdicts are summed up for each kind.
+
+Prints the equations of systems with an answer that is wrong, an error or differs, one line for
+other answers that are not right with `--all`, and a summary. With a journal, a run that was cut
+off goes on where it stopped. Exit status 1 if an answer is wrong, an error or differs.
 """
 
 from __future__ import annotations
@@ -23,7 +26,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from exact_counts import zero_set
-from random_small import small_system
+from random_small import far_coordinates, far_system, small_system
 
 from nag.bench.timed_runs import Run, timed_runs
 from nag.bench.verdicts import (
@@ -50,18 +53,26 @@ class Task:
     number: int
     method: str
     settings: str = "default"
+    far: bool = False
+
+    @property
+    def coordinates(self) -> str:
+        """Kind and decades of the coordinates that lie far; empty for the system's own ones."""
+        return "{}:{}".format(*far_coordinates(self.seed, self.number)) if self.far else ""
 
 
 @dataclass
 class Tally:
-    """What became of all systems so far, by method."""
+    """What became of all systems so far, by method and kind of coordinates."""
 
     verdicts: dict[str, Counter[str]] = field(default_factory=dict)
     seconds: dict[str, list[float]] = field(default_factory=dict)
     numbers: dict[tuple[str, str], list[int]] = field(default_factory=dict)
 
-    def add(self, number: int, found: Mapping[str, tuple[str, float]]) -> None:
-        for method, (kind, seconds) in found.items():
+    def add(self, task: Task, found: Mapping[str, tuple[str, float]]) -> None:
+        number, coordinates = task.number, task.coordinates.partition(":")[0]
+        for name, (kind, seconds) in found.items():
+            method = f"{name}, {coordinates}" if coordinates else name
             self.verdicts.setdefault(method, Counter())[kind] += 1
             self.seconds.setdefault(method, []).append(seconds)
             if kind not in ("right", "agree"):
@@ -80,10 +91,10 @@ class Tally:
 
 def work(task: Task) -> Answer | ZeroSet | None:
     """Count, solve or decompose."""
-    system = small_system(task.seed, task.number).system
     if task.method == "count":
-        return zero_set(system)
-    return answered(task.method, system, settings=task.settings)
+        return zero_set(small_system(task.seed, task.number).system)
+    draw = far_system if task.far else small_system
+    return answered(task.method, draw(task.seed, task.number).system, settings=task.settings)
 
 
 def judged(runs: Mapping[str, Run]) -> dict[str, tuple[str, float]]:
@@ -103,24 +114,25 @@ def report(runs: Mapping[str, Run], found: Mapping[str, tuple[str, float]], ever
     bad = any(kind in BAD for kind, _ in found.values())
     if not bad and not every:
         return
-    small = small_system(task.seed, task.number)
+    small = (far_system if task.far else small_system)(task.seed, task.number)
+    name = " ".join((small.kind, task.coordinates)).strip()
     for method, (kind, seconds) in found.items():
         if kind not in ("right", "agree"):
             text = described(runs[method], truth)
-            print(f"  {task.number} ({small.kind}) {method}: {kind} ({seconds:.1f} s): {text}")
+            print(f"  {task.number} ({name}) {method}: {kind} ({seconds:.1f} s): {text}")
     if bad:
         print(f"    {', '.join(small.system.variables)}; known: {known(truth, 'decompose')}")
         print("".join(f'    "{text}",\n' for text in small.system.text()), end="", flush=True)
 
 
-def recorded(journal: Path | None, seed: int) -> dict[int, dict[str, tuple[str, float]]]:
+def recorded(journal: Path | None, seed: int, far: bool) -> dict[int, dict[str, tuple[str, float]]]:
     """What an earlier run found, by number; a line that was cut off is left out."""
     earlier = {}
     if journal is not None and journal.exists():
         for line in journal.read_text().splitlines():
             try:
                 entry = json.loads(line)
-                if entry["seed"] == seed:
+                if entry["seed"] == seed and bool(entry.get("coordinates")) == far:
                     earlier[entry["number"]] = {m: tuple(v) for m, v in entry["found"].items()}
             except (ValueError, KeyError, TypeError):
                 continue
@@ -130,7 +142,7 @@ def recorded(journal: Path | None, seed: int) -> dict[int, dict[str, tuple[str, 
 def tasks(numbers: Sequence[int], methods: Sequence[str], of: argparse.Namespace) -> Iterator[Task]:
     for number in numbers:
         for method in ("count", *methods):
-            yield Task(of.seed, number, method, of.settings)
+            yield Task(of.seed, number, method, of.settings, of.coordinates)
 
 
 def arguments() -> argparse.Namespace:
@@ -144,6 +156,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--method", choices=METHODS, help="both by default")
     parser.add_argument("--settings", default="default")
     parser.add_argument("--journal", type=Path, help="file that keeps what was found")
+    parser.add_argument("--coordinates", action="store_true", help="far from the system's own")
     parser.add_argument("--all", action="store_true", help="also print what is open or slow")
     return parser.parse_args()
 
@@ -152,10 +165,11 @@ def main() -> int:
     options = arguments()
     methods = [options.method] if options.method else list(METHODS)
     numbers = options.number or range(options.first, options.first + options.count)
-    earlier, tally = recorded(options.journal, options.seed), Tally()
+    far, tally = options.coordinates, Tally()
+    earlier = recorded(options.journal, options.seed, far)
     for number in numbers:
         if number in earlier:
-            tally.add(number, earlier[number])
+            tally.add(Task(options.seed, number, "count", far=far), earlier[number])
     left = [n for n in numbers if n not in earlier]
     collected: dict[int, dict[str, Run]] = {}
     done = 0
@@ -173,9 +187,11 @@ def main() -> int:
             continue
         found = judged(collected.pop(number))
         report(runs, found, options.all)
-        tally.add(number, found)
+        tally.add(run.task, found)
         if options.journal is not None:
             entry = {"seed": options.seed, "number": number, "found": found}
+            if far:
+                entry["coordinates"] = run.task.coordinates
             with options.journal.open("a") as file:
                 file.write(json.dumps(entry) + "\n")
         done += 1

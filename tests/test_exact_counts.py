@@ -8,11 +8,12 @@ from collections import Counter
 import numpy as np
 import pytest
 from exact_counts import zero_set
-from random_small import DEGENERATIONS, small_system
+from random_small import DEGENERATIONS, far_coordinates, far_system, small_system
 from singular_counts import standard_zero_set
 from systems import system
 
 from nag.algebra.expression import parse_polynomial
+from nag.bench.atlas.changes import FAR_COORDINATES
 from nag.bench.atlas.curves import FAMILIES as CURVES
 from nag.bench.atlas.points import FAMILIES as POINTS
 from nag.bench.verdicts import ZeroSet
@@ -138,3 +139,13 @@ def test_a_tenth_of_the_random_systems_is_degenerate_and_all_are_what_is_asked_f
         assert max(small.system.degrees) <= 5
     assert set(kinds) == {"general", *DEGENERATIONS}
     assert 15 <= 300 - kinds["general"] <= 45
+
+
+def test_systems_in_far_coordinates_have_the_zeros_of_the_plain_ones() -> None:
+    kinds = set()
+    for number in IN_THE_PLANE[:20]:
+        plain, far = small_system(3, number), far_system(3, number)
+        assert far == far_system(3, number)
+        assert zero_set(far.system) == zero_set(plain.system)
+        kinds.add(far_coordinates(3, number)[0])
+    assert kinds == set(FAR_COORDINATES)
