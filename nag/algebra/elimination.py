@@ -212,4 +212,6 @@ def _raises_degrees(
 
 
 def _restrict(f: Polynomial, order: Sequence[int]) -> Polynomial:
+    if len(order) == f.n:
+        return f
     return Polynomial(len(order), {tuple(e[i] for i in order): c for e, c in f.terms.items()})

@@ -130,9 +130,9 @@ class Polynomial:
         other = self._coerce(other)
         if other is None:
             return NotImplemented
-        if len(self.terms) * len(other.terms) > FEW_PRODUCTS and self._whole and other._whole:
+        if len(self.terms) * len(other.terms) > FEW_PRODUCTS and self.whole and other.whole:
             # Integers are multiplied in a tenth of the time that fractions take.
-            (first, a), (second, b) = self._whole, other._whole
+            (first, a), (second, b) = self.whole, other.whole
             sums = _product(first, second)
             return Polynomial(self.n, {e: Fraction(c, a * b) for e, c in sums.items()})
         return Polynomial(self.n, _product(self.terms, other.terms))
@@ -140,7 +140,7 @@ class Polynomial:
     __rmul__ = __mul__
 
     @cached_property
-    def _whole(self) -> tuple[dict[Exponents, int], int] | None:
+    def whole(self) -> tuple[dict[Exponents, int], int] | None:
         """Integers that are the coefficients times their common denominator; None without one."""
         if not self.exact:
             return None
