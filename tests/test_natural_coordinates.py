@@ -11,6 +11,7 @@ import pytest
 from systems import kinds
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
@@ -95,6 +96,18 @@ def test_sparse_equations_are_not_made_denser() -> None:
     x, y = Polynomial.variables(2)
     far = Fraction(1000)
     assert natural_coordinates([(x - far) ** 2 - 1, x * y - far], 2).origin == (0, 0)
+
+
+def test_scales_that_equations_leave_free_make_no_origin_far() -> None:
+    text = "-7/10^16*x^2*w + 4/10^15*y^3 + 2*10^7*y*z^2 - 4/10^6*x^2 - 8/10^10*y^2 - 4"
+    f = parse_polynomial(text, ["x", "y", "z", "w"])
+    # Of x and w only x^2 w has a size about the new origin: w may be as large as it was.
+    assert natural_coordinates([f], 4).origin == (0, 0, 0, 0)
+
+
+def test_the_vertex_of_a_cone_is_its_origin() -> None:
+    x, y, z, w = (v - b for v, b in zip(Polynomial.variables(4), (700, -3000, 22, 0), strict=True))
+    assert natural_coordinates([x * w - y * z, x**2 - y * w], 4).origin == (700, -3000, 22, 0)
 
 
 def test_equations_that_depend_on_each_other_have_one_origin() -> None:

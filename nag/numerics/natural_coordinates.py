@@ -137,7 +137,10 @@ def _accepted_origin(
     moved = [shift_polynomial(f, origin) for f in polynomials]
     if any(len(g.terms) > len(f.terms) for f, g in zip(polynomials, moved, strict=True)):
         return nothing
-    after = variable_scales(moved, n)
+    # Scales that the equations leave free, as those of a cone, are any: to have them is a gain only
+    # where terms vanish for it. Else they are what they were.
+    simpler = sum(len(g.terms) for g in moved) < sum(len(f.terms) for f in polynomials)
+    after = variable_scales(moved, n, near=0.0 if simpler else before)
     kept = after <= before + LARGER
     gain = (sizes - after)[kept].max(initial=-np.inf)
     if gain <= log2(FAR):

@@ -33,17 +33,23 @@ def magnitude(c: Number | complex) -> float:
     return float(np.log2(abs(complex(c))))
 
 
-def variable_scales(polynomials: Sequence[Polynomial], n: int) -> np.ndarray:
+def variable_scales(
+    polynomials: Sequence[Polynomial], n: int, near: np.ndarray | float = 0.0
+) -> np.ndarray:
     """Integers k, shape ``(n,)``: with ``x_i = 2^k_i y_i`` the coefficients vary the least.
 
     The least squares problem of the logarithms of all coefficients, the equations free to be
     scaled too. Where that leaves some far off, their absolute values count and not their squares
     (by weights from step to step): a few odd coefficients, as the small constant that two sheets
     close together have, do not decide.
+
+    Args:
+        near: where the equations leave scales free, as ``x^2 y - 1`` does along ``(1, -2)``, those
+            nearest to these are taken.
     """
     several = [f.terms for f in polynomials if len(f.terms) > 1]
     if not several:
-        return np.zeros(n, dtype=np.int64)
+        return np.full(n, near).astype(np.int64)
     exponents = np.array([e for terms in several for e in terms], dtype=float)
     sizes = np.array([magnitude(c) for terms in several for c in terms.values()])
     counts = np.array([len(terms) for terms in several])
@@ -51,7 +57,7 @@ def variable_scales(polynomials: Sequence[Polynomial], n: int) -> np.ndarray:
     means = np.add.reduceat(exponents, first) / counts[:, None]
     mean_sizes = np.add.reduceat(sizes, first) / counts
     matrix = np.vstack([exponents - np.repeat(means, counts, axis=0), INERTIA * np.eye(n)])
-    right = np.append(np.repeat(mean_sizes, counts) - sizes, np.zeros(n))
+    right = np.append(np.repeat(mean_sizes, counts) - sizes, INERTIA * np.full(n, near))
     solution, *_ = np.linalg.lstsq(matrix, right, rcond=None)
     of_equation = np.repeat(np.arange(len(several)), counts)
     for _ in range(SWEEPS):
