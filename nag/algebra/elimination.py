@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
+from operator import itemgetter
 from typing import Any
 
 from nag.algebra.factoring import factored
-from nag.algebra.number import Number
-from nag.algebra.polynomial import Exponents, Polynomial
+from nag.algebra.polynomial import Exponents, Polynomial, multiply_terms, occurring
 from nag.algebra.system import PolynomialSystem
 
 
@@ -163,8 +164,7 @@ def _pivot(
 def linear_variables(f: Polynomial) -> set[int]:
     """Variables that occur in ``f`` in one term only, linearly and alone."""
     alone = {e.index(1) for e in f.terms if sum(e) == 1}
-    elsewhere = {i for e in f.terms if sum(e) > 1 for i, k in enumerate(e) if k}
-    return alone - elsewhere
+    return alone - occurring(e for e in f.terms if sum(e) > 1) if alone else alone
 
 
 def solved(f: Polynomial, index: int) -> Polynomial:
@@ -179,14 +179,41 @@ def substituted(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
     """``f`` with one variable replaced, by Horner's rule in that variable."""
     if index not in f.support:
         return f
-    by_power: dict[int, dict[Exponents, Number]] = {}
-    for e, c in f.terms.items():
-        by_power.setdefault(e[index], {})[(*e[:index], 0, *e[index + 1 :])] = c
+    if f.whole and image.whole:
+        return _substituted_in_integers(f, index, image)
+    by_power = _by_power(f.terms, index)
     top = max(by_power)
     result = Polynomial(f.n, by_power[top])
     for power in range(top - 1, -1, -1):
         result = result * image + Polynomial(f.n, by_power.get(power, {}))
     return result
+
+
+def _substituted_in_integers(f: Polynomial, index: int, image: Polynomial) -> Polynomial:
+    """The same, with one division at the end."""
+    assert f.whole
+    assert image.whole
+    (whole, common), (of_image, b) = f.whole, image.whole
+    by_power = _by_power(whole, index)
+    top = max(by_power)
+    result, factor = by_power[top], 1
+    for power in range(top - 1, -1, -1):
+        result = {e: c for e, c in multiply_terms(result, of_image).items() if c}
+        factor *= b
+        for e, c in by_power.get(power, {}).items():
+            result[e] = result[e] + factor * c if e in result else factor * c
+    common *= factor
+    if common == 1:
+        return Polynomial(f.n, {e: Fraction(c) for e, c in result.items() if c})
+    return Polynomial(f.n, {e: Fraction(c, common) for e, c in result.items() if c})
+
+
+def _by_power(terms: Mapping[Exponents, Any], index: int) -> dict[int, dict[Exponents, Any]]:
+    """Coefficients of the powers of a variable, as terms in the others."""
+    by_power: dict[int, dict[Exponents, Any]] = {}
+    for e, c in terms.items():
+        by_power.setdefault(e[index], {})[(*e[:index], 0, *e[index + 1 :])] = c
+    return by_power
 
 
 def _raises_degrees(
@@ -214,4 +241,7 @@ def _raises_degrees(
 def _restrict(f: Polynomial, order: Sequence[int]) -> Polynomial:
     if len(order) == f.n:
         return f
-    return Polynomial(len(order), {tuple(e[i] for i in order): c for e, c in f.terms.items()})
+    if len(order) < 2:
+        return Polynomial(len(order), {tuple(e[i] for i in order): c for e, c in f.terms.items()})
+    chosen = itemgetter(*order)
+    return Polynomial(len(order), {chosen(e): c for e, c in f.terms.items()})

@@ -21,13 +21,19 @@ def divides(e: Exponents, f: Exponents) -> bool:
     return all(map(le, e, f))
 
 
+def occurring(monomials: Iterable[Exponents]) -> set[int]:
+    """Indices of the variables that occur in monomials."""
+    return {i for i, powers in enumerate(zip(*monomials, strict=True)) if any(powers)}
+
+
 # Products of terms beyond which coefficients are multiplied as integers.
 FEW_PRODUCTS = 8
 
 
-def _product(
+def multiply_terms(
     first: Mapping[Exponents, Any], second: Mapping[Exponents, Any]
 ) -> dict[Exponents, Any]:
+    """The product of sums of terms; what cancels stays as zero."""
     terms: dict[Exponents, Any] = {}
     for e, c in first.items():
         for f, d in second.items():
@@ -133,9 +139,9 @@ class Polynomial:
         if len(self.terms) * len(other.terms) > FEW_PRODUCTS and self.whole and other.whole:
             # Integers are multiplied in a tenth of the time that fractions take.
             (first, a), (second, b) = self.whole, other.whole
-            sums = _product(first, second)
+            sums = multiply_terms(first, second)
             return Polynomial(self.n, {e: Fraction(c, a * b) for e, c in sums.items()})
-        return Polynomial(self.n, _product(self.terms, other.terms))
+        return Polynomial(self.n, multiply_terms(self.terms, other.terms))
 
     __rmul__ = __mul__
 
@@ -193,7 +199,7 @@ class Polynomial:
     @cached_property
     def support(self) -> frozenset[int]:
         """Indices of the variables that occur."""
-        return frozenset(i for e in self.terms for i, k in enumerate(e) if k)
+        return frozenset(occurring(self.terms))
 
     @cached_property
     def exact(self) -> bool:

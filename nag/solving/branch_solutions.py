@@ -180,14 +180,14 @@ def _exact(
 ) -> _Part | None:
     """A branch that exact algebra solves; None where paths must be tracked."""
     system = branch.system
+    zeros = algebraic_zeros(system, two_variables)
+    if zeros is None and branch.kind is BranchKind.SYSTEM:
+        return None
     evaluator = Evaluator.of(system.polynomials, system.n)
     none, nothing = np.zeros((0, system.n), dtype=complex), LargerSets.of(system.n)
-    zeros = algebraic_zeros(system, two_variables)
     if zeros is not None:
         known = ((_rounded_solution(evaluator, z.point, z.multiplicity, z.real), z) for z in zeros)
         return _Part(system, tuple(_Found(*each) for each in known), None, nothing, none)
-    if branch.kind is BranchKind.SYSTEM:
-        return None
     if branch.kind is BranchKind.EMPTY:
         return _Part(system, (), None, nothing, none)
     # Of a linear space, or a graph over one, every point will do.
