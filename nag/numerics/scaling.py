@@ -29,7 +29,8 @@ DEPENDENT, NEARLY_ORTHOGONAL = 1e-12, 0.1
 def magnitude(c: Number | complex) -> float:
     """The binary logarithm of ``|c|``; also beyond the range of doubles."""
     if isinstance(c, Fraction):
-        return log2(abs(c.numerator)) - log2(c.denominator)
+        p, q = c.as_integer_ratio()
+        return log2(abs(p)) if q == 1 else log2(abs(p)) - log2(q)
     return float(np.log2(abs(complex(c))))
 
 
@@ -85,6 +86,10 @@ def _medians(values: np.ndarray, first: np.ndarray, counts: np.ndarray) -> np.nd
 def scaled_terms(f: Polynomial, scales: np.ndarray) -> dict[Exponents, Number]:
     """Terms of ``f`` in the scaled variables, divided by a power of two near the largest."""
     weights = scales.tolist()
+    if not any(weights):
+        top = floor(max(map(magnitude, f.terms.values()), default=0.0))
+        unit = Fraction(2) ** -top
+        return {e: c * unit for e, c in f.terms.items()} if top else dict(f.terms)
     shifts = {e: sum(map(mul, e, weights)) for e in f.terms}
     top = floor(max((magnitude(c) + shifts[e] for e, c in f.terms.items()), default=0.0))
     powers = {shift: Fraction(2) ** (shift - top) for shift in set(shifts.values())}
