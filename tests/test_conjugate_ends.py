@@ -153,7 +153,8 @@ def test_the_conjugate_of_a_singular_end_on_a_component_is_not_judged_again() ->
         return judged_ends._Place(Place.UNDECIDED)
 
     places = [
-        judged_ends._together(judge, zeros, np.array([i]), True, [on])[1].place for i in range(3)
+        judged_ends._together(judge, zeros, np.array([i]), True, [(on, None)])[1].place
+        for i in range(3)
     ]
     assert places == [Place.ON_COMPONENT, Place.UNDECIDED, Place.UNDECIDED]
     assert asked == [1, 2]

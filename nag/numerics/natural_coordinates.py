@@ -90,12 +90,15 @@ class NaturalCoordinates:
 
 
 def natural_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoordinates:
-    """The coordinates that suit polynomials in ``n`` variables best; often those that they have."""
+    """The coordinates that suit polynomials in ``n`` variables best; often those that they have.
+
+    Equations of degree one do not count: they are solved before anything is tracked.
+    """
     nothing = NaturalCoordinates.identity(n)
-    several = [f for f in polynomials if f.terms and f.degree]
-    if not several or not all(f.exact for f in several):
+    curved = sorted((f for f in polynomials if f.degree > 1), key=_simplicity)
+    if not curved or not all(f.exact for f in polynomials):
         return nothing
-    origin, moved, powers = _accepted_origin(several, n)
+    origin, moved, powers = _accepted_origin(curved, n)
     if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
         return nothing if not any(origin) else replace(nothing, origin=origin)
     return NaturalCoordinates(_scales(moved, powers), origin)
@@ -141,7 +144,7 @@ def _accepted_origin(
     # where terms vanish for it. Else they are what they were.
     simpler = sum(len(g.terms) for g in moved) < sum(len(f.terms) for f in polynomials)
     after = variable_scales(moved, n, near=0.0 if simpler else before)
-    kept = after <= before + LARGER
+    kept = (after <= before + LARGER) | (sizes <= before)
     gain = (sizes - after)[kept].max(initial=-np.inf)
     if gain <= log2(FAR):
         return nothing
@@ -179,20 +182,16 @@ def _simple(b: Fraction, power: int) -> Fraction:
 def _origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
     """Where coefficients below the leading ones vanish, as many as can be made to; 0 if unknown.
 
-    Equations of few variables come first, those that others contradict are left out, and those of
-    degree one come last: a hyperplane is not far from anything.
+    Those of equations that contradict earlier ones are left out: the simplest come first.
     """
     origin = [Fraction(0)] * n
-    curved = sorted((f for f in polynomials if f.degree > 1), key=_simplicity)
-    flat = sorted((f for f in polynomials if f.degree == 1), key=_simplicity)
     directions = [{i: 1} for i in range(n)]
-    stages = [(curved, k) for k in range(1, max((f.degree for f in curved), default=0) + 1)]
-    for group, level in [*stages, (flat, 1)]:
+    for level in range(1, max(f.degree for f in polynomials) + 1):
         if not directions:
             break
-        if sum(_terms_of_shift(f, origin) for f in group) > MOST_TERMS:
+        if sum(_terms_of_shift(f, origin) for f in polynomials) > MOST_TERMS:
             return (Fraction(0),) * n
-        moved = (shift_polynomial(f, origin) for f in group)
+        moved = (shift_polynomial(f, origin) for f in polynomials)
         step, directions = _solved(
             (row for f in moved for row in _conditions(f, level)), directions
         )
@@ -322,7 +321,7 @@ def _scales(polynomials: Sequence[Polynomial], powers: np.ndarray) -> tuple[Frac
     n = len(powers)
     # Variables whose scales hang together, each with its scale beside that of its group.
     group, beside = list(range(n)), [Fraction(1)] * n
-    for f in sorted(polynomials, key=_simplicity):
+    for f in polynomials:
         for i, j, ratio in _equal_powers(f):
             if group[i] != group[j]:
                 factor, old = ratio * beside[j] / beside[i], group[i]

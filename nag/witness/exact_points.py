@@ -279,6 +279,8 @@ def sharpened(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) 
         else:
             ends = sharpen(fibre.cut.evaluator, rows, z)
             points[i], steps[i] = ends.z, ends.step if ends.converged else np.inf
+            if good[i]:
+                points[i, : fibre.cut.n] = _rounded(exact, i)
     fibre = replace(fibre, points=points)
     radii, digits = _radii(fibre, exact)
     rough = CORRECTION * np.maximum(steps, EPS) * (1 + np.linalg.norm(points, axis=1))
