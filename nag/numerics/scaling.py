@@ -20,8 +20,8 @@ LARGEST = 200
 # Weight of unscaled variables where the coefficients do not ask for a scale.
 INERTIA = 1e-2
 # Binary orders between the coefficients of an equation from which on those that are odd lose their
-# weight, in so many steps: half the digits of a double.
-ODD, SWEEPS = 26, 12
+# weight, in so many steps: no scales bring such to the digits that doubles have to spare.
+ODD, SWEEPS = 40, 12
 # Least over largest singular value of the coefficients of rows that are made orthogonal.
 DEPENDENT, NEARLY_ORTHOGONAL = 1e-12, 0.1
 
