@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,8 @@ SHARP = 1e-85
 NEWTON_STEPS = 60
 # A point that moves by more than this was not known to the digits that it claims.
 NEAR = 1e-9
+# Polynomials that are kept ready to be evaluated.
+KEPT = 64
 
 
 class BallValues:
@@ -78,13 +81,15 @@ class BallValues:
 
     def _coefficients(self, matrix: Any, absolute: bool) -> Any:
         import flint
+        from flint import arb, fmpq
 
         key = flint.ctx.prec, absolute
         if key not in self._matrices:
             entries = [[0] * len(self._steps) for _ in self._polynomials]
             for row, f in zip(entries, self._polynomials, strict=True):
                 for exponents, c in f.terms.items():
-                    value = _number(c)
+                    ratio = c.as_integer_ratio() if type(c) is Fraction else None
+                    value = arb(fmpq(*ratio)) if ratio else _number(c)
                     row[self._places[exponents]] = abs(value) if absolute else value
             self._matrices[key] = matrix(entries)
         return self._matrices[key]
@@ -99,10 +104,14 @@ def _number(c: Number) -> Any:
     return arb(int(-mantissa if sign else mantissa)) * arb(2) ** int(exponent)
 
 
-def _middle(z: Any) -> Any:
-    from flint import acb
+@lru_cache(maxsize=KEPT)
+def _values_of(polynomials: tuple[Polynomial, ...]) -> BallValues:
+    """The same polynomials are asked about at one point after another."""
+    return BallValues(polynomials)
 
-    return acb(z.real.mid(), z.imag.mid())
+
+def _middle(z: Any) -> Any:
+    return z.mid()
 
 
 def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
@@ -110,7 +119,7 @@ def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     from flint import arb
 
     sizes = [max(abs(x).mid(), arb(1)) for x in z]
-    values = BallValues((f,))
+    values = _values_of((f,))
     bound = abs(values.sizes_at(sizes)[0]).mid()
     return abs(_middle(values.at(z)[0])).mid() / bound if bound else arb(0)
 
@@ -166,7 +175,7 @@ def zero_near(
     import flint
     from flint import acb, arb
 
-    evaluate = BallValues(square)
+    evaluate = _values_of(tuple(square))
     with flint.ctx.workdps(digits):
         point = [acb(complex(x)) for x in z]
         rows = [[acb(complex(c)) for c in row] for row in slices]
