@@ -170,10 +170,10 @@ def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
 
 
 def _table_in(formulation: str, file: str, case: Case) -> Case:
-    from nag.files.dh_case import in_formulation, is_table
+    from nag.files.dh_case import in_formulation
     from nag.mechanism.dh import DHError
 
-    if not is_table(case):
+    if not case.is_table:
         raise only_assembled(file, case, "--formulation")
     try:
         return in_formulation(case, formulation)

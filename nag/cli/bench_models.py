@@ -44,7 +44,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.bench.models import measure_models, measure_parts, measure_table
     from nag.bench.table import models_table
     from nag.files.cases import CaseError, read_case
-    from nag.files.dh_case import is_table
     from nag.files.written_file import write_target
     from nag.mechanism.model import ModelError
 
@@ -61,7 +60,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         if not options.quiet:
             print(f"{path.stem} ...", file=sys.stderr, flush=True)
         try:
-            if case.mechanism is None and not is_table(case):
+            if case.mechanism is None and not case.is_table:
                 rows += measure_parts(path.stem, case.assembly, options.patience)
             elif case.mechanism is None:
                 rows += measure_table(path.stem, case.assembly.loop, options.patience)

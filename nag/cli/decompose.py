@@ -125,9 +125,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
 
 def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:
     """The model that is decomposed, in the coordinates that were asked for."""
-    from nag.files.dh_case import is_table
-
-    known = case.assembly if model is None and is_table(case) else model
+    known = case.assembly if model is None and case.is_table else model
     for option, value in (("coordinates", None), ("modes", "reference")):
         given = getattr(arguments, option) != value
         if given and model is None and (known is None or option == "modes"):

@@ -116,6 +116,11 @@ class Case:
     family: FamilyMember | None = None
     assembly: AssemblyModel | None = None
 
+    @property
+    def is_table(self) -> bool:
+        """Whether it is a table by Denavit and Hartenberg with open angles."""
+        return self.kind == "dh" and self.assembly is not None
+
 
 def read_case(
     path: str | os.PathLike[str], values: Mapping[str, str | Number] | None = None

@@ -41,7 +41,7 @@ def in_formulation(case: Case, formulation: str) -> Case:
     """
     from nag.mechanism.dh_euler import table_model
 
-    if not is_table(case):
+    if not case.is_table:
         raise ValueError("the case is no table with open angles")
     made = table_model(case.assembly.loop, formulation)  # type: ignore[union-attr]
     if made.formulation == case.assembly.formulation:  # type: ignore[union-attr]
@@ -49,11 +49,6 @@ def in_formulation(case: Case, formulation: str) -> Case:
     # What is known of half-angles says nothing of Euler parameters.
     truth = tuple(t for t in case.truth if t.formulation == formulation)
     return replace(case, assembly=made, system=made.system, symmetries=made.symmetries, truth=truth)
-
-
-def is_table(case: Case) -> bool:
-    """Whether a case is a table with open angles."""
-    return case.kind == "dh" and case.assembly is not None
 
 
 def _read_row(i: int, table: Table, number: ReadNumber) -> Row:

@@ -18,7 +18,6 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import names_in, nearest, quote
 from nag.files.case_table import CaseError, Table, read_toml, with_values
 from nag.files.cases import read_case
-from nag.files.dh_case import is_table
 from nag.files.export import Origin
 
 if TYPE_CHECKING:
@@ -66,7 +65,7 @@ def formulation_of(case: Case, model: Model | None) -> str | None:
     """
     if model is not None:
         return model.formulation
-    return case.assembly.formulation if is_table(case) else None  # type: ignore[union-attr]
+    return case.assembly.formulation if case.is_table else None  # type: ignore[union-attr]
 
 
 def truth_of(case: Case, model: Model | None) -> tuple[Truth, ...]:

@@ -10,7 +10,6 @@ from nag.algebra.system import PolynomialSystem, system_line
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
-from nag.files.dh_case import is_table
 from nag.files.problem import formulation_of, points_of, system_of
 from nag.report.agreement import agreement_text, compare
 from nag.report.assemblies import assembly_rows, parts_rows
@@ -146,4 +145,4 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
         return lines + joint_lines(model) + alternative_lines(model)
     if case.assembly is None:
         return lines
-    return lines + (table_lines if is_table(case) else parts_lines)(case.assembly)
+    return lines + (table_lines if case.is_table else parts_lines)(case.assembly)
