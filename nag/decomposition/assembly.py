@@ -89,7 +89,7 @@ def assembled(
     known: Known = NOTHING,
 ) -> Assembly:
     """The irreducible components of sets that are given by their points, by dimension."""
-    evidence = digits_of_evidence(reduction.system.polynomials)
+    evidence = digits_of_evidence(reduction.natural.system(reduction.system).polynomials)
     pieces: list[Piece] = []
     counts, notes = PathCounts(), []
     for d in sorted(points, reverse=True):

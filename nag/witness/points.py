@@ -59,17 +59,24 @@ class Points:
         """With more digits of all points that are close to others, where they can be found."""
         pairs = close_pairs(self.x)
         fine = dict(self.with_digits(pairs).fine)
+        steepest = {i: each.curvature for i, each in fine.items()}
         for pair in pairs:
             steep = STEEPER * self._size(pair[0]) / max(self._apart(pair, fine), 1e-300)
-            for i in set(pair) & set(fine):
-                fine[i] = replace(fine[i], curvature=max(fine[i].curvature, steep))
+            for i in pair:
+                if i in fine:
+                    steepest[i] = max(steepest[i], steep)
+        fine = {i: replace(each, curvature=steepest[i]) for i, each in fine.items()}
         return replace(self, fine=fine) if fine else self
 
     def with_digits(self, pairs: Sequence[tuple[int, int]]) -> Points:
         """With more digits of the points of some pairs, where they can be found."""
-        fine = dict(self.fine)
-        for i in sorted({i for pair in pairs for i in pair} - set(fine)):
-            found = self._in_digits(i, min(self._apart(pair, fine) for pair in pairs if i in pair))
+        fine, nearest = dict(self.fine), dict[int, float]()
+        for pair in pairs:
+            apart = self._apart(pair, fine)
+            for i in pair:
+                nearest[i] = min(apart, nearest.get(i, np.inf))
+        for i in sorted(nearest.keys() - fine.keys()):
+            found = self._in_digits(i, nearest[i])
             if found is not None:
                 fine[i] = found
         return replace(self, fine=fine) if pairs else self
