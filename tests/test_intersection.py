@@ -11,6 +11,7 @@ import pytest
 from solved import components_of
 from systems import system
 
+import nag
 from nag.decomposition import (
     decompose,
     intersect_components,
@@ -214,3 +215,29 @@ def test_a_component_that_is_not_reduced_meets_equations(seed: int) -> None:
     )
     assert found.complete and kinds(found) == {(0, 1): 4}
     assert {abs(round(float(c.points[0, 1].real), 9)) for c in found.components} == {1.0, 2.0}
+
+
+@pytest.mark.parametrize(
+    "equations",
+    [
+        ["(x^2 + y^2 - 1)*(x^2 + y^2 - 1 - 1/10^16)"],
+        ["(x + y + z)*(x + y + z + (y - 2)/10^20)"],
+        ["((x - 10^5)*(y - 2*10^5) - z - 3*10^5)*((x - 10^5)*(y - 2*10^5) - z - 3*10^5 - 1)"],
+    ],
+)
+@pytest.mark.parametrize("seed", [0, 1])
+def test_components_beside_each_other_are_never_said_to_be_one(
+    equations: list[str], seed: int
+) -> None:
+    whole = nag.decompose(equations, seed=seed)
+    assert whole.complete and len(whole.components) == 2
+    found = intersect_pair(whole, 0, 1, seed=seed)
+    larger = max(c.dimension for c in whole.components)
+    assert not (found.complete and any(c.dimension == larger for c in found.components))
+
+
+def test_components_whose_linear_equations_contradict_each_other_do_not_meet() -> None:
+    whole = nag.decompose(["y*(x^2 - 1)", "y*(y - 1/10^20)"])
+    assert [c.dimension for c in whole.components] == [1, 0, 0]
+    found = intersect_pair(whole, 0, 1)
+    assert found.complete and not found.components

@@ -248,7 +248,11 @@ class _Diagonal:
         x = first.reduction.frame.points(z[:, : first.n])[:, common.kept]
         if not len(x):
             return
-        rows = self.product.common_rows(self.flag[:d], common)
+        try:
+            rows = self.product.common_rows(self.flag[:d], common)
+        except SliceError:
+            result.notes.append("the equations of both components are too near to dependent ones")
+            return
         allowed = self.allowed(x, accuracy, rows)
         x, accuracy = x[allowed], accuracy[allowed]
         if not len(x):

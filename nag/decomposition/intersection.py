@@ -24,7 +24,9 @@ from nag.decomposition.superset import (
     intersection_order,
     witness_superset,
 )
+from nag.numerics.coincidence import MISS
 from nag.numerics.zero_values import LEAST, ON
+from nag.witness.close_points import rated
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
 from nag.witness.fibres import Fibre, Progress, Tracker, admit
@@ -49,6 +51,11 @@ __all__ = [
     "intersect_equations",
     "intersect_pair",
 ]
+
+# What is said where a component comes near to others.
+CLOSE_SHEETS = (
+    "a component comes so near to others that doubles do not tell where it meets something"
+)
 
 
 @dataclass(frozen=True)
@@ -137,11 +144,32 @@ def intersect_factors(
     units = Units.of(whole.polynomials, whole.n)
     common = Reduction.of(units.of_system(whole))
     rng = np.random.default_rng([seed, 5])
-    found = intersected(first.in_units(units), second.in_units(units), common, rng, tracker)
+    if any(f and f.degree == 0 for f in common.reduced.polynomials):
+        # Linear equations of both contradict each other, exactly.
+        nothing = _intersection(common, {}, PathCounts(), (), rng, tracker)
+        return _given(nothing, (), whole, units, seed)
+    first, second = first.in_units(units), second.in_units(units)
+    found = intersected(first, second, common, rng, tracker)
     points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
-    result = _intersection(common, points, found.counts, found.notes, rng, tracker)
+    notes = [*found.notes, *_doubts(first.component, second.component)]
+    result = _intersection(common, points, found.counts, notes, rng, tracker)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
     return _given(result, (*result.components, *bare), whole, units, seed)
+
+
+def _doubts(*components: WitnessSet) -> list[str]:
+    """What leaves an intersection open whatever is found: where sets meet is told in doubles.
+
+    Args:
+        components: in the units in which they are intersected, which say anew what is close.
+    """
+    close = any(
+        rated(fibre.cut.polynomials, component.slice.rows, point).curvature * MISS > 1
+        for component in components
+        for fibre in component.fibres
+        for point in fibre.fine.values()
+    )
+    return [CLOSE_SHEETS] if close else []
 
 
 def _given(
@@ -210,7 +238,7 @@ def intersect_equations(
 
     rng = np.random.default_rng([seed, 6])
     superset = _met(factor, units.of_system(equations), rng, tracker)
-    notes = list(superset.notes)
+    notes = [*superset.notes, *_doubts(factor.component)]
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
     points = {}

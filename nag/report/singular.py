@@ -62,7 +62,8 @@ def answer_rows(locus: SingularLocus, decomposition: Decomposition) -> list[tupl
     parts = [_count(len(points), "isolated singular point")] if points else []
     if larger:
         parts.append(_count(larger, "set") + " of singular points of positive dimension")
-    rows = [("answer", ", ".join(parts) or "no singular points")]
+    none = "no singular points" if locus.complete else "undecided: no singular point is certain"
+    rows = [("answer", ", ".join(parts) or none)]
     essential = sum(bool(one.essential) for one in locus.sets)
     if locus.sets:
         kinds = f"essential: {essential}; where components meet: "

@@ -4,17 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from nag.algebra.branches import Branch, branches
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.high_precision import DIGITS, vanish_in_balls
+from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.digits import number
 from nag.numerics.zero_values import ON
+from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre, cut_fibres
 from nag.witness.units import Units
 from nag.witness.witness import WitnessSet
+
+if TYPE_CHECKING:
+    import flint
 
 
 def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fibre]:
@@ -59,8 +67,11 @@ def _cut(
         residuals = own.residuals(component.points / units.sizes)
         if residuals.max(initial=0.0) < ON:
             near.append((residuals.max(initial=0.0), branch.system(system)))
-    # Of branches that come near to each other the nearest one is meant.
+    # Of branches that come near to each other the nearest one is meant, if digits do not say more.
     parts = [part for _, part in sorted(near, key=lambda pair: pair[0])]
+    if len(parts) > 1:
+        balls = _point_in_balls(component)
+        parts = [part for part in parts if _may_vanish(part.polynomials, balls)]
     if len(parts) > 1:
         together = dict.fromkeys(f for part in parts for f in part.polynomials)
         parts.append(replace(system, polynomials=tuple(together)))
@@ -72,6 +83,30 @@ def _cut(
             if fibres is not None:
                 return part, fibres
     return None, None
+
+
+def _may_vanish(polynomials: Sequence[Polynomial], balls: Sequence[flint.acb]) -> bool:
+    """Whether no polynomial is certainly not zero at a point in balls."""
+    import flint
+
+    with flint.ctx.workdps(DIGITS):
+        return all(
+            vanish_in_balls([f], balls) or bool(f(balls, number).contains(0)) for f in polynomials
+        )
+
+
+def _point_in_balls(component: WitnessSet) -> list[flint.acb]:
+    """A witness point in balls, from the equations that cut it where the component holds them."""
+    import flint
+
+    if component.fibres:
+        fibre, n = component.fibres[0], component.points.shape[1]
+        rows, fine = component.slice.rows, fibre.fine.get(0)
+        zero = zero_in_digits(fibre.cut, rows, fibre.points[0], fine)
+        if zero is not None:
+            return zero[:n]
+    pairs = zip(component.points[0].tolist(), component.radii[0].tolist(), strict=True)
+    return [flint.acb(flint.arb(z.real, r), flint.arb(z.imag, r)) for z, r in pairs]
 
 
 def find_fibres(
