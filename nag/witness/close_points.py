@@ -141,7 +141,8 @@ def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> F
                     return Fine(point.words, STEEPEST)
                 x = [_middle(z - step[i, 0]) for i, z in enumerate(x)]
                 lengths.append(float(max(abs(step[i, 0]) for i in range(len(x))).mid()) / size)
-            most = max(most, lengths[1] / lengths[0] ** 2)
+            # One after the other, as the square of a step may leave the range of doubles.
+            most = max(most, lengths[1] / lengths[0] / lengths[0]) if lengths[0] else STEEPEST
     return Fine(point.words, min(most, STEEPEST))
 
 
