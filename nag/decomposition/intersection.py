@@ -147,14 +147,14 @@ def intersect_factors(
     if any(f and f.degree == 0 for f in common.reduced.polynomials):
         # Linear equations of both contradict each other, exactly.
         nothing = _intersection(common, {}, PathCounts(), (), rng, tracker)
-        return _given(nothing, (), whole, units, seed)
+        return _carry_back(nothing, (), whole, units, seed)
     first, second = first.in_units(units), second.in_units(units)
     found = intersected(first, second, common, rng, tracker)
     points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
     notes = [*found.notes, *_doubts(first.component, second.component)]
     result = _intersection(common, points, found.counts, notes, rng, tracker)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
-    return _given(result, (*result.components, *bare), whole, units, seed)
+    return _carry_back(result, (*result.components, *bare), whole, units, seed)
 
 
 def _doubts(*components: WitnessSet) -> list[str]:
@@ -172,7 +172,7 @@ def _doubts(*components: WitnessSet) -> list[str]:
     return [CLOSE_SHEETS] if close else []
 
 
-def _given(
+def _carry_back(
     result: Intersection,
     components: Sequence[WitnessSet],
     system: PolynomialSystem,
@@ -249,7 +249,7 @@ def intersect_equations(
         if lost:
             notes.append(f"{lost} singular points of dimension {d} could not be made regular")
     answer = _intersection(common, points, superset.counts, notes, rng, tracker)
-    return _given(answer, answer.components, whole, units, seed)
+    return _carry_back(answer, answer.components, whole, units, seed)
 
 
 def _met(

@@ -245,13 +245,13 @@ def singular_locus(
     rng = np.random.default_rng([seed, 7])
     sets = _judged_sets(search, rng, Tracker(settings, threads))
     if not units.same:
-        sets = tuple(_given(one, units, given.system) for one in sets)
+        sets = tuple(_carry_back(one, units, given.system) for one in sets)
     notes = tuple(dict.fromkeys(search.notes))
     examined, proved = tuple(search.examined), tuple(search.proved)
     return SingularLocus(sets, examined, search.counts, not notes, notes, proved)
 
 
-def _given(one: SingularSet, units: Units, system: PolynomialSystem) -> SingularSet:
+def _carry_back(one: SingularSet, units: Units, system: PolynomialSystem) -> SingularSet:
     """A set that was found in units, in the coordinates that were given."""
     points, x, cone = one.points * units.sizes, one.local.point * units.sizes, one.cone
     # Errors there are relative to the sizes that the coefficients suggest, whatever the units.

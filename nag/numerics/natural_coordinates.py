@@ -67,7 +67,7 @@ class NaturalCoordinates:
             return f
         moved = shift_polynomial(f, self.origin)
         factors = {e: _power_product(self.scales, e) for e in moved.terms}
-        return _even(Polynomial(f.n, {e: c * factors[e] for e, c in moved.terms.items()}))
+        return _normalise_size(Polynomial(f.n, {e: c * factors[e] for e, c in moved.terms.items()}))
 
     def original_polynomial(self, f: Polynomial) -> Polynomial:
         """A polynomial in ``y``, and in further variables that stay, as one in ``x``."""
@@ -76,7 +76,7 @@ class NaturalCoordinates:
         inverse = [1 / s for s in self.scales] + [Fraction(1)] * (f.n - len(self.scales))
         scaled = {e: c * _power_product(inverse, e) for e, c in f.terms.items()}
         back = [-b for b in self.origin] + [Fraction(0)] * (f.n - len(self.origin))
-        return _even(shift_polynomial(Polynomial(f.n, scaled), back))
+        return _normalise_size(shift_polynomial(Polynomial(f.n, scaled), back))
 
     def system(self, system: PolynomialSystem) -> PolynomialSystem:
         """A system in ``x`` as one in ``y``."""
@@ -192,7 +192,7 @@ def _origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
         if sum(_terms_of_shift(f, origin) for f in polynomials) > MOST_TERMS:
             return (Fraction(0),) * n
         moved = (shift_polynomial(f, origin) for f in polynomials)
-        step, directions = _solved(
+        step, directions = _solve_rows(
             (row for f in moved for row in _conditions(f, level)), directions
         )
         for i, b in step.items():
@@ -232,7 +232,7 @@ def _conditions(f: Polynomial, level: int) -> list[tuple[Row, int]]:
     return [(rows[e], -terms.get(e, 0)) for e in below]
 
 
-def _solved(
+def _solve_rows(
     rows: Iterable[tuple[Row, int]], directions: Sequence[Row]
 ) -> tuple[dict[int, Fraction], list[Row]]:
     """A combination of directions that satisfies the first independent rows, and those left free.
@@ -369,7 +369,7 @@ def _power_product(numbers: Sequence[Fraction], exponents: Exponents) -> Fractio
     return prod((b**k for b, k in zip(numbers, exponents, strict=True) if k), start=Fraction(1))
 
 
-def _even(f: Polynomial) -> Polynomial:
+def _normalise_size(f: Polynomial) -> Polynomial:
     """A polynomial over a power of two near its largest coefficient."""
     return Polynomial(f.n, scaled_terms(f, np.zeros(f.n, dtype=np.int64)))
 

@@ -272,15 +272,15 @@ def _move_scaled(
     units = np.ldexp(1.0, np.concatenate([[0], powers]))[: target.shape[1]]
     scaled = source * units, target * units
     own = Fibre(fibre.cut.scaled, fibre.dimension, fibre.points * np.ldexp(1.0, -powers))
-    own = replace(own, fine=_scaled(fibre.fine, -powers, own.cut, scaled[0]))
+    own = replace(own, fine=_scale_points(fibre.fine, -powers, own.cut, scaled[0]))
     there = [x * Fraction(2) ** -int(k) for x, k in zip(through, powers, strict=False)]
     ends = _track(own, *scaled, gamma, tracker, endgame, there)
     finite = np.where(ends.finite[:, None], ends.points, 0.0)
-    fine = _scaled(ends.fine, powers, fibre.cut, target)
+    fine = _scale_points(ends.fine, powers, fibre.cut, target)
     return replace(ends, points=finite * np.ldexp(1.0, powers), fine=fine)
 
 
-def _scaled(
+def _scale_points(
     fine: Mapping[int, Fine], powers: np.ndarray, cut: Cut, rows: np.ndarray
 ) -> dict[int, Fine]:
     """Points in coordinates that are two to the ``powers`` as large; Newton's constant is others.
