@@ -295,3 +295,26 @@ def test_what_algebra_decides_needs_no_number_of_solutions_that_a_case_claims(
 def test_loops_of_parameters_are_refused_where_there_is_no_family() -> None:
     with pytest.raises(StartError, match=r"the system has no \[family\]; leave out start"):
         nag.solve(["x^2 - 2"], start="parameter")
+
+
+@pytest.mark.parametrize(
+    ("equations", "given", "complete", "said"),
+    [
+        # The family's solutions fall into two sets of 5 and 2 that no loop connects.
+        (("(x^2 - p*y + 1)*(x*y - q)", "y^2*x - x - p"), 5, False, "7 are counted modulo primes"),
+        (("x^2 + y^2 - p", "3*x*y - q"), 4, True, "Bezout's bound agrees"),
+        (("x^2*y - p", "x*y^2 - q + x"), 4, True, "a count modulo two primes agrees"),
+        # Beside the line x = 0 nothing counts isolated zeros.
+        (("x*(x - p)", "x*(y - q)"), 1, True, "rests on `solutions = 1` of [family], which is giv"),
+    ],
+)
+def test_a_number_of_solutions_that_a_case_gives_is_checked_or_said_not_to_be(
+    equations: tuple[str, str], given: int, complete: bool, said: str, tmp_path: Path
+) -> None:
+    text = THREE_QUADRICS.replace('["x", "y", "z"]', '["x", "y"]') + f"solutions = {given}\n"
+    lines = [f"equations = {list(equations)}" if "equations" in x else x for x in text.split("\n")]
+    path = tmp_path / "case.toml"
+    path.write_text("\n".join(lines))
+    result = nag.solve(nag.read_case(path), start="parameter")
+    assert len(result.solutions) == given and result.complete is complete
+    assert said in " ".join((result.reason, *result.notes))

@@ -122,6 +122,21 @@ def test_a_family_of_singular_members_is_seen_whatever_the_unit_of_its_parameter
     assert (found.texts(), found.complete) == (["all values"], True)
 
 
+@pytest.mark.parametrize(
+    ("nonzero", "expected"),
+    [
+        ("1", {"all values"}),
+        ("x", {"a - b = 0", "a^2 + a*b + b^2 = 0"}),
+        ("x*(x - y)", {"a^2 + a*b + b^2 = 0"}),
+        ("x*(a^3 - b^3)", set()),
+    ],
+)
+def test_singular_points_that_are_excluded_do_not_count(nonzero: str, expected: set[str]) -> None:
+    cubics = nag.system("x^2*(x - a) - y^2*(y - b)", "x y a b", nonzero=nonzero)
+    found = singular_parameters(cubics, 2)
+    assert (set(found.texts()), found.complete) == (expected, True)
+
+
 @pytest.mark.parametrize("complete", [False, True])
 def test_no_parameters_are_named_where_nothing_is_known(complete: bool) -> None:
     notes = () if complete else ("paths failed",)

@@ -95,7 +95,7 @@ class SingularParameters:
         notes: what was.
         proved: whether it is proved that no set is missing: all singular points have the dimension
             that they have at least, one less than there are parameters, and the degree of a
-            Groebner basis.
+            Groebner basis. It is not proved where something must not vanish.
     """
 
     parameters: tuple[str, ...]
@@ -129,7 +129,8 @@ def singular_parameters(
     Peterson & Sommese 2009); components of such points are projected to the parameters.
 
     Args:
-        system: a complete intersection in its variables, for general parameters.
+        system: a complete intersection in its variables, for general parameters. Singular points
+            where something vanishes that must not, `PolynomialSystem.nonzero`, do not count.
         count: how many of the variables are parameters.
         seed: of the random numbers; the same seed gives the same answer for any ``threads``.
         threads: for path tracking.
@@ -157,8 +158,10 @@ def singular_parameters(
     ideal, components = _ideal(whole), expanded(found).components
     family = _Family(whole, ideal, tuple(range(n, n + count)), seed, Tracker(settings, threads))
     sets, open_notes = _parameter_sets(family, components)
-    agree = ideal is not None and _agree(ideal, components)
-    if found.complete and ideal is not None and not agree:
+    # The equations alone say nothing of what is excluded.
+    comparable = ideal is not None and not whole.nonzero
+    agree = comparable and _agree(ideal, components)
+    if found.complete and comparable and not agree:
         open_notes.append(
             "a Groebner basis has singular points of another dimension or degree than were found"
         )
@@ -211,7 +214,8 @@ def _null_space_system(
     chart = [Fraction(int(c), 1 << BITS) for c in rng.integers(1, 1 << BITS, m)]
     rows.append(product(w, [Polynomial.constant(total, c) for c in chart]) - 1)
     names = (*system.variables, *new_names(system.variables, m))
-    return PolynomialSystem(names, tuple(f for f in dict.fromkeys(rows) if f))
+    nonzero = tuple(g.with_variables(total, range(system.n)) for g in system.nonzero)
+    return PolynomialSystem(names, tuple(f for f in dict.fromkeys(rows) if f), nonzero)
 
 
 def _ideal(whole: PolynomialSystem) -> Ideal | None:

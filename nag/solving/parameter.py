@@ -16,7 +16,9 @@ from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.system import PolynomialSystem
+from nag.algebra.zero_count import most_zeros
 from nag.solving.branch_solutions import solve_apart
+from nag.solving.certificate import bound_of_zeros
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import ends_of, solve_whole
@@ -193,7 +195,30 @@ def solve_member(
     except MapError as error:
         raise StartError(f"[family]: {error}") from None
     (result,) = solve_family(generic, [member.values], **common)
-    return replace(result, system=system)
+    result = replace(result, system=system)
+    if result.complete and member.solutions is not None:
+        return _compare_with_count(result, member.solutions)
+    return result
+
+
+def _compare_with_count(result: SolveResult, given: int) -> SolveResult:
+    """An answer that is complete if a case gives the right number, and what algebra says of that.
+
+    Bezout's bounds and a count modulo two primes are of the system itself, of its finitely many
+    zeros by their multiplicities; the answer's are simple.
+    """
+    found, polynomials = len(result.solutions), result.system.polynomials
+    source = f"`solutions = {given}` of [family]"
+    if bound_of_zeros(result.system)[0] == found:
+        return replace(result, reason=f"{result.reason}, and Bezout's bound agrees")
+    count = most_zeros(polynomials, found, False)
+    if count is not None and count.bound == found:
+        return replace(result, reason=f"{result.reason}, and a count modulo two primes agrees")
+    if count is not None and count.exact:
+        note = f"{source} is wrong, or zeros are multiple: {count.bound} are counted modulo primes"
+        return replace(result, complete=False, notes=(*result.notes, note))
+    note = f"that these are all rests on {source}, which is given, not checked"
+    return replace(result, notes=(*result.notes, note))
 
 
 def begin_of_family(

@@ -104,7 +104,7 @@ def solved_by_monodromy(
     detail += f" for random parameters by monodromy, {found.paths} paths in {found.loops} loops"
     detail += f", the last {found.idle} of which found nothing new"
     if count is not None:
-        detail += f"; {count} solutions are known"
+        detail += f"; {count} are given"
     members = smallest_members(symmetric, points, found.values)
     return SolvedClasses(symmetric, found.values, members, complete, detail)
 
