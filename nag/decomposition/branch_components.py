@@ -24,6 +24,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_component import BranchComponent
 from nag.decomposition.final_checks import judged
 from nag.decomposition.symmetric_images import in_orbits
+from nag.numerics.natural_coordinates import scale_coordinates
 from nag.numerics.singular_point import Place
 from nag.numerics.zero_values import (
     NONZERO,
@@ -34,6 +35,7 @@ from nag.numerics.zero_values import (
     possible_zeros,
     widened,
 )
+from nag.witness.change_of_coordinates import coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut, numerical_corank
 from nag.witness.exact_points import framed, sharpened
@@ -43,7 +45,6 @@ from nag.witness.membership import Membership, is_member
 from nag.witness.moving import witness_at
 from nag.witness.multiplicity import multiplicity
 from nag.witness.slices import padded, random_rows, to_slice
-from nag.witness.units import Units
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
@@ -160,7 +161,7 @@ def _algebraic(system: PolynomialSystem, zeros: Sequence[AlgebraicZero]) -> _Par
 def _linear_space(branch: BranchEquations, rng: np.random.Generator) -> BranchComponent:
     """A linear space, which may be a point, by a point of it."""
     system, elimination = branch.system, branch.elimination
-    sizes = Units.of(system.polynomials, system.n).sizes
+    sizes = scale_coordinates(system.polynomials, system.n).sizes
     frame = Frame.of(elimination).scaled(sizes[list(elimination.kept)])
     d = elimination.system.n
     rows = random_rows(rng, d, d)
@@ -353,8 +354,8 @@ def _orbits(
     """
     options = {"seed": seed, "threads": threads, "settings": settings}
     whole = [c for c in components if c.status is Status.IRREDUCIBLE]
-    rng, units = np.random.default_rng([seed, 12]), Units.of(system.polynomials, system.n)
-    flag = units.random_rows(rng, system.n)
+    rng, natural = np.random.default_rng([seed, 12]), coordinates_of(system)
+    flag = natural.inverse.rows(random_rows(rng, system.n, system.n))
     whole = [
         witness_at(system, c, to_slice(flag[: c.dimension]), **options) if c.dimension else c
         for c in whole

@@ -25,12 +25,12 @@ from nag.decomposition.branch_points import BranchPointError, Sheets, branch_poi
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.rank_drop import rank_drop, rank_drop_points
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Tracker, move_regular
 from nag.witness.given_component import check_component
 from nag.witness.points import with_fine
 from nag.witness.slices import random_rows, unit_complex
-from nag.witness.units import Units
 from nag.witness.witness import WitnessSet
 
 # Corners of a circle, and its radius beside the distance of the next branch point.
@@ -107,9 +107,9 @@ def genus(
     if component.dimension != 1:
         raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
     rng, tracker = np.random.default_rng([seed, 9, 0]), Tracker(settings, threads)
-    units = Units.of(system.polynomials, system.n)
-    system = units.of_system(system)
-    component = units.of_component(component, system)
+    natural = coordinates_of(system)
+    system = natural.system(system)
+    component = carry_component(component, natural, system)
     try:
         sheets = _sheets(system, component, rng, tracker)
         values = branch_points(sheets, rng, tracker)

@@ -9,12 +9,13 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
+from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
+from nag.witness.change_of_coordinates import carry_component
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, Tracker, cut_fibres, move_regular
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.slices import even_rows, unit_complex
-from nag.witness.units import Units
 from nag.witness.witness import PathCounts, WitnessSet
 
 # What is said of an answer where no path led on from the given points.
@@ -45,12 +46,12 @@ class Factor:
         """`of` the branch of a system that the component is one of, if it has branches."""
         return cls.of(component_system(system, component), component)
 
-    def in_units(self, units: Units) -> Factor:
+    def carried(self, natural: NaturalCoordinates) -> Factor:
         """The component in other coordinates."""
-        if units.same:
+        if natural.is_identity:
             return self
-        system = units.of_system(self.reduction.system)
-        return Factor.of(system, units.of_component(self.component, system))
+        system = natural.system(self.reduction.system)
+        return Factor.of(system, carry_component(self.component, natural, system))
 
     @property
     def n(self) -> int:
@@ -60,7 +61,7 @@ class Factor:
     def rows(self) -> np.ndarray:
         cut = self.component.slice
         rows = self.reduction.frame.pulled_back(cut.A, cut.b)
-        own = Units.of(self.reduction.reduced.polynomials, self.n)
+        own = scale_coordinates(self.reduction.reduced.polynomials, self.n)
         sizes = np.concatenate([[1.0], own.sizes])
         try:
             return orthonormal_rows(rows * sizes) / sizes

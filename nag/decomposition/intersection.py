@@ -25,7 +25,9 @@ from nag.decomposition.superset import (
     witness_superset,
 )
 from nag.numerics.coincidence import MISS
+from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.zero_values import LEAST, ON
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.close_points import rated
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
@@ -34,7 +36,6 @@ from nag.witness.given_component import check_component, check_index, check_syst
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
-from nag.witness.units import Units
 from nag.witness.witness import (
     DOUBLE,
     Decomposition,
@@ -141,20 +142,20 @@ def intersect_factors(
         IntersectionError: if witness points are none.
     """
     whole = _union(first.reduction.system, second.reduction.system)
-    units = Units.of(whole.polynomials, whole.n)
-    common = Reduction.of(units.of_system(whole))
+    natural = coordinates_of(whole)
+    common = Reduction.of(natural.system(whole))
     rng = np.random.default_rng([seed, 5])
     if any(f and f.degree == 0 for f in common.reduced.polynomials):
         # Linear equations of both contradict each other, exactly.
         nothing = _intersection(common, {}, PathCounts(), (), rng, tracker)
-        return _carry_back(nothing, (), whole, units, seed)
-    first, second = first.in_units(units), second.in_units(units)
+        return _carry_back(nothing, (), whole, natural, seed)
+    first, second = first.carried(natural), second.carried(natural)
     found = intersected(first, second, common, rng, tracker)
     points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
     notes = [*found.notes, *_doubts(first.component, second.component)]
     result = _intersection(common, points, found.counts, notes, rng, tracker)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
-    return _carry_back(result, (*result.components, *bare), whole, units, seed)
+    return _carry_back(result, (*result.components, *bare), whole, natural, seed)
 
 
 def _doubts(*components: WitnessSet) -> list[str]:
@@ -176,14 +177,14 @@ def _carry_back(
     result: Intersection,
     components: Sequence[WitnessSet],
     system: PolynomialSystem,
-    units: Units,
+    natural: NaturalCoordinates,
     seed: int,
 ) -> Intersection:
     """An answer with these components, in the coordinates that were given."""
     return replace(
         result,
         system=system,
-        components=tuple(units.inverse.of_component(c, system) for c in components),
+        components=tuple(carry_component(c, natural.inverse, system) for c in components),
         complete=result.complete and not any(c.note for c in components),
         seed=seed,
     )
@@ -231,13 +232,13 @@ def intersect_equations(
     _check_variables(system, equations)
     system = component_system(system, component)
     whole = _union(system, equations)
-    units = Units.of(whole.polynomials, whole.n)
-    factor = Factor.of(system, component).in_units(units)
+    natural = coordinates_of(whole)
+    factor = Factor.of(system, component).carried(natural)
     tracker = Tracker(settings, threads, progress)
-    common = Reduction.of(units.of_system(whole))
+    common = Reduction.of(natural.system(whole))
 
     rng = np.random.default_rng([seed, 6])
-    superset = _met(factor, units.of_system(equations), rng, tracker)
+    superset = _met(factor, natural.system(equations), rng, tracker)
     notes = [*superset.notes, *_doubts(factor.component)]
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
@@ -249,7 +250,7 @@ def intersect_equations(
         if lost:
             notes.append(f"{lost} singular points of dimension {d} could not be made regular")
     answer = _intersection(common, points, superset.counts, notes, rng, tracker)
-    return _carry_back(answer, answer.components, whole, units, seed)
+    return _carry_back(answer, answer.components, whole, natural, seed)
 
 
 def _met(

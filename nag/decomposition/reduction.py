@@ -16,11 +16,11 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.natural_coordinates import (
     NaturalCoordinates,
     natural_coordinates,
+    scale_coordinates,
 )
 from nag.witness.close_points import DIGITS, Fine, in_words
 from nag.witness.cutting import Cut, Equations
 from nag.witness.frame import Frame
-from nag.witness.units import Units
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +51,8 @@ class Reduction:
         elimination = eliminate_linear(natural.system(system), graphs=False)
         reduced, frame = elimination.system, Frame.of(elimination, natural)
         if scaled:
-            units = Units.of(reduced.polynomials, reduced.n)
-            reduced, frame = units.of_system(reduced), frame.scaled(units.sizes)
+            scales = scale_coordinates(reduced.polynomials, reduced.n)
+            reduced, frame = scales.system(reduced), frame.scaled(scales.sizes)
         return cls(system, natural, elimination, reduced, frame)
 
     @property
@@ -89,7 +89,7 @@ class Reduction:
                 if i not in self.kept:
                     x = Polynomial.variable(total, i)
                     rows.append(x - image.with_variables(total, self.kept))
-            original = map(self.natural.original_polynomial, rows)
+            original = map(self.natural.inverse.polynomial, rows)
             self._lifted[cut] = Cut(n, cut.aux, tuple(original))
         return self._lifted[cut]
 

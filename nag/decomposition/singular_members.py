@@ -178,7 +178,7 @@ def singular_parameters(
 
 def _in_original_coordinates(known: ParameterSet, natural: NaturalCoordinates) -> ParameterSet:
     """A set of parameters where equations are those of the parameters that were given."""
-    equations = [_primitive(natural.original_polynomial(f)) for f in known.equations]
+    equations = [_primitive(natural.inverse.polynomial(f)) for f in known.equations]
     return replace(known, equations=tuple(sorted(equations, key=_written)))
 
 

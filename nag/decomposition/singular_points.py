@@ -25,14 +25,15 @@ from nag.decomposition.linear_hull import simple_in, within_hull
 from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
+from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
+from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.component_equations import component_fibres, component_system
 from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
 from nag.witness.given_component import check_decomposition, check_index
 from nag.witness.multiplicity import multiplicity_at
-from nag.witness.units import Units
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # More pairs of components are not intersected.
@@ -234,8 +235,8 @@ def singular_locus(
     check_decomposition(decomposition, seed, threads, settings)
     given = expanded(decomposition)
     check_indices(only, len(given.components))
-    units = Units.of(given.system.polynomials, given.system.n)
-    whole = units.of_decomposition(given)
+    natural = coordinates_of(given.system)
+    whole = carry_decomposition(given, natural)
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
     own = _own_equations(whole, np.random.default_rng([seed, 8]), Tracker(settings, threads))
     search = _Search(whole, own, {"seed": seed, "threads": threads, "settings": settings})
@@ -244,16 +245,19 @@ def singular_locus(
     search.of_pairs(chosen)
     rng = np.random.default_rng([seed, 7])
     sets = _judged_sets(search, rng, Tracker(settings, threads))
-    if not units.same:
-        sets = tuple(_carry_back(one, units, given.system) for one in sets)
+    if not natural.is_identity:
+        sets = tuple(_carry_back(one, natural, given.system) for one in sets)
     notes = tuple(dict.fromkeys(search.notes))
     examined, proved = tuple(search.examined), tuple(search.proved)
     return SingularLocus(sets, examined, search.counts, not notes, notes, proved)
 
 
-def _carry_back(one: SingularSet, units: Units, system: PolynomialSystem) -> SingularSet:
-    """A set that was found in units, in the coordinates that were given."""
-    points, x, cone = one.points * units.sizes, one.local.point * units.sizes, one.cone
+def _carry_back(
+    one: SingularSet, natural: NaturalCoordinates, system: PolynomialSystem
+) -> SingularSet:
+    """A set that was found in natural coordinates, in those that were given."""
+    back, cone = natural.inverse, one.cone
+    points, x = back.points(one.points), back.points(one.local.point)
     # Errors there are relative to the sizes that the coefficients suggest, whatever the units.
     accuracy = None if one.local.tangent_dimension is None else ROUNDED
     local = local_dimension(system, x, accuracy=accuracy)

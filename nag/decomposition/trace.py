@@ -16,13 +16,13 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.zero_sums import smallest_zero_sums
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
 from nag.witness.fibres import Fibre, Tracker, join_fibres, move
 from nag.witness.points import Points
 from nag.witness.slices import padded, unit_complex
-from nag.witness.units import Units
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # Digits to which a trace must be linear, beside the points' motion: so many, and one more for each
@@ -254,8 +254,9 @@ def has_linear_trace(
     Raises:
         ValueError: if the points are not regular zeros of the system or of a deflation of it.
     """
-    units = Units.of(system.polynomials, system.n)
-    bare = units.of_component(replace(component, fibres=()), units.of_system(system))
+    natural = coordinates_of(system)
+    there = carry_component(component, natural, natural.system(system))
+    bare = replace(there, fibres=())
     fibres = component_fibres(bare.system, bare)
     points = Points.of(fibres, bare.slice.rows)
     trace = Trace.of(points, digits_of_evidence(system.polynomials), rng)

@@ -18,13 +18,13 @@ from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.natural_coordinates import scale_coordinates
 from nag.numerics.zero_values import ON
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.sampling import at_random
 from nag.witness.slices import padded, rows_through
-from nag.witness.units import Units
 from nag.witness.witness import WitnessSet
 
 # Digits beyond those asked for in which Newton's method computes.
@@ -94,7 +94,7 @@ def source_at(
     if dimension == 0:
         raise SourceError("the point is isolated; there is nothing to eliminate from")
     x = np.array([complex(float(c)) for c in point])
-    sizes = Units.of(system.polynomials, system.n).sizes
+    sizes = scale_coordinates(system.polynomials, system.n).sizes
     rows = rows_through(rng, dimension, x, np.concatenate([[1.0], sizes]))
     found = find_cut(Equations(system.polynomials, system.n), rows, x, ROUNDED, rng, False)
     if found is None:

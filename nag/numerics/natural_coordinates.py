@@ -61,22 +61,43 @@ class NaturalCoordinates:
         """Whether to change coordinates rounds nothing."""
         return not any(self.origin) and all(_is_power_of_two(s) for s in self.scales)
 
-    def polynomial(self, f: Polynomial) -> Polynomial:
-        """A polynomial in ``x`` as one in ``y``, over a power of two near its largest number."""
-        if self.is_identity:
-            return f
-        moved = shift_polynomial(f, self.origin)
-        factors = {e: _power_product(self.scales, e) for e in moved.terms}
-        return _normalise_size(Polynomial(f.n, {e: c * factors[e] for e, c in moved.terms.items()}))
+    @cached_property
+    def sizes(self) -> np.ndarray:
+        """The scales in doubles, shape ``(n,)``."""
+        return np.array([float(s) for s in self.scales])
 
-    def original_polynomial(self, f: Polynomial) -> Polynomial:
-        """A polynomial in ``y``, and in further variables that stay, as one in ``x``."""
+    @cached_property
+    def inverse(self) -> NaturalCoordinates:
+        """The way back: ``y_i = (x_i - origin[i]) / scales[i]``."""
+        scales = tuple(1 / s for s in self.scales)
+        return NaturalCoordinates(
+            scales, tuple(-b * s for b, s in zip(self.origin, scales, strict=True))
+        )
+
+    def then(self, other: NaturalCoordinates) -> NaturalCoordinates:
+        """Other coordinates of ``y``."""
+        if other.is_identity:
+            return self
+        scales = tuple(s * t for s, t in zip(self.scales, other.scales, strict=True))
+        steps = (s * b for s, b in zip(self.scales, other.origin, strict=True))
+        return NaturalCoordinates(
+            scales, tuple(b + step for b, step in zip(self.origin, steps, strict=True))
+        )
+
+    def polynomial(self, f: Polynomial) -> Polynomial:
+        """A polynomial in ``x`` as one in ``y``, over a power of two near its largest number.
+
+        Further variables, after these, stay as they are.
+        """
         if self.is_identity:
             return f
-        inverse = [1 / s for s in self.scales] + [Fraction(1)] * (f.n - len(self.scales))
-        scaled = {e: c * _power_product(inverse, e) for e, c in f.terms.items()}
-        back = [-b for b in self.origin] + [Fraction(0)] * (f.n - len(self.origin))
-        return _normalise_size(shift_polynomial(Polynomial(f.n, scaled), back))
+        further = f.n - len(self.scales)
+        if self.is_exact_in_doubles:
+            return Polynomial(f.n, scaled_terms(f, np.pad(self._powers, (0, further))))
+        moved = shift_polynomial(f, (*self.origin, *([Fraction(0)] * further)))
+        scales = (*self.scales, *([Fraction(1)] * further))
+        factors = {e: _power_product(scales, e) for e in moved.terms}
+        return _normalise_size(Polynomial(f.n, {e: c * factors[e] for e, c in moved.terms.items()}))
 
     def system(self, system: PolynomialSystem) -> PolynomialSystem:
         """A system in ``x`` as one in ``y``."""
@@ -87,6 +108,51 @@ class NaturalCoordinates:
             polynomials=tuple(self.polynomial(f) for f in system.polynomials),
             nonzero=tuple(self.polynomial(g) for g in system.nonzero),
         )
+
+    def points(self, x: np.ndarray) -> np.ndarray:
+        """Points ``x`` in doubles as ``y``, the last axis theirs; further coordinates stay."""
+        if self.is_identity:
+            return x
+        n = len(self.scales)
+        first, rest = self._origin_in_doubles
+        y = (x[..., :n] - first - rest) / self.sizes
+        return np.concatenate([y, x[..., n:]], axis=-1)
+
+    def rows(self, rows: np.ndarray) -> np.ndarray:
+        """A slice by rows on ``(1, x)`` as one by rows on ``(1, y)``, of norms about one.
+
+        Each number is rounded once, and none where only powers of two are scales.
+        """
+        if self.is_identity:
+            return rows
+        if self.is_exact_in_doubles:
+            moved = rows * np.append(1.0, self.sizes)
+        else:
+            moved = np.array([self._row(row) for row in rows.tolist()]).reshape(rows.shape)
+        norms = np.frexp(np.linalg.norm(moved[:, 1:], axis=1))[1]
+        return np.ldexp(1.0, -norms)[:, None] * moved
+
+    def _row(self, row: Sequence[complex]) -> list[complex]:
+        parts = []
+        for name in ("real", "imag"):
+            first, *own = (Fraction(getattr(c, name)) for c in row)
+            first += sum((c * b for c, b in zip(own, self.origin, strict=True) if c), Fraction(0))
+            own = [c * s for c, s in zip(own, self.scales, strict=True)]
+            parts.append([float(c) for c in (first, *own)])
+        return [complex(a, b) for a, b in zip(*parts, strict=True)]
+
+    @cached_property
+    def _powers(self) -> np.ndarray:
+        """Binary logarithms of scales that are powers of two."""
+        ratios = (s.as_integer_ratio() for s in self.scales)
+        return np.array([p.bit_length() - q.bit_length() for p, q in ratios], dtype=np.int64)
+
+    @cached_property
+    def _origin_in_doubles(self) -> tuple[np.ndarray, np.ndarray]:
+        """The origin, and what is left of it when it is rounded."""
+        first = [float(b) for b in self.origin]
+        rest = [float(b - Fraction(a)) for a, b in zip(first, self.origin, strict=True)]
+        return np.array(first), np.array(rest)
 
 
 def natural_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoordinates:
@@ -102,6 +168,31 @@ def natural_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoo
     if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
         return nothing if not any(origin) else replace(nothing, origin=origin)
     return NaturalCoordinates(_scales(moved, powers), origin)
+
+
+def scale_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoordinates:
+    """Powers of two as scales, about the same origin, that make the coefficients comparable.
+
+    The coordinates that are given, where that is little.
+
+    >>> import nag
+    >>> system = nag.system("(1024*x)^2 + y^2 - 1", "x y")
+    >>> [str(s) for s in scale_coordinates(system.polynomials, system.n).scales]
+    ['1/1024', '1']
+    """
+    powers = variable_scales(polynomials, n)
+    if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
+        return NaturalCoordinates.identity(n)
+    return NaturalCoordinates(tuple(Fraction(2) ** int(k) for k in powers), (Fraction(0),) * n)
+
+
+def comparable_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoordinates:
+    """Natural coordinates, scaled so that the coefficients of all equations are comparable.
+
+    Whatever starts from sets of zeros begins by going there, linear equations and all.
+    """
+    natural = natural_coordinates(polynomials, n)
+    return natural.then(scale_coordinates([natural.polynomial(f) for f in polynomials], n))
 
 
 def shift_polynomial(f: Polynomial, origin: Sequence[Fraction]) -> Polynomial:

@@ -7,7 +7,7 @@ Read in this order: `witness` (the data; `at_prompt` and `shown` for users), `sl
 for), `close_points`, `confirm`, `multiplicity`, `close_to_sets` and `cutting_in_digits` (what is
 known of them, and of those that doubles do not tell apart); then the operations on a set as it is
 given (`given_component`): `moving`, `membership`, `sampling`, `projection`, `real_points` by
-`gauss_newton`. `units` leads to coordinates of comparable sizes and back, `frame` back to the
-coordinates and the components that the user has; `certificate` with `component_claims`, and
-`certified_loops` prove.
+`gauss_newton`. `change_of_coordinates` leads to natural ones, where these operations begin, and
+back; `frame` leads from what solving linear equations left, and from an orbit to its components;
+`certificate` with `component_claims`, and `certified_loops` prove.
 """

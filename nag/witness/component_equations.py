@@ -14,11 +14,12 @@ from nag.algebra.high_precision import DIGITS, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.digits import number
+from nag.numerics.natural_coordinates import scale_coordinates
 from nag.numerics.zero_values import ON
+from nag.witness.change_of_coordinates import carry_component, carry_fibres, coordinates_of
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre, cut_fibres
-from nag.witness.units import Units
 from nag.witness.witness import WitnessSet
 
 if TYPE_CHECKING:
@@ -62,9 +63,9 @@ def _cut(
     """
     near = []
     for branch in apart:
-        units = Units.of(branch.polynomials, system.n)
-        own = Evaluator.of(units.of_system(branch.system(system)).polynomials, system.n)
-        residuals = own.residuals(component.points / units.sizes)
+        scales = scale_coordinates(branch.polynomials, system.n)
+        own = Evaluator.of(scales.system(branch.system(system)).polynomials, system.n)
+        residuals = own.residuals(scales.points(component.points))
         if residuals.max(initial=0.0) < ON:
             near.append((residuals.max(initial=0.0), branch.system(system)))
     # Of branches that come near to each other the nearest one is meant, if digits do not say more.
@@ -114,11 +115,10 @@ def find_fibres(
 ) -> list[Fibre] | None:
     """The points of a component with square systems, from the equations or deflations of them.
 
-    They are looked for in units in which the coordinates are comparable. None if a point is a
-    regular zero of none.
+    They are looked for in natural coordinates. None if a point is a regular zero of none.
     """
-    units = Units.of(system.polynomials, system.n)
-    equations, here = units.of_system(system), units.of_component(component, None)
+    natural = coordinates_of(system)
+    equations, here = natural.system(system), carry_component(component, natural, None)
     fibres = cut_fibres(
         here.points,
         here.accuracy,
@@ -127,6 +127,6 @@ def find_fibres(
         np.random.default_rng(0),
         deflate,
     )
-    if fibres is None or units.same:
-        return fibres
-    return [units.inverse.of_fibre(fibre) for fibre in fibres]
+    if fibres is None:
+        return None
+    return carry_fibres(fibres, here.slice.rows, natural.inverse, component.slice.rows)

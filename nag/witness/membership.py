@@ -15,6 +15,7 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
 from nag.numerics.zero_values import NONZERO
+from nag.witness.change_of_coordinates import coordinates_of
 from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
@@ -23,7 +24,6 @@ from nag.witness.fibres import Fibre, Moved, Tracker, join_fibres, move
 from nag.witness.gauss_newton import polish
 from nag.witness.given_component import check_decomposition, in_doubles
 from nag.witness.slices import padded, rows_through, unit_complex
-from nag.witness.units import Units
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
 # What rounding may do to a point that is close to others, and how much further the next one is.
@@ -331,9 +331,10 @@ def _surely_on_one(decomposition: Decomposition, point: np.ndarray, accuracy: fl
         return False
     if (Evaluator.of(system.nonzero, system.n).residuals(point[None]) < NONZERO).any():
         return False
-    units = Units.of(system.polynomials, system.n)
-    zero = polish(Evaluator.of(units.of_system(system).polynomials, system.n), point / units.sizes)
-    off = float(np.linalg.norm(zero.x * units.sizes - point))
+    natural = coordinates_of(system)
+    moved = natural.system(system).polynomials
+    zero = polish(Evaluator.of(moved, system.n), natural.points(point))
+    off = float(np.linalg.norm(natural.inverse.points(zero.x) - point))
     return zero.converged and off <= SPREAD * accuracy * (1 + float(np.linalg.norm(point)))
 
 

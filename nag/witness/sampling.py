@@ -10,8 +10,10 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import ON
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.given_component import check_component
@@ -104,6 +106,9 @@ def sample(
     check_component(system, component, seed, threads, settings)
     check_whole(count, "count")
     rng = np.random.default_rng([seed, 3])
+    natural = coordinates_of(system)
+    system = natural.system(system)
+    component = carry_component(component, natural, system)
     fibres = component_fibres(system, component)
     tracker = Tracker(settings, threads)
     evaluator = Evaluator.of(system.polynomials, system.n)
@@ -112,10 +117,10 @@ def sample(
         _, there = at_random(fibres, component.slice.rows, rng, tracker)
         x = there.x
         if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
-            some = _samples(evaluator, points[:k], accuracy)
+            some = _samples(evaluator, points[:k], accuracy, natural)
             raise SamplingError(f"point {k + 1} of {count}: the path to it failed", some)
         points[k], accuracy = x[0], max(accuracy, there.accuracy)
-    return _samples(evaluator, points, accuracy)
+    return _samples(evaluator, points, accuracy, natural)
 
 
 def at_random(
@@ -132,5 +137,9 @@ def at_random(
     return target, arrival([one], rows, target, rng, tracker, endgame=False)
 
 
-def _samples(evaluator: Evaluator, points: np.ndarray, accuracy: float) -> Samples:
-    return Samples(points, float(evaluator.residuals(points).max(initial=0.0)), accuracy)
+def _samples(
+    evaluator: Evaluator, points: np.ndarray, accuracy: float, natural: NaturalCoordinates
+) -> Samples:
+    """Points in natural coordinates in those that were given."""
+    residual = float(evaluator.residuals(points).max(initial=0.0))
+    return Samples(natural.inverse.points(points), residual, accuracy)

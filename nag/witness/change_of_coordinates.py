@@ -1,0 +1,144 @@
+"""Components in other coordinates: those in which the equations look as if chosen for them.
+
+With ``x = s y + c`` for exact scales and an exact origin, equations go there without rounding. So
+do slices, points, error radii and what cuts them where the scales are powers of two and the origin
+stays; else each number of a slice is rounded once, beside the sizes that it has there, and the
+points are found anew on the slice that is meant: those that are close to others follow it in all
+their digits. An operation on components begins by going to `comparable_coordinates` and ends by
+coming back, so that nothing in between needs to know of sizes or of far origins: distances, ranks
+and errors that are relative to the whole point see all of its coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from nag.algebra.system import PolynomialSystem
+from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
+from nag.witness.close_points import CLOSE, DIGITS, Fine, close_pairs, follow_slice, in_words
+from nag.witness.cutting import Cut
+from nag.witness.exact_points import EPS, sharpened
+from nag.witness.fibres import Fibre
+from nag.witness.points import Points, with_fine
+from nag.witness.slices import to_slice
+from nag.witness.witness import Decomposition, Slice, WitnessSet
+
+
+def coordinates_of(system: PolynomialSystem) -> NaturalCoordinates:
+    """The coordinates in which components of a system are worked with."""
+    return comparable_coordinates(system.polynomials, system.n)
+
+
+def carry_component(
+    component: WitnessSet,
+    natural: NaturalCoordinates,
+    system: PolynomialSystem | None,
+    cut: Slice | None = None,
+) -> WitnessSet:
+    """A component in ``x`` as one in ``y``.
+
+    Args:
+        system: what it is a component of, in ``y``.
+        cut: its slice in ``y``, where it is known better than by that in ``x``.
+    """
+    if natural.is_identity and cut is None:
+        return component if component.system is system else replace(component, system=system)
+    rows = natural.rows(component.slice.rows) if cut is None else cut.rows
+    points, radii = natural.points(component.points), component.radii / natural.sizes
+    digits = component.digits
+    fibres = carry_fibres(component.fibres, component.slice.rows, natural, rows)
+    if not natural.is_exact_in_doubles:
+        radii = radii + EPS * (np.abs(points) + np.abs(natural.inverse.points(0 * points)))
+        if fibres:
+            sharp = [sharpened(fibre, rows) for fibre in fibres]
+            known = np.vstack([each.radii for each in sharp])
+            good = np.isfinite(known).all(axis=1)
+            fibres = [each.fibre for each in sharp]
+            points = np.where(good[:, None], np.vstack([fibre.x for fibre in fibres]), points)
+            radii = np.where(good[:, None], known, radii)
+            digits = np.where(good, np.concatenate([each.digits for each in sharp]), digits)
+    return replace(
+        component,
+        slice=to_slice(rows) if cut is None else cut,
+        points=points,
+        radii=radii,
+        digits=digits,
+        fibres=tuple(fibres),
+        system=system,
+    )
+
+
+def carry_decomposition(whole: Decomposition, natural: NaturalCoordinates) -> Decomposition:
+    """A decomposition with its components in ``y``."""
+    if natural.is_identity:
+        return whole
+    system = natural.system(whole.system)
+    components = tuple(carry_component(c, natural, system) for c in whole.components)
+    return replace(whole, system=system, components=components)
+
+
+def carry_fibres(
+    fibres: Sequence[Fibre],
+    rows: np.ndarray,
+    natural: NaturalCoordinates,
+    there: np.ndarray | None = None,
+) -> list[Fibre]:
+    """Fibres on the slice ``rows`` of ``x`` as ones of ``y``.
+
+    Unknowns that deflation added stay as they are. Where something is rounded, points are as near
+    to the slice as doubles were, and those that are close to others on it.
+
+    Args:
+        there: the slice in ``y``; the image of ``rows`` if none is given.
+    """
+    if natural.is_identity:
+        return list(fibres)
+    target = natural.rows(rows) if there is None else there
+    if natural.is_exact_in_doubles:
+        return [_carry_fibre(fibre, natural, target) for fibre in fibres]
+    points = Points.of(fibres, rows)
+    if not len(points):
+        return []
+    points = points.with_digits(close_pairs(natural.points(points.x)))
+    own = [fibre for fibre, _ in points.fibres(range(len(points)))]
+    return with_fine([_carry_fibre(fibre, natural, target) for fibre in own], target)
+
+
+def _carry_fibre(fibre: Fibre, natural: NaturalCoordinates, rows: np.ndarray) -> Fibre:
+    """A fibre, its close points on the slice ``rows`` of ``y``."""
+    n, aux = fibre.cut.n, fibre.cut.aux
+    cut = Cut(n, aux, tuple(natural.polynomial(f) for f in fibre.cut.polynomials))
+    points = natural.points(fibre.points)
+    fine = {i: _carry_fine(each, natural) for i, each in fibre.fine.items()}
+    if not natural.is_exact_in_doubles:
+        fine = {i: follow_slice(cut.polynomials, rows, each) for i, each in fine.items()}
+        for i, each in fine.items():
+            points[i] = each.rounded
+        fine = {i: each for i, each in fine.items() if each.curvature * CLOSE > 1}
+    return Fibre(cut, fibre.dimension, points, fine)
+
+
+def _carry_fine(point: Fine, natural: NaturalCoordinates) -> Fine:
+    """A point in all its digits; its next one is as far as it may be at least."""
+    n = len(natural.scales)
+    if natural.is_exact_in_doubles:
+        further = np.ones(len(point.words) - n)
+        words = point.words / np.append(natural.sizes, further)[:, None, None]
+        return replace(point, words=words)
+    import flint
+
+    from nag.numerics.digits import number
+
+    with flint.ctx.workdps(2 * DIGITS):
+        x = point.balls()
+        moved = [
+            (z - number(b)) / number(s)
+            for z, s, b in zip(x[:n], natural.scales, natural.origin, strict=True)
+        ]
+        there = in_words([*moved, *x[n:]], 1.0)
+    before, after = (1 + float(np.linalg.norm(each.rounded)) for each in (point, there))
+    steep = point.curvature * float(natural.sizes.max(initial=1.0)) * after / before
+    return replace(there, curvature=max(steep, 1.0))

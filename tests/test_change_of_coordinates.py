@@ -1,0 +1,87 @@
+"""Operations on components in coordinates far from those that suit the equations."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import nag
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition import genus, intersect_pair, sample, singular_locus
+from nag.decomposition.trace import linear_traces
+from nag.numerics.natural_coordinates import NaturalCoordinates
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
+from nag.witness.witness import Decomposition
+
+SYSTEMS = {
+    "surfaces": nag.system("(x^2 + y^2 - z)*(x - y)", "x y z"),
+    "spheres": nag.system("(x^2 + y^2 + z^2 - 1)*((x - 1)^2 + y^2 + z^2 - 1)", "x y z"),
+    "cubics": nag.system("(y^2 - x^3 - x - 1)*(x^2 + y^2 - 4)", "x y"),
+    "double": nag.system("(x^2 + y^2 + z^2 - 1)^2*(x*y - z)", "x y z"),
+}
+ORIGIN = (Fraction(-7, 3), Fraction(5), Fraction(-1, 9))
+
+
+def translated(name: str, power: int) -> PolynomialSystem:
+    plain = SYSTEMS[name]
+    origin = tuple(-b * 10**power for b in ORIGIN[: plain.n])
+    return NaturalCoordinates((Fraction(1),) * plain.n, origin).system(plain)
+
+
+def decomposed(name: str, power: int) -> Decomposition:
+    found = nag.decompose(translated(name, power), seed=1)
+    assert found.complete
+    return found
+
+
+@pytest.mark.parametrize("power", [3, 6])
+@pytest.mark.parametrize(
+    ("name", "right"),
+    [
+        ("surfaces", [(1, 2)]),
+        ("spheres", [(1, 2)]),
+        ("cubics", [(0, 1)] * 6),
+        ("double", [(1, 4)]),
+    ],
+)
+def test_components_meet_alike_wherever_the_origin_lies(
+    name: str, right: list[tuple[int, int]], power: int
+) -> None:
+    found = intersect_pair(decomposed(name, power), 0, 1, seed=1)
+    assert [(c.dimension, c.degree) for c in found.components] == right
+    assert found.complete
+    assert max(c.residual for c in found.components) < 1e-12
+
+
+def test_singular_points_are_found_far_from_the_origin() -> None:
+    found = singular_locus(decomposed("cubics", 6), seed=1)
+    assert found.complete
+    assert [one.multiplicities for one in found.sets] == [{0: 1, 1: 1}] * 6
+    assert all(one.local.dimension == 1 for one in found.sets)
+
+
+def test_points_far_from_the_origin_are_sampled_to_rounding() -> None:
+    whole = decomposed("cubics", 6)
+    for component in whole.components:
+        found = sample(whole.system, component, 3, seed=1)
+        assert found.residual < 1e-14
+
+
+def test_traces_and_genera_do_not_depend_on_the_origin() -> None:
+    whole = decomposed("cubics", 6)
+    assert linear_traces(whole, seed=1) == [True, True]
+    assert [genus(whole.system, c, seed=1).genus for c in whole.components] == [0, 1]
+
+
+def test_a_component_comes_back_as_it_was() -> None:
+    whole = decomposed("cubics", 6)
+    natural = coordinates_of(whole.system)
+    component, system = whole.components[1], natural.system(whole.system)
+    there = carry_component(component, natural, system)
+    back = carry_component(there, natural.inverse, whole.system, component.slice)
+    assert system.polynomials != whole.system.polynomials
+    assert np.abs(there.points).max() < 100
+    assert there.errors.max() < 1e-15 > back.errors.max()
+    assert np.all(np.abs(back.points - component.points) <= back.radii + component.radii)
