@@ -59,7 +59,7 @@ class SquareProblem:
         if len(equations) + added == n:
             mended = tuple(Polynomial(n, terms) for terms in target.given)
         else:
-            mended = tuple(target.scaled(natural.original_polynomial(f)) for f in whole)
+            mended = tuple(target.scaled(natural.inverse.polynomial(f)) for f in whole)
         return cls(system, mended, nonzero, target, added, len(equations) > n)
 
     def solves(self, x: np.ndarray) -> bool | None:
