@@ -251,7 +251,8 @@ def test_a_solution_listed_twice_is_found_out() -> None:
     assert certificate.same == ((0, 2),)
     assert certificate.simple == 2
     assert not certificate.all_proved
-    assert not certificate.complete
+    # All zeros are listed, one of them twice.
+    assert certificate.complete
 
 
 def test_degrees_of_components_are_bounded_from_below_by_proved_points() -> None:

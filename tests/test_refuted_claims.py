@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -101,8 +103,9 @@ def test_a_component_that_is_excluded_is_refuted_and_not_counted() -> None:
         replace(answer, system=replace(system, nonzero=(x - 2 * y,)))
     )
     assert certificate.bounds == {1: 2}
-    refuted = [c.text for c in certificate.claims if c.standing is Standing.REFUTED]
-    assert refuted == ["that nothing that must not vanish does so on it: component 1"]
+    (refuted,) = [c for c in certificate.claims if c.standing is Standing.REFUTED]
+    assert refuted.subject == "component 1" and refuted.field == "components[].nonzero"
+    assert refuted.text == "that nothing that must not vanish does so on it: point 1"
     assert not certificate.all_proved
 
 
@@ -136,9 +139,10 @@ def test_a_wrong_multiplicity_of_an_isolated_point_is_refuted(multiplicity, stan
     answer = decompose(PolynomialSystem(("x", "y"), (x**2 + y**2 - 2, x * y - 1)))
     first, second = answer.components
     wrong = replace(answer, components=(replace(first, multiplicity=multiplicity), second))
-    said = {c.field: c.standing for c in certify_decomposition(wrong).claims if "1" in c.text}
+    first_said = [c for c in certify_decomposition(wrong).claims if c.subject == "component 1"]
+    said = {c.field: c.standing for c in first_said}
     assert said["components[].multiplicity"] is standing
-    said = {c.field: c.standing for c in certify_decomposition(answer).claims if "1" in c.text}
+    said = {c.field: c.standing for c in certify_decomposition(answer).claims if c.subject}
     assert said["components[].multiplicity"] is Standing.EVIDENCE
 
 
@@ -213,3 +217,43 @@ def test_there_is_a_statement_about_every_field_of_an_export(tmp_path: Path) -> 
             least = 2 if whole[0] in ("components", "solutions") else 1
             said = [name.replace("[]", "").split(".") for name in standings]
             assert any(whole[: len(f)] == f and len(f) >= least for f in said), field
+
+
+def certified_lines(document: dict, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> str:
+    """What ``nag certify`` prints of an export, each labelled text in one line."""
+    file = tmp_path / "export.json"
+    file.write_text(json.dumps(document))
+    main(["certify", str(file)])
+    return re.sub(r"\n {8,}", " ", capsys.readouterr().out)
+
+
+def test_a_refutation_names_the_entry_the_field_and_what_it_says(tmp_path: Path, capsys) -> None:
+    answer = decompose(PolynomialSystem(("x", "y"), ((x**2 + y**2 - 1) * (x - 2 * y),)))
+    document = export.document(answer)
+    k = next(i for i, c in enumerate(document["components"]) if c["degree"] == 2)
+    document["components"][k] |= {"multiplicity": 3, "accuracy": 1e-20}
+    document["components"][k]["radii"][1] = [0.0, 0.0]
+    printed, name = certified_lines(document, tmp_path, capsys), f"component {k + 1}"
+    for field, text in {
+        "multiplicity": "that its multiplicity is 3: points 1 and 2",
+        "radii": "that its points are no further from zeros than these: point 2",
+    }.items():
+        assert f"refuted    {name}: {text} (components[].{field})\n" in printed
+    assert f"refuted    {name}: that it is 1e-20: the rest of the file says" in printed
+
+
+def test_lines_about_completeness_do_not_contradict_each_other(tmp_path: Path, capsys) -> None:
+    circles = PolynomialSystem(("x", "y"), (x**2 + y**2 - 5, x * y - 2))
+    document = solutions_export.document(solve(circles))
+    wrong = copy.deepcopy(document)
+    wrong["solutions"][2]["multiplicity"] = 2
+    printed = certified_lines(wrong, tmp_path, capsys)
+    assert "refuted    solution 3: that its multiplicity is 2 (solutions[].multiplicity)" in printed
+    # The four zeros are all that there can be, whatever is said of their multiplicities.
+    assert "complete   proved: there are no more isolated zeros than Bezout's number, 4" in printed
+    left_out = copy.deepcopy(document)
+    left_out["excluded_solutions"].append(left_out["solutions"].pop())
+    left_out["excluded"] = 1
+    printed = certified_lines(left_out, tmp_path, capsys)
+    assert "4 simple zeros are proved, among them solutions that are said to be excluded" in printed
+    assert "complete: that there are no more isolated solutions: excluded solution 1\n" in printed

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -147,8 +148,7 @@ def _read(path: str) -> tuple[SolveResult | Decomposition, str, list[Claim]]:
 
 def _converted(value: Any) -> tuple[SolveResult | Decomposition, str, list[Claim]]:
     from nag.files import export, solutions_export
-    from nag.files.json_values import FOLLOWS, read_differently
-    from nag.numerics.claims import Claim, Standing
+    from nag.files.json_values import ExportError, read_differently
 
     memory = "a system built in memory"
     if isinstance(value, dict) and value.get("format") == export.FORMAT:
@@ -157,12 +157,26 @@ def _converted(value: Any) -> tuple[SolveResult | Decomposition, str, list[Claim
         # Files of version 1 say some things in other words.
         again = export.document(found, read.origin) if value["version"] > 1 else value
     else:
+        if isinstance(value, dict) and value.get("format") != solutions_export.FORMAT:
+            both = f'"{export.FORMAT}" or "{solutions_export.FORMAT}"'
+            raise ExportError(f"format: must be {both}")
         solved = solutions_export.solutions_of(value)
         found, title = solved.result, solved.title or memory
         again = solutions_export.document(found, solved.title, solved.file)
     lost = read_differently(value, again)
-    standings = {
-        field: Standing.UNSEEN if field.rpartition(".")[2] not in FOLLOWS else Standing.REFUTED
-        for field in lost
-    }
-    return found, title, [Claim(field, why, standings[field]) for field, why in lost.items()]
+    return found, title, [_claim_of_field(place, why) for place, why in lost.items()]
+
+
+def _claim_of_field(place: str, why: str) -> Claim:
+    """That a field is read, or follows from the rest of a file, and is not, or does not."""
+    from nag.files.json_values import FOLLOWS
+    from nag.numerics.claims import Claim, Standing, name_entries
+    from nag.solving.solution_claims import LISTS
+
+    standing = Standing.REFUTED if place.rpartition(".")[2] in FOLLOWS else Standing.UNSEEN
+    field, entry = re.sub(r"\[\d+\]", "[]", place), re.match(r"(\w+)\[(\d+)\]", place)
+    if entry is None:
+        return Claim(field, why, standing)
+    names = LISTS | {"components": "component"}
+    subject = name_entries(names.get(entry[1], f"{entry[1]}, entry"), [int(entry[2])])
+    return Claim(field, why, standing, subject)

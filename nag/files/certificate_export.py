@@ -157,7 +157,7 @@ def write_certificate(
             component["loops"] = _loops(proved)
     document["all_proved"] = document["all_proved"] and nothing_against(claims or ())
     document["statements"] = [
-        {"field": c.field, "says": c.text, "standing": str(c.standing)}
+        {"field": c.field, "of": c.subject, "says": c.text, "standing": str(c.standing)}
         for c in (certificate.claims if claims is None else claims)
     ]
     write_target(path, lay_out(document) + "\n")

@@ -246,10 +246,10 @@ def read_differently(given: Any, again: Any, place: str = "") -> dict[str, str]:
         given: the document, or a part of it; again: what is written of what was read.
 
     Returns:
-        For each such field, ``list[].key`` in lists, why.
+        For each such field, ``list[0].key`` in lists, why.
 
-    >>> read_differently({"a": 1, "more": 2, "accuracy": 0.5}, {"a": 1, "accuracy": 0.25})
-    {'more': 'it is no field of the format', 'accuracy': 'the rest of the file says 0.25'}
+    >>> read_differently({"a": 1, "more": 2, "exact": True}, {"a": 1, "exact": False})["exact"]
+    'that it is true: the rest of the file says false'
     """
     found: dict[str, str] = {}
     if isinstance(given, dict) and isinstance(again, dict):
@@ -258,12 +258,13 @@ def read_differently(given: Any, again: Any, place: str = "") -> dict[str, str]:
             if key not in again:
                 found[here] = "it is no field of the format"
             elif key in FOLLOWS and not _agree(value, again[key]):
-                found[here] = f"the rest of the file says {json.dumps(again[key])}"
+                one, other = json.dumps(value), json.dumps(again[key])
+                found[here] = f"that it is {one}: the rest of the file says {other}"
             else:
                 found |= read_differently(value, again[key], here)
     elif isinstance(given, list) and isinstance(again, list):
-        for one, other in zip(given, again, strict=False):
-            found |= read_differently(one, other, f"{place}[]")
+        for i, (one, other) in enumerate(zip(given, again, strict=False)):
+            found |= read_differently(one, other, f"{place}[{i}]")
     return found
 
 

@@ -30,6 +30,8 @@ class Standing(StrEnum):
 
 # Statements that stand like that leave nothing to be said against an export.
 GOOD = Standing.PROVED, Standing.EVIDENCE, Standing.UNSEEN
+# Entries of a list that are named, of more the first ones.
+NAMED = 3
 
 
 @dataclass(frozen=True)
@@ -40,35 +42,81 @@ class Claim:
         field: where it stands.
         text: what is said, in words.
         standing: what is known of it.
+        subject: the entries of lists that it is about, numbered from 1; empty for the whole file.
     """
 
     field: str
     text: str
     standing: Standing
+    subject: str = ""
+
+
+def name_entries(what: str, places: Sequence[int]) -> str:
+    """Entries of a list of things, from their indices.
+
+    >>> name_entries("point", [2]), name_entries("point", [0, 1, 2, 3, 4])
+    ('point 3', 'points 1, 2, 3 and 2 more')
+    """
+    numbers = [str(i + 1) for i in places]
+    if len(numbers) == 1:
+        return f"{what} {numbers[0]}"
+    first, more = numbers[:NAMED], len(numbers) - NAMED
+    last = f"{more} more" if more > 0 else first.pop()
+    return f"{what}s {', '.join(first)} and {last}"
 
 
 def claims_of_each(
-    field: str, text: str, standings: Sequence[Standing], what: str, offset: int = 1
+    field: str, text: str | Sequence[str], standings: Sequence[Standing], what: str
 ) -> list[Claim]:
     """What is said of each of several things, by how it stands.
 
     Args:
-        text: what is said of each; what: the name of one of the things; offset: the number that
-            the first of them has.
+        text: what is said of all, or of each; what: the name of one of the things.
     """
+    texts = [text] * len(standings) if isinstance(text, str) else text
     claims = []
     for standing in Standing:
-        places = [i for i, each in enumerate(standings) if each is standing]
-        if places:
-            first = f"{what} {places[0] + offset}"
-            more = f" and {len(places) - 1} more" if len(places) > 1 else ""
-            claims.append(Claim(field, f"{text}: {first}{more}", standing))
+        places: dict[str, list[int]] = {}
+        for i, (each, said) in enumerate(zip(standings, texts, strict=True)):
+            if each is standing:
+                places.setdefault(said, []).append(i)
+        claims += [
+            Claim(field, said, standing, name_entries(what, own)) for said, own in places.items()
+        ]
     return claims
 
 
-def unseen(fields: Iterable[str], text: str) -> list[Claim]:
+def claim_of_all(
+    field: str, text: str, standings: Sequence[Standing], subject: str, what: str
+) -> Claim:
+    """What is said of several parts of one thing; of which it is not known to be true.
+
+    Args:
+        subject: the thing; what: the name of one of its parts.
+    """
+    standing = combine_standings(standings)
+    if standing not in GOOD:
+        places = [i for i, each in enumerate(standings) if each is standing]
+        text = f"{text}: {name_entries(what, places)}"
+    return Claim(field, text, standing, subject)
+
+
+def combine_standings(standings: Sequence[Standing]) -> Standing:
+    """How it stands that all of some statements are true."""
+    order = (
+        Standing.REFUTED,
+        Standing.DOUBTED,
+        Standing.OPEN,
+        Standing.UNSEEN,
+        Standing.EVIDENCE,
+        Standing.PROVED,
+    )
+    return next((each for each in order if each in standings), Standing.PROVED)
+
+
+def claims_not_looked_at(fields: Iterable[str], text: str, subject: str = "") -> list[Claim]:
     """Statements that nothing is done about, with the reason."""
-    return [Claim(field, text, Standing.UNSEEN) for field in fields]
+    return [Claim(field, text, Standing.UNSEEN, subject) for field in fields]
 
 
 def nothing_against(claims: Iterable[Claim]) -> bool:

@@ -295,16 +295,3 @@ def is_away(f: Polynomial, points: CertifiedPoints, chosen: np.ndarray) -> bool:
     with np.errstate(all="ignore"):
         values = system(boxes)
         return bool((np.abs(values.mid) > 2 * values.rad).all())
-
-
-def combined(standings: Sequence[Standing]) -> Standing:
-    """How it stands that all of some statements are true."""
-    order = (
-        Standing.REFUTED,
-        Standing.DOUBTED,
-        Standing.OPEN,
-        Standing.UNSEEN,
-        Standing.EVIDENCE,
-        Standing.PROVED,
-    )
-    return next((each for each in order if each in standings), Standing.PROVED)

@@ -50,11 +50,13 @@ def solution_rows(certificate: SolutionsCertificate, seconds: float) -> Rows:
     rows += _excluded_rows(certificate)
     if certificate.bound is not None:
         number = f"{certificate.bound_name}, {certificate.bound}"
-        if certificate.complete:
-            rows.append(("complete", f"proved: there are no more isolated zeros than {number}"))
-        else:
-            text = f"not proved: {certificate.zeros} simple zeros, at least, of at most {number}"
-            rows.append(("complete", text))
+        text = f"proved: there are no more isolated zeros than {number}"
+        if not certificate.complete:
+            text = f"not proved: {certificate.zeros} simple zeros are proved"
+            if certificate.solutions_left_out.any():
+                text += ", among them solutions that are said to be excluded"
+            text += f"; there are no more than {number}"
+        rows.append(("complete", text))
     rows.append(_cost([points], seconds))
     return rows
 
@@ -168,11 +170,18 @@ def _least_digits(groups: Iterable[CertifiedPoints], proof: Proof) -> str:
     return f"{least:.0f} digits, which is evidence and no proof"
 
 
+def _claim_text(claim: Claim) -> str:
+    """Whose statement it is, what it says, and the field where it stands."""
+    if not claim.subject:
+        return f"{claim.field}: {claim.text}"
+    return f"{claim.subject}: {claim.text} ({claim.field})"
+
+
 def claims_rows(claims: Iterable[Claim]) -> Rows:
     """How the statements of an export stand that are not proved, as labelled lines."""
     claims = list(claims)
     rows = [
-        (label, f"{c.field}: {c.text}{', by evidence' if standing is Standing.DOUBTED else ''}")
+        (label, f"{_claim_text(c)}{', by evidence' if standing is Standing.DOUBTED else ''}")
         for standing, label in LABELS.items()
         for c in claims
         if c.standing is standing

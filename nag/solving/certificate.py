@@ -135,8 +135,12 @@ class SolutionsCertificate:
 
     @property
     def complete(self) -> bool:
-        """Whether it is proved that the equations have no other isolated zeros."""
-        return self.bound is not None and self.zeros == self.bound and self._borne_out
+        """Whether it is proved that the equations have no isolated solutions but those listed.
+
+        As many simple zeros as can be are among the points of the lists, whatever else is there.
+        """
+        listed = self.bound is not None and self.zeros == self.bound
+        return listed and not self.solutions_left_out.any()
 
 
 @np.errstate(over="ignore", invalid="ignore")

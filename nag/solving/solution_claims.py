@@ -17,7 +17,13 @@ from nag.numerics.certified_points import (
     certify_regular_points,
     joined_boxes,
 )
-from nag.numerics.claims import Claim, Standing, claims_of_each, unseen
+from nag.numerics.claims import (
+    Claim,
+    Standing,
+    claims_not_looked_at,
+    claims_of_each,
+    name_entries,
+)
 from nag.numerics.point_claims import (
     error_standings,
     multiplicity_standings,
@@ -35,7 +41,7 @@ if TYPE_CHECKING:
 # proved rests on it.
 OF_THE_RUN = ("case", "seed", "settings", "start", "reason", "notes", "paths")
 OF_ARITHMETIC = ("residual", "condition", "precision")
-LISTS = ("solutions", "excluded_solutions")
+LISTS = {"solutions": "solution", "excluded_solutions": "excluded solution"}
 
 
 def claims_of_solutions(certificate: SolutionsCertificate) -> tuple[Claim, ...]:
@@ -47,12 +53,12 @@ def claims_of_solutions(certificate: SolutionsCertificate) -> tuple[Claim, ...]:
     )
     claims += [*_pairs(certificate), *_exclusions(certificate), *_ends(result)]
     claims.append(_completeness(certificate))
-    claims += unseen(["system"], "that these are the equations of the case")
-    claims += unseen(OF_THE_RUN, "how the solutions were found")
+    claims += claims_not_looked_at(["system"], "that these are the equations of the case")
+    claims += claims_not_looked_at(OF_THE_RUN, "how the solutions were found")
     for key in LISTS:
         if getattr(result, key):
             fields = [f"{key}[].{name}" for name in OF_ARITHMETIC]
-            claims += unseen(fields, "what doubles made of the points")
+            claims += claims_not_looked_at(fields, "what doubles made of the points")
     return tuple(claims)
 
 
@@ -68,22 +74,24 @@ def _claims_of_points(
         radii = np.array([s.accuracy for s in solutions]).reshape(-1, 1) * sizes
     radii = np.broadcast_to(radii, points.points.shape)
     said = {
-        "point": ("that it is a zero of the equations", zero_standings(points)),
+        "point": ("that its point is a zero of the equations", zero_standings(points)),
         "multiplicity": (
-            "its multiplicity",
+            [f"that its multiplicity is {s.multiplicity}" for s in solutions],
             multiplicity_standings(points, [s.multiplicity for s in solutions]),
         ),
-        "accuracy": ("its error", error_standings(equations, none, points, radii)),
+        "accuracy": (
+            "that its point is no further from a zero than it says",
+            error_standings(equations, none, points, radii),
+        ),
         "real": (
-            "whether it is real",
+            ["that it is real" if s.real else "that it is not real" for s in solutions],
             _reality(points, [s.real for s in solutions]),
         ),
     }
-    name = {"solutions": "solution", "excluded_solutions": "excluded solution"}[key]
     return [
         claim
         for field, (text, standings) in said.items()
-        for claim in claims_of_each(f"{key}[].{field}", text, standings, name)
+        for claim in claims_of_each(f"{key}[].{field}", text, standings, LISTS[key])
     ]
 
 
@@ -114,8 +122,9 @@ def _pairs(certificate: SolutionsCertificate) -> list[Claim]:
         for pairs, standing in ((same, Standing.REFUTED), (unknown, Standing.OPEN)):
             if pairs:
                 i, j = pairs[0]
-                text = f"that its entries are distinct: {i + 1} and {j + 1}"
-                claims.append(Claim(f"{key}[].point", text, standing))
+                text = "that they are two zeros"
+                subject = name_entries(LISTS[key], [i, j])
+                claims.append(Claim(f"{key}[].point", text, standing, subject))
     return claims
 
 
@@ -140,10 +149,13 @@ def _exclusions(certificate: SolutionsCertificate) -> list[Claim]:
         claims += claims_of_each("excluded_solutions", text, standings, "excluded solution")
     known = len(result.excluded_solutions)
     if result.excluded and not known:
-        claims += unseen(["excluded"], f"{result.excluded} solutions left out are not in the file")
+        claims += claims_not_looked_at(
+            ["excluded"], f"{result.excluded} solutions left out are not in the file"
+        )
     else:
         agree = Standing.PROVED if result.excluded == known else Standing.REFUTED
-        claims.append(Claim("excluded", f"{result.excluded} where {known} are listed", agree))
+        text = f"that it is {result.excluded}, as many as are listed"
+        claims.append(Claim("excluded", text, agree))
     return claims
 
 
@@ -160,7 +172,7 @@ def _ends(result: SolveResult) -> list[Claim]:
     ):
         ends = np.asarray(getattr(result, key), dtype=complex)
         if not len(ends):
-            claims += unseen([key], "that there are no such ends of paths")
+            claims += claims_not_looked_at([key], "that there are no such ends of paths")
             continue
         zeros = evaluator.residuals(ends).max(axis=1, initial=0.0) <= NEARLY
         found = certify_regular_points(result.system.polynomials, none, ends, np.zeros(len(ends)))
@@ -169,7 +181,7 @@ def _ends(result: SolveResult) -> list[Claim]:
             Standing.UNSEEN if zero and not alone else Standing.DOUBTED
             for zero, alone in zip(zeros, isolated, strict=True)
         ]
-        claims += claims_of_each(key, text, standings, "point")
+        claims += claims_of_each(key, text, standings, f"{key}, point")
     return claims
 
 
@@ -181,13 +193,18 @@ def _completeness(certificate: SolutionsCertificate) -> Claim:
         return Claim("complete", "the solutions are not said to be all", Standing.UNSEEN)
     if certificate.complete:
         return Claim("complete", text, Standing.PROVED)
+    others = np.flatnonzero(certificate.solutions_left_out).tolist()
+    if others:
+        text = f"{text}: {name_entries(LISTS['excluded_solutions'], others)}"
+        return Claim("complete", text, Standing.REFUTED)
     left_out = result.excluded and not result.excluded_solutions
     listed = _zeros_by_multiplicity(certificate)
     count = None if left_out or listed is None else most_zeros(result.system.polynomials, -1, False)
     if count is not None and listed == count.bound:
-        return Claim("complete", f"{text}: {listed} modulo two primes", Standing.EVIDENCE)
+        text = f"{text}: {listed} zeros are counted modulo two primes"
+        return Claim("complete", text, Standing.EVIDENCE)
     if count is not None and count.exact:
-        known = f"{text}: {count.bound} modulo two primes, {listed} are listed"
+        known = f"{text}: {count.bound} zeros are counted modulo two primes, {listed} are listed"
         return Claim("complete", known, Standing.DOUBTED)
     return Claim("complete", text, Standing.UNSEEN)
 

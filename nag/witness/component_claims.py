@@ -8,9 +8,16 @@ from typing import TYPE_CHECKING
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import most_zeros
 from nag.numerics.certified_points import Proof
-from nag.numerics.claims import Claim, Standing, claims_of_each, unseen
+from nag.numerics.claims import (
+    Claim,
+    Standing,
+    claim_of_all,
+    claims_not_looked_at,
+    claims_of_each,
+    combine_standings,
+    name_entries,
+)
 from nag.numerics.point_claims import (
-    combined,
     corank_standings,
     error_standings,
     multiplicity_standings,
@@ -43,12 +50,13 @@ def claims_of_components(certificate: DecompositionCertificate) -> tuple[Claim, 
     for found, standing in pairs:
         if found:
             i, j = found[0]
-            text = f"that each component is listed once: {i + 1} and {j + 1}"
-            claims.append(Claim("components", text, standing))
+            text = "that they are two components"
+            claims.append(Claim("components", text, standing, name_entries("component", [i, j])))
     claims.append(_completeness(certificate))
-    claims += unseen(["equations"], "whether they follow from the system: no proof rests on them")
-    claims += unseen(["system"], "that these are the equations of the case")
-    claims += unseen(OF_THE_RUN, "how the components were found")
+    text = "whether they follow from the system: no proof rests on them"
+    claims += claims_not_looked_at(["equations"], text)
+    claims += claims_not_looked_at(["system"], "that these are the equations of the case")
+    claims += claims_not_looked_at(OF_THE_RUN, "how the components were found")
     return tuple(claims)
 
 
@@ -58,55 +66,61 @@ def _claims_of(system: PolynomialSystem, certificate: ComponentCertificate, k: i
     equations, rows = [f for f in system.polynomials if f], component.slice.rows
     zeros = zero_standings(points)
     errors = error_standings(equations, rows, points, component.radii)
+    d, m, corank = component.dimension, component.multiplicity, component.corank
     said = {
-        "points": ("that they are zeros on the slice", zeros),
-        "dimension": ("its dimension", zeros),
+        "points": ("that its points are zeros on the slice", zeros),
+        "dimension": (f"that its dimension is {d}, by its points", zeros),
         "multiplicity": (
-            "its multiplicity",
+            f"that its multiplicity is {m}",
             multiplicity_standings(points, [component.multiplicity] * component.degree),
         ),
-        "radii": ("the errors of its points", errors),
-        "accuracy": ("the largest of these errors", errors),
-        "corank": ("its corank", corank_standings(equations, rows, points, component.corank)),
+        "radii": ("that its points are no further from zeros than these", errors),
+        "accuracy": ("that this is the largest error of its points", errors),
+        "corank": (
+            f"that its corank is {corank}",
+            corank_standings(equations, rows, points, corank),
+        ),
     }
     if system.nonzero:
         standings = nonzero_standings(system.nonzero, equations, rows, points)
         said["nonzero"] = ("that nothing that must not vanish does so on it", standings)
-    name = f"component {k + 1}"
+    name = name_entries("component", [k])
     claims = [
-        Claim(f"components[].{field}", f"{text}: {name}", combined(standings))
+        claim_of_all(f"components[].{field}", text, standings, name, "point")
         for field, (text, standings) in said.items()
     ]
     claims += [*_irreducibility(certificate, name), *_orbit(certificate, name)]
     if certificate.moved is None:
-        text = f"that it is none of the others of its dimension: {name}"
-        claims.append(Claim("components", text, Standing.OPEN))
+        text = "that it is none of the others of its dimension"
+        claims.append(Claim("components", text, Standing.OPEN, name))
     claims.append(_cut_by(component, name))
-    claims += unseen(["components[].slice"], f"that it is a generic one: {name}")
+    text = "that its slice is a generic one"
+    claims += claims_not_looked_at(["components[].slice"], text, name)
     if component.multidegree is not None and component.dimension:
-        claims += unseen(["components[].multidegree"], name)
+        text = "its degrees in groups of variables"
+        claims += claims_not_looked_at(["components[].multidegree"], text, name)
     fields = [f"components[].{field}" for field in (*OF_ARITHMETIC, "note")]
-    return [*claims, *unseen(fields, f"what doubles made of the points: {name}")]
+    return [*claims, *claims_not_looked_at(fields, "what doubles made of its points", name)]
 
 
 def _irreducibility(certificate: ComponentCertificate, name: str) -> list[Claim]:
     """That all points lie on one irreducible component, and are all its points on the slice."""
     component, claims = certificate.component, []
     if not certificate.distinct:
-        text = f"that its points are distinct: {name}"
-        claims.append(Claim("components[].degree", text, Standing.OPEN))
-    one, every = f"{ONE_COMPONENT}: {name}", f"{ALL_POINTS}: {name}"
+        text = "that its points are distinct"
+        claims.append(Claim("components[].degree", text, Standing.OPEN, name))
+    one = ONE_COMPONENT
     if component.dimension and component.degree:
         status, degree = Standing.UNSEEN, Standing.UNSEEN
     elif component.degree == 1:
-        status = degree = combined(zero_standings(certificate.points))
+        status = degree = combine_standings(zero_standings(certificate.points))
     else:
         distinct = certificate.distinct and Proof.NONE not in certificate.points.proofs
         status = degree = Standing.REFUTED if distinct else Standing.OPEN
     if component.status is Status.UNDECIDED:
-        one, status = f"it is not said to be irreducible: {name}", Standing.UNSEEN
-    claims.append(Claim("components[].status", one, status))
-    return [*claims, Claim("components[].degree", every, degree)]
+        one, status = "it is not said to be irreducible", Standing.UNSEEN
+    claims.append(Claim("components[].status", one, status, name))
+    return [*claims, Claim("components[].degree", ALL_POINTS, degree, name)]
 
 
 def claims_of_loops(
@@ -121,22 +135,19 @@ def claims_of_loops(
             trace is linear, to many digits, so that no point of it is missing; None where that was
             not decided.
     """
-    fields = "components[].status", "components[].degree"
     claims = list(certificate.claims)
     for k, c in enumerate(certificate.components):
         if not (c.component.dimension and c.component.degree):
             continue
-        name = f": component {k + 1}"
-        own = [x for x in claims if x.field in fields and x.text.endswith(name)]
-        claims = [x for x in claims if x not in own]
-        zeros = combined(zero_standings(c.points))
-        if c.component.status is Status.IRREDUCIBLE:
-            status = zeros if connected[k] else Standing.OPEN
-            own = [x for x in own if x.field != "components[].status"]
-            claims.append(Claim("components[].status", ONE_COMPONENT + name, status))
+        name = name_entries("component", [k])
         trace = {True: Standing.EVIDENCE, False: Standing.DOUBTED, None: Standing.OPEN}[linear[k]]
-        own = [x for x in own if not x.text.startswith(ALL_POINTS)]
-        claims += [*own, Claim("components[].degree", ALL_POINTS + name, trace)]
+        again = [Claim("components[].degree", ALL_POINTS, trace, name)]
+        if c.component.status is Status.IRREDUCIBLE:
+            zeros = combine_standings(zero_standings(c.points))
+            status = zeros if connected[k] else Standing.OPEN
+            again.append(Claim("components[].status", ONE_COMPONENT, status, name))
+        said = [(x.field, x.text, x.subject) for x in again]
+        claims = [x for x in claims if (x.field, x.text, x.subject) not in said] + again
     return tuple(claims)
 
 
@@ -144,15 +155,16 @@ def _orbit(certificate: ComponentCertificate, name: str) -> list[Claim]:
     """That symmetries carry the component into others of its orbit."""
     component, field = certificate.component, "components[].orbit"
     if component.orbit == 1:
-        return [Claim(field, f"that symmetries carry it into no other: {name}", Standing.UNSEEN)]
+        return claims_not_looked_at([field], "that symmetries carry it into no other", name)
     if not component.images:
-        return unseen([field], f"its {component.orbit - 1} images are not in the file: {name}")
+        text = f"its {component.orbit - 1} images are not in the file"
+        return claims_not_looked_at([field], text, name)
     standings = [
-        Standing.UNSEEN if points is None else combined(zero_standings(points))
+        Standing.UNSEEN if points is None else combine_standings(zero_standings(points))
         for points in certificate.images
     ]
-    text = f"that its orbit's other components are such: {name}"
-    return claims_of_each(field, text, standings, "image")
+    text = "that symmetries carry it into components"
+    return claims_of_each(field, text, standings, f"{name}, image")
 
 
 def _cut_by(component: WitnessSet, name: str) -> Claim:
@@ -160,10 +172,10 @@ def _cut_by(component: WitnessSet, name: str) -> Claim:
     for fibre in component.fibres:
         values = fibre.cut.evaluator.residuals(fibre.points)
         if not (values <= ON).all():
-            text = f"that these equations cut it: {name}"
-            return Claim("components[].cut_by", text, Standing.DOUBTED)
-    text = f"the equations that cut it, on which no proof rests: {name}"
-    return Claim("components[].cut_by", text, Standing.UNSEEN)
+            text = "that these equations cut it"
+            return Claim("components[].cut_by", text, Standing.DOUBTED, name)
+    text = "the equations that cut it, on which no proof rests"
+    return Claim("components[].cut_by", text, Standing.UNSEEN, name)
 
 
 def _completeness(certificate: DecompositionCertificate) -> Claim:
@@ -188,6 +200,7 @@ def _counted(certificate: DecompositionCertificate, text: str) -> Claim | None:
     if count is None:
         return None
     if sum(known) == count.bound:
-        return Claim("complete", f"{text}: {count.bound} modulo two primes", Standing.EVIDENCE)
-    text = f"{text}: {count.bound} modulo two primes, {sum(known)} are listed"
+        text = f"{text}: {count.bound} zeros are counted modulo two primes"
+        return Claim("complete", text, Standing.EVIDENCE)
+    text = f"{text}: {count.bound} zeros are counted modulo two primes, {sum(known)} are listed"
     return Claim("complete", text, Standing.DOUBTED) if count.exact else None
