@@ -9,7 +9,14 @@ import pytest
 
 import nag
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import genus, intersect_pair, sample, singular_locus
+from nag.decomposition import (
+    genus,
+    intersect_pair,
+    project,
+    sample,
+    singular_locus,
+    witness_at,
+)
 from nag.decomposition.trace import linear_traces
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
@@ -85,3 +92,26 @@ def test_a_component_comes_back_as_it_was() -> None:
     assert np.abs(there.points).max() < 100
     assert there.errors.max() < 1e-15 > back.errors.max()
     assert np.all(np.abs(back.points - component.points) <= back.radii + component.radii)
+
+
+def test_points_far_from_the_origin_are_told_to_be_on_a_component_or_off_it() -> None:
+    whole = decomposed("spheres", 6)
+    first, second = whole.components
+    centre = [b * 10**6 for b in ORIGIN]
+    point = [c + Fraction(k, 9) for c, k in zip(centre, (1, 4, 8), strict=True)]
+    answers = [c.contains(point) for c in (first, second)]
+    assert sorted(answers) == [False, True]
+    rounded = [float(x) for x in point]
+    assert [c.contains(rounded, accuracy=1e-15) for c in (first, second)] == answers
+    assert not any(c.contains([float(x) + 1e-3 for x in point]) for c in (first, second))
+
+
+def test_components_are_moved_and_projected_far_from_the_origin() -> None:
+    whole = decomposed("spheres", 6)
+    for component in whole.components:
+        target = nag.Slice(np.eye(3)[:2], [float(b) * 1e6 + 0.25 for b in ORIGIN[:2]])
+        there = witness_at(whole.system, component, target, seed=1)
+        assert there.degree == 2 and there.errors.max() < 1e-15
+        assert np.abs(there.points[:, :2] - target.b).max() < 1e-9
+        image = project(whole.system, component, ["x", "y"], seed=1)
+        assert (image.dimension, image.degree, image.fibre_degree) == (2, 1, 2)

@@ -19,6 +19,7 @@ from math import comb, gcd, isqrt, lcm, log2, prod
 
 import numpy as np
 
+from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.scaling import magnitude, scaled_terms, variable_scales
@@ -65,6 +66,11 @@ class NaturalCoordinates:
     def sizes(self) -> np.ndarray:
         """The scales in doubles, shape ``(n,)``."""
         return np.array([float(s) for s in self.scales])
+
+    @cached_property
+    def unscaled(self) -> NaturalCoordinates:
+        """The same origin, and the units that are given."""
+        return replace(self, scales=(Fraction(1),) * len(self.scales))
 
     @cached_property
     def inverse(self) -> NaturalCoordinates:
@@ -117,6 +123,13 @@ class NaturalCoordinates:
         first, rest = self._origin_in_doubles
         y = (x[..., :n] - first - rest) / self.sizes
         return np.concatenate([y, x[..., n:]], axis=-1)
+
+    def numbers(self, x: Sequence[Number]) -> tuple[Number, ...]:
+        """An exact point ``x`` as ``y``."""
+        if self.is_identity:
+            return tuple(x)
+        parts = zip(x, self.scales, self.origin, strict=True)
+        return tuple((z - b) / s for z, s, b in parts)
 
     def rows(self, rows: np.ndarray) -> np.ndarray:
         """A slice by rows on ``(1, x)`` as one by rows on ``(1, y)``, of norms about one.

@@ -44,22 +44,22 @@ def carry_component(
         system: what it is a component of, in ``y``.
         cut: its slice in ``y``, where it is known better than by that in ``x``.
     """
-    if natural.is_identity and cut is None:
-        return component if component.system is system else replace(component, system=system)
+    if natural.is_identity:
+        same = component.system is system and cut is None
+        cut = component.slice if cut is None else cut
+        return component if same else replace(component, slice=cut, system=system)
     rows = natural.rows(component.slice.rows) if cut is None else cut.rows
-    points, radii = natural.points(component.points), component.radii / natural.sizes
+    points, radii = carry_points(component.points, component.radii, natural)
     digits = component.digits
     fibres = carry_fibres(component.fibres, component.slice.rows, natural, rows)
-    if not natural.is_exact_in_doubles:
-        radii = radii + EPS * (np.abs(points) + np.abs(natural.inverse.points(0 * points)))
-        if fibres:
-            sharp = [sharpened(fibre, rows) for fibre in fibres]
-            known = np.vstack([each.radii for each in sharp])
-            good = np.isfinite(known).all(axis=1)
-            fibres = [each.fibre for each in sharp]
-            points = np.where(good[:, None], np.vstack([fibre.x for fibre in fibres]), points)
-            radii = np.where(good[:, None], known, radii)
-            digits = np.where(good, np.concatenate([each.digits for each in sharp]), digits)
+    if not natural.is_exact_in_doubles and fibres:
+        sharp = [sharpened(fibre, rows) for fibre in fibres]
+        known = np.vstack([each.radii for each in sharp])
+        good = np.isfinite(known).all(axis=1)
+        fibres = [each.fibre for each in sharp]
+        points = np.where(good[:, None], np.vstack([fibre.x for fibre in fibres]), points)
+        radii = np.where(good[:, None], known, radii)
+        digits = np.where(good, np.concatenate([each.digits for each in sharp]), digits)
     return replace(
         component,
         slice=to_slice(rows) if cut is None else cut,
@@ -69,6 +69,16 @@ def carry_component(
         fibres=tuple(fibres),
         system=system,
     )
+
+
+def carry_points(
+    x: np.ndarray, radii: np.ndarray, natural: NaturalCoordinates
+) -> tuple[np.ndarray, np.ndarray]:
+    """Points and errors of their coordinates; what is rounded on the way is one more."""
+    y, errors = natural.points(x), radii / natural.sizes
+    if natural.is_exact_in_doubles:
+        return y, errors
+    return y, errors + EPS * np.abs(y)
 
 
 def carry_decomposition(whole: Decomposition, natural: NaturalCoordinates) -> Decomposition:

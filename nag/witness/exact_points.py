@@ -29,7 +29,7 @@ from nag.witness.fibres import Fibre, homogeneous
 from nag.witness.frame import EPS, Frame
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded
-from nag.witness.witness import DOUBLE, WitnessSet
+from nag.witness.witness import DOUBLE, WitnessSet, relative_errors
 
 if TYPE_CHECKING:
     import flint
@@ -249,8 +249,7 @@ class Sharp:
     @property
     def errors(self) -> np.ndarray:
         """Errors of the points, relative to one and their sizes, shape ``(P,)``."""
-        sizes = 1 + np.linalg.norm(self.fibre.x, axis=1)
-        return np.linalg.norm(self.radii, axis=1) / sizes
+        return relative_errors(self.fibre.x, self.radii)
 
     def only(self, places: np.ndarray) -> Sharp:
         """Some of the points."""

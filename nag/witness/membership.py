@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 
@@ -14,15 +14,16 @@ from nag.algebra.given import check_error
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
+from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.zero_values import NONZERO
-from nag.witness.change_of_coordinates import coordinates_of
+from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
 from nag.witness.fibres import Fibre, Moved, Tracker, join_fibres, move
 from nag.witness.gauss_newton import polish
-from nag.witness.given_component import check_decomposition, in_doubles
+from nag.witness.given_component import check_decomposition, in_doubles, rounded
 from nag.witness.slices import padded, rows_through, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
@@ -283,23 +284,55 @@ def memberships(
     point = in_doubles(point, system.variables)
     if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > NONZERO:
         return (Membership.FOREIGN,) * len(decomposition.components)
-    answers = _by_components(decomposition, point, accuracy, exact, rng, tracker)
+    asked = _Asked.of(point, accuracy, exact, coordinates_of(system).unscaled)
+    whole = carry_decomposition(decomposition, asked.natural)
+    answers = _by_components(whole, asked, rng, tracker)
     nowhere = all(answer is Membership.FOREIGN for answer in answers)
     if nowhere and not exact and _surely_on_one(decomposition, point, accuracy):
         return (Membership.UNDECIDED,) * len(answers)
     return answers
 
 
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """A point that is asked about, in coordinates about a natural origin.
+
+    Attributes:
+        exact: its coordinates, none where only doubles are known.
+        error: relative error of the point in doubles as it was given.
+    """
+
+    natural: NaturalCoordinates
+    point: np.ndarray
+    exact: Sequence[Number]
+    error: float
+
+    @classmethod
+    def of(
+        cls, x: np.ndarray, error: float, exact: Sequence[Number], natural: NaturalCoordinates
+    ) -> _Asked:
+        there = natural.numbers(exact) if len(exact) else ()
+        point = natural.points(x) if natural.is_identity or not there else rounded(there)
+        return cls(natural, point, there, error)
+
+    def accuracy(self, sizes: np.ndarray | float = 1.0) -> float:
+        """The point's error, relative to its size where coordinates are divided by ``sizes``.
+
+        That of doubles is one beside the origin that was taken off as well.
+        """
+        if len(self.exact):
+            return self.error
+        far = np.array([float(b) for b in self.natural.origin])
+        far, near = (float(np.linalg.norm(z / sizes)) for z in (far, self.point))
+        return self.error * (1 + far / (1 + near))
+
+
 def _by_components(
-    decomposition: Decomposition,
-    point: np.ndarray,
-    accuracy: float,
-    exact: Sequence[Number],
-    rng: np.random.Generator,
-    tracker: Tracker,
+    decomposition: Decomposition, asked: _Asked, rng: np.random.Generator, tracker: Tracker
 ) -> tuple[Membership, ...]:
     """For each component by itself, whether a point lies on it."""
     system, components = decomposition.system, decomposition.components
+    point, exact = asked.point, asked.exact
     answers: dict[int, Membership] = {}
     moving: dict[tuple[object, bytes], dict[int, list[Fibre]]] = {}
     for k, component in enumerate(components):
@@ -307,7 +340,7 @@ def _by_components(
         if exact and not all(_may_be_on(fibre.cut, exact) for fibre in component.fibres):
             answers[k] = Membership.FOREIGN
         elif component.dimension == 0:
-            answers[k] = _at_isolated(system, component, point, accuracy, exact)
+            answers[k] = _at_isolated(system, component, point, asked.accuracy(), exact)
         else:
             try:
                 fibres = component_fibres(system, component)
@@ -319,6 +352,7 @@ def _by_components(
     for several in moving.values():
         rows = components[next(iter(several))].slice.rows
         sets = list(several.values())
+        accuracy = asked.accuracy(sets[0][0].sizes[1:])
         found, _ = find_members(point, accuracy, sets, rows, rng, tracker, exact)
         answers |= zip(several, found, strict=True)
     return tuple(answers[k] for k in range(len(components)))

@@ -11,6 +11,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.zero_values import ON
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import Sharp, in_order, sharpened
 from nag.witness.fibres import Fibre, Tracker, move
@@ -65,6 +66,11 @@ class Arrival:
     def x(self) -> np.ndarray:
         """The points without added unknowns, shape ``(P, n)``."""
         return np.vstack([fibre.x for fibre in self.fibres])
+
+    @property
+    def radii(self) -> np.ndarray:
+        """Errors of the points' coordinates, shape ``(P, n)``."""
+        return np.vstack([each.radii for each in self.sharp])
 
     @property
     def accuracy(self) -> float:
@@ -142,10 +148,12 @@ def witness_at(
     check_component(system, component, seed, threads, settings)
     _check_slice(target, component)
     rng = np.random.default_rng([seed, 2])
-    rows, goal = component.slice.rows, orthonormal_rows(target.rows)
-    fibres = component_fibres(system, component)
-    evaluator = Evaluator.of(system.polynomials, system.n)
-    there = arrival(fibres, rows, goal, rng, Tracker(settings, threads))
+    goal, natural = orthonormal_rows(target.rows), coordinates_of(system)
+    own = natural.system(system)
+    here = carry_component(component, natural, own)
+    fibres, rows = component_fibres(own, here), natural.rows(goal)
+    evaluator = Evaluator.of(own.polynomials, own.n)
+    there = arrival(fibres, here.slice.rows, rows, rng, Tracker(settings, threads))
     found = [each.only(in_order(each.fibre.points)) for each in there.sharp]
     points = np.vstack([each.fibre.x for each in found])
     residual = float(evaluator.residuals(points).max(initial=0.0))
@@ -154,12 +162,13 @@ def witness_at(
             f"of the {component.degree} points of the component, the slice meets {there.infinite} "
             f"at infinity and {there.irregular} where the intersection is not transversal"
         )
-    return replace(
-        component,
-        slice=to_slice(goal),
+    moved = replace(
+        here,
+        slice=to_slice(rows),
         points=points,
         residual=residual,
         radii=np.vstack([each.radii for each in found]),
         digits=np.concatenate([each.digits for each in found]),
         fibres=tuple(each.fibre for each in found),
     )
+    return carry_component(moved, natural.inverse, component.system, to_slice(goal))

@@ -17,6 +17,11 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import clusters
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import SINGULAR
+from nag.witness.change_of_coordinates import (
+    carry_component,
+    carry_points,
+    coordinates_of,
+)
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import numerical_corank
 from nag.witness.fibres import Fibre, Tracker
@@ -24,7 +29,7 @@ from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
 from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows, to_slice
-from nag.witness.witness import Slice, WitnessSet
+from nag.witness.witness import Slice, WitnessSet, relative_errors
 
 # Slices on which the numbers of points must agree.
 SLICES = 2
@@ -147,6 +152,9 @@ def project(
             f"coordinates: {list(chosen)} are given; give at least one variable, each once"
         )
     rng = np.random.default_rng([seed, 4])
+    natural = coordinates_of(system)
+    system = natural.system(system)
+    component = carry_component(component, natural, system)
     fibres = component_fibres(system, component)
     d = component.dimension
     r = _image_dimension(fibres[0], chosen)
@@ -156,8 +164,10 @@ def project(
     if len(degrees) > 1:
         raise ProjectionError("the numbers of points differ between two slices")
     (degree, fibre_degree), rows, there = found[0]
-    cut = to_slice(rows)
-    return Projection(chosen, r, degree, d - r, fibre_degree, cut, there.x, there.accuracy)
+    cut = to_slice(natural.inverse.rows(rows))
+    points, radii = carry_points(there.x, there.radii, natural.inverse)
+    accuracy = float(relative_errors(points, radii).max(initial=EPS))
+    return Projection(chosen, r, degree, d - r, fibre_degree, cut, points, accuracy)
 
 
 def _pseudo_witness(
@@ -178,7 +188,7 @@ def _pseudo_witness(
         raise ProjectionError("paths failed; the component may not be irreducible")
     units = sizes[[1 + i for i in coordinates]]
     image = there.x[:, list(coordinates)] / units
-    radii = np.vstack([each.radii for each in there.sharp])[:, list(coordinates)] / units
+    radii = there.radii[:, list(coordinates)] / units
     errors = np.linalg.norm(radii, axis=1) / (1 + np.linalg.norm(image, axis=1))
     images = clusters(image, np.maximum(errors, EPS))
     counts = {len(same) for same in images}

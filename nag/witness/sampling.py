@@ -13,13 +13,14 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import ON
-from nag.witness.change_of_coordinates import carry_component, coordinates_of
+from nag.witness.change_of_coordinates import carry_component, carry_points, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, Tracker
+from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
 from nag.witness.moving import Arrival, arrival
 from nag.witness.slices import random_rows
-from nag.witness.witness import WitnessSet
+from nag.witness.witness import WitnessSet, relative_errors
 
 # Newton's last step, relative to the point, at a sample.
 SHARP = 1e-10
@@ -112,15 +113,15 @@ def sample(
     fibres = component_fibres(system, component)
     tracker = Tracker(settings, threads)
     evaluator = Evaluator.of(system.polynomials, system.n)
-    points, accuracy = np.zeros((count, system.n), dtype=complex), float(np.finfo(float).eps)
+    points, radii = np.zeros((count, system.n), dtype=complex), np.zeros((count, system.n))
     for k in range(count):
         _, there = at_random(fibres, component.slice.rows, rng, tracker)
         x = there.x
         if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
-            some = _samples(evaluator, points[:k], accuracy, natural)
+            some = _samples(evaluator, points[:k], radii[:k], natural)
             raise SamplingError(f"point {k + 1} of {count}: the path to it failed", some)
-        points[k], accuracy = x[0], max(accuracy, there.accuracy)
-    return _samples(evaluator, points, accuracy, natural)
+        points[k], radii[k] = x[0], there.radii[0]
+    return _samples(evaluator, points, radii, natural)
 
 
 def at_random(
@@ -138,8 +139,9 @@ def at_random(
 
 
 def _samples(
-    evaluator: Evaluator, points: np.ndarray, accuracy: float, natural: NaturalCoordinates
+    evaluator: Evaluator, y: np.ndarray, radii: np.ndarray, natural: NaturalCoordinates
 ) -> Samples:
     """Points in natural coordinates in those that were given."""
-    residual = float(evaluator.residuals(points).max(initial=0.0))
-    return Samples(natural.inverse.points(points), residual, accuracy)
+    residual = float(evaluator.residuals(y).max(initial=0.0))
+    points, radii = carry_points(y, radii, natural.inverse)
+    return Samples(points, residual, float(relative_errors(points, radii).max(initial=EPS)))

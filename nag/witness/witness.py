@@ -29,6 +29,12 @@ def even_radii(points: np.ndarray, accuracy: float) -> np.ndarray:
     return np.broadcast_to(accuracy * sizes, np.shape(points))
 
 
+def relative_errors(points: np.ndarray, radii: np.ndarray) -> np.ndarray:
+    """Errors of points, shape ``(P, n)``, relative to one and their sizes, shape ``(P,)``."""
+    with np.errstate(all="ignore"):
+        return np.linalg.norm(radii, axis=1) / (1 + np.linalg.norm(points, axis=1))
+
+
 class Status(StrEnum):
     """What is known of a component."""
 
@@ -165,9 +171,7 @@ class WitnessSet:
     @property
     def errors(self) -> np.ndarray:
         """Errors of the points, relative to one and their sizes, shape ``(degree,)``."""
-        with np.errstate(all="ignore"):
-            sizes = 1 + np.linalg.norm(self.points, axis=1)
-            return np.linalg.norm(self.radii, axis=1) / sizes
+        return relative_errors(self.points, self.radii)
 
     @property
     def accuracy(self) -> float:
