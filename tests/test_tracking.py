@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +10,9 @@ from evaluated import jacobian, patch, values
 from oracle import track_one
 
 from nag.algebra.polynomial import Polynomial
+from nag.files.cases import read_case
+from nag.solving.square_problem import SquareProblem
+from nag.solving.start.choice import choose
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy, straight_line
 from nag.tracking.jumps import collisions
@@ -17,7 +21,9 @@ from nag.tracking.newton import refine
 from nag.tracking.paths import PathStatus, Reason
 from nag.tracking.projective import aligned_difference
 from nag.tracking.settings import Settings
-from nag.tracking.track import track
+from nag.tracking.track import run_in_doubles, track
+
+CASES = Path(__file__).parent.parent / "cases"
 
 
 def total_degree(polynomials, seed):
@@ -227,6 +233,17 @@ def test_results_do_not_depend_on_the_other_paths_nor_on_threads():
     for name in set(whole.__dataclass_fields__) - {"balls", "branches"}:
         assert np.array_equal(getattr(whole, name), getattr(threaded, name)), name
         assert np.array_equal(getattr(whole, name)[some], getattr(part, name)), name
+
+
+def test_paths_with_many_branch_points_before_their_ends_reach_them_in_doubles():
+    system = read_case(CASES / "hard" / "chemequ.toml").system
+    rng = np.random.default_rng(0)
+    problem = SquareProblem.of(system, system.polynomials, rng)
+    begin, _ = choose(problem.target, "auto", system.groups, rng, 1)
+    starts = begin.homotopy.normalized(begin.points)
+    raw = run_in_doubles(begin.homotopy, starts, Settings(), 1, True)
+    # There are 16 finite zeros; ends of the other paths are not regular.
+    assert (raw.reason == Reason.NONE).sum() >= 15
 
 
 def test_a_start_point_off_the_path_is_refused():
