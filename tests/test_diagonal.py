@@ -9,6 +9,7 @@ from systems import system
 from nag.decomposition import decompose
 from nag.decomposition.diagonal import Intersected, intersected
 from nag.decomposition.factor import Factor
+from nag.decomposition.intersection import intersect_components
 from nag.decomposition.reduction import Reduction
 from nag.witness.fibres import Tracker
 
@@ -79,3 +80,13 @@ def test_what_lies_beside_the_excluded_is_kept() -> None:
     second = "x^2 + y^2 + z^2 - 1 - (x - y)*(x + y - 3)"
     found, _ = met(SPHERE, second, nonzero=("x - y + 1/10^10",))
     assert found.notes == [] and sizes(found) == {1: 4}
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("exponent", [16, 20, 24, 40])
+def test_two_points_where_curves_nearly_touch_are_told_apart(exponent: int, seed: int) -> None:
+    curves = decompose(system("x y", f"(y - x^2)*(y + x^2 - 1/10^{exponent})"), seed=seed)
+    found = intersect_components(curves.system, *curves.components, seed=seed)
+    assert found.complete and [(c.dimension, c.degree) for c in found.components] == [(0, 1)] * 2
+    both = np.sort([c.points[0, 0].real for c in found.components])
+    assert np.allclose(both, [-(0.5**0.5), 0.5**0.5] * np.array(10 ** (-exponent / 2)), rtol=1e-6)

@@ -277,3 +277,16 @@ def test_the_command_writes_what_its_schema_says(tmp_path, capsys) -> None:
     for arguments in (["--component", "4"], ["--free", "c"], ["--free", "a,a"]):
         assert main(["singular", case, "--quiet", *arguments]) == 2
         assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize("exponent", [12, 16, 20])
+def test_three_lines_that_nearly_pass_through_one_point_meet_in_three(exponent: int) -> None:
+    locus = singular_locus(nag.decompose(f"x*(y - x)*(x + y - 2 - 1/10^{exponent})*(x - 1)"))
+    meeting = Counter(tuple(one.multiplicities) for one in locus.sets)
+    assert locus.complete and len(locus.sets) == 5
+    assert set(meeting.values()) == {1} and {len(pair) for pair in meeting} == {2}
+
+
+def test_sheets_of_which_it_is_not_known_whether_they_meet_are_no_singular_set() -> None:
+    locus = singular_locus(nag.decompose("(y - x^2)*(y - x^2 - 1/10^25)"))
+    assert not locus.sets and not locus.complete

@@ -21,9 +21,12 @@ from nag.decomposition.excluded import ROUNDED, forbidden
 from nag.decomposition.factor import NOT_MOVED, Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
+from nag.decomposition.superset import are_new_alone
 from nag.numerics.coincidence import clusters, coincident, compared
 from nag.numerics.zero_values import possible_zeros, vanishes_at
+from nag.witness.close_to_sets import among, meant
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
+from nag.witness.cutting_in_digits import admit_zero
 from nag.witness.fibres import Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.moving import SliceError, orthonormal_rows
@@ -262,24 +265,58 @@ class _Diagonal:
         place = common.equations, rows, self.rng
         lost = 0
         for cluster in clusters(x, accuracy):
-            best, error = x[cluster[0]], float(accuracy[cluster[0]])
-            if admit(best, error, fibres, *place, deflate=False):
-                for i in cluster[1:]:
-                    admit(x[i], float(accuracy[i]), fibres, *place, deflate=False)
+            ends = [(x[i], float(accuracy[i])) for i in cluster]
+            best, error = ends[0]
+            simple = list(fibres)
+            if admit(best, error, simple, *place, deflate=False):
+                for end in ends[1:]:
+                    admit(*end, simple, *place, deflate=False)
+                # To a regular zero of all equations one path leads.
+                if sum(map(len, simple)) - sum(map(len, fibres)) == len(ends):
+                    fibres[:] = simple
+                elif not self.admit_close_ones(ends, fibres, rows):
+                    result.notes.append(f"points of dimension {d} are too close to each other")
                 continue
             answer = self.on_larger_set(best, error, d)
             if answer is Membership.UNDECIDED:
                 result.notes.append(f"a point of dimension {d} could not be told from a larger set")
-            elif answer is Membership.FOREIGN and not admit(
-                best, error, fibres, *place, deflate=True
-            ):
-                lost += 1
-                if d == 0:
-                    result.bare.append((best, error))
+            if answer is not Membership.FOREIGN:
+                continue
+            deflated = list(fibres)
+            admitted = admit(best, error, deflated, *place, deflate=True)
+            alone = admitted and are_new_alone(fibres, deflated, common.equations, rows)
+            if not alone and self.admit_close_ones(ends, fibres, rows):
+                continue
+            if admitted:
+                fibres[:] = deflated
+                continue
+            lost += 1
+            if d == 0:
+                result.bare.append((best, error))
         if lost and d > 0:
             result.notes.append(
                 f"{lost} singular points of dimension {d} could not be made regular"
             )
+
+    def admit_close_ones(
+        self, ends: Sequence[tuple[np.ndarray, float]], fibres: list[Fibre], rows: np.ndarray
+    ) -> bool:
+        """Add the zeros of all equations that ends in doubles stand for, in digits, if it is known
+        that the paths lead to these and no others.
+
+        To a zero lead no more paths than its multiplicity says.
+        """
+        equations, own = self.common.equations, list(fibres)
+        found = meant(ends, equations, rows, self.rng, whole=True)
+        total = sum(zero.multiplicity for zero in found.zeros)
+        if not found.decided or (len(found.zeros) != 1 and total != len(ends)):
+            return False
+        for zero in found.zeros:
+            known = among(zero, own, rows)
+            if known is None or not (known or admit_zero(zero, own, equations, rows, self.rng)):
+                return False
+        fibres[:] = own
+        return bool(found.zeros)
 
     def on_larger_set(self, x: np.ndarray, accuracy: float, d: int) -> Membership:
         """Whether a point lies on a set of the intersection of dimension above ``d``."""

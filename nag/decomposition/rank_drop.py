@@ -210,9 +210,10 @@ class _Search:
         self.paths += found.paths
         if found.notes and self._solved(conditions):
             return
-        self.notes += found.notes
+        self.notes += [*found.notes, *(one.note for one in found.components if one.note)]
         for one in found.components:
-            self._judge(found, one)
+            if not one.note:
+                self._judge(found, one)
 
     def _solved(self, conditions: PolynomialSystem) -> bool:
         """Keep the component's points where the rank drops, if all such points are isolated ones.

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import comb
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,12 +29,21 @@ from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
-from nag.witness.component_equations import component_fibres, component_system
+from nag.witness.close_to_sets import are_same
+from nag.witness.component_equations import (
+    component_fibres,
+    component_system,
+    may_vanish,
+    point_in_balls,
+)
 from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
 from nag.witness.given_component import check_decomposition, check_index
 from nag.witness.multiplicity import multiplicity_at
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
+
+if TYPE_CHECKING:
+    import flint
 
 # More pairs of components are not intersected.
 MOST_PAIRS = 150
@@ -107,10 +116,19 @@ class SingularLocus:
 
 @dataclass(frozen=True, eq=False)
 class _Candidate:
-    """Points where something may be singular, and the component or pair that it was found from."""
+    """Points where something may be singular, and the component or pair that it was found from.
+
+    ``digits``: of an isolated point that equations cut, to a hundred digits; empty elsewhere.
+    """
 
     found: SetOfPoints
     source: tuple[int, ...]
+    digits: Sequence[flint.acb] = ()
+
+    def is_apart_from(self, other: _Candidate) -> bool:
+        """Whether two isolated points are two in the digits of both, where these are known."""
+        known = bool(self.digits and other.digits)
+        return known and not are_same(self.digits, other.digits)
 
 
 @dataclass(eq=False)
@@ -160,10 +178,16 @@ class _Search:
             self.notes.append(f"components {i + 1} and {j + 1}: {reason}")
             return
         self.counts += found.paths
-        self.notes += [f"components {i + 1} and {j + 1}: {note}" for note in found.notes]
+        notes = [*found.notes, *(c.note for c in found.components if c.note)]
+        self.notes += [f"components {i + 1} and {j + 1}: {note}" for note in notes]
         self.candidates += [
-            _Candidate(SetOfPoints(c.dimension, c.degree, c.points, c.accuracy), (i, j))
+            _Candidate(
+                SetOfPoints(c.dimension, c.degree, c.points, c.accuracy),
+                (i, j),
+                [] if c.dimension or not c.fibres else point_in_balls(c),
+            )
             for c in found.components
+            if not c.note
         ]
 
     def _factor(self, i: int) -> Factor:
@@ -301,16 +325,20 @@ def _judged_sets(
 ) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
     known, errors = np.zeros((0, search.whole.system.n), dtype=complex), np.zeros(0)
+    seen: list[_Candidate] = []
     others: dict[tuple[object, ...], dict[tuple[int, ...], list[SingularSet]]] = {}
     for candidate in search.candidates:
         found, x = candidate.found, candidate.found.points[0]
-        if found.dimension == 0 and coincident(known, x, np.maximum(errors, found.error)).any():
-            continue
-        judged = _judged(search, found, rng, tracker)
+        if found.dimension == 0:
+            same = np.flatnonzero(coincident(known, x, np.maximum(errors, found.error))).tolist()
+            if not all(candidate.is_apart_from(seen[i]) for i in same):
+                continue
+        judged = _judged(search, candidate, rng, tracker)
         if judged is None:
             continue
         if found.dimension == 0:
             known, errors = np.vstack([known, x]), np.append(errors, found.error)
+            seen.append(candidate)
             points.append(judged)
             continue
         key = (judged.dimension, judged.degree, tuple(judged.multiplicities.items()))
@@ -322,9 +350,10 @@ def _judged_sets(
 
 
 def _judged(
-    search: _Search, found: SetOfPoints, rng: np.random.Generator, tracker: Tracker
+    search: _Search, candidate: _Candidate, rng: np.random.Generator, tracker: Tracker
 ) -> SingularSet | None:
     """What a candidate is; None if the components are smooth there and do not meet."""
+    found = candidate.found
     whole, x, error = search.whole, found.points[0], max(found.error, ROUNDED)
     local = local_dimension(whole.system, x, accuracy=error)
     if found.dimension == 0 and local.tangent_dimension is not None:
@@ -335,6 +364,9 @@ def _judged(
     multiplicities = {}
     for i, component in enumerate(whole.components):
         if _outside_hull(search.own[i][0], x, error):
+            continue
+        # Doubles may take a point that is close to a component for one of it.
+        if candidate.digits and not may_vanish(search.own[i][0].polynomials, candidate.digits):
             continue
         # A multiple component is simple in equations of its own.
         own = search.own[i] if component.multiplicity != 1 else (whole.system, component)

@@ -221,7 +221,7 @@ class _Stage:
             # Ends that seemed to be one may be simple zeros close together.
             for other, error in cluster[1:]:
                 admit(other, error, simple, so_far, rows, rng, deflate=False)
-            if not _new_are_alone(kept[d], simple, so_far, rows):
+            if not are_new_alone(kept[d], simple, so_far, rows):
                 doubts, found = self.beside(cluster, so_far, kept[d], rows)
                 if found.decided and found.zeros and not doubts:
                     return _not_all_found(cluster, found, so_far, d), PathCounts()
@@ -253,7 +253,7 @@ class _Stage:
             admit(x, accuracy, own, each, rows, rng, deflate=True)
             for each in dict.fromkeys((holding, so_far))
         )
-        if admitted and _new_are_alone(kept[d], own, so_far, rows):
+        if admitted and are_new_alone(kept[d], own, so_far, rows):
             kept[d][:] = own
             return [], counts
         # Zeros so close together that doubles can neither tell nor cut them.
@@ -320,7 +320,7 @@ class _Stage:
         return Superset(kept, flag, PathCounts(), tuple(notes), points, recovered), counts
 
 
-def _new_are_alone(
+def are_new_alone(
     before: Sequence[Fibre], after: Sequence[Fibre], so_far: Equations, rows: np.ndarray
 ) -> bool:
     """Whether points that doubles put last into fibres are zeros of all equations, and alone."""

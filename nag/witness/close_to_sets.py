@@ -78,7 +78,7 @@ def meant(
         for zero in end.nearby or ((end,) if end.place is Place.ISOLATED else ()):
             with flint.ctx.workdps(DIGITS):
                 here = point(zero.digits)
-                new = not any(_same(here, z) for z in met)
+                new = not any(are_same(here, z) for z in met)
             if new:
                 zeros.append(zero)
                 met.append(here)
@@ -93,11 +93,12 @@ def among(zero: SingularEnd, fibres: Sequence[Fibre], rows: np.ndarray) -> bool 
     for fibre in fibres:
         for i in np.flatnonzero(coincident(fibre.x, zero.point, CLOSE)).tolist():
             there = zero_in_digits(fibre.cut, rows, fibre.points[i], fibre.fine.get(i))
-            if there is not None and _same(here, there[: len(here)]):
+            if there is not None and are_same(here, there[: len(here)]):
                 return True
             unknown |= there is None
     return None if unknown else False
 
 
-def _same(x: Sequence[flint.acb], y: Sequence[flint.acb]) -> bool:
+def are_same(x: Sequence[flint.acb], y: Sequence[flint.acb]) -> bool:
+    """Whether points that are known to a hundred digits are one."""
     return log_norm(a - b for a, b in zip(x, y, strict=True)) < SAME

@@ -71,8 +71,8 @@ def _cut(
     # Of branches that come near to each other the nearest one is meant, if digits do not say more.
     parts = [part for _, part in sorted(near, key=lambda pair: pair[0])]
     if len(parts) > 1:
-        balls = _point_in_balls(component)
-        parts = [part for part in parts if _may_vanish(part.polynomials, balls)]
+        balls = point_in_balls(component)
+        parts = [part for part in parts if may_vanish(part.polynomials, balls)]
     if len(parts) > 1:
         together = dict.fromkeys(f for part in parts for f in part.polynomials)
         parts.append(replace(system, polynomials=tuple(together)))
@@ -86,7 +86,7 @@ def _cut(
     return None, None
 
 
-def _may_vanish(polynomials: Sequence[Polynomial], balls: Sequence[flint.acb]) -> bool:
+def may_vanish(polynomials: Sequence[Polynomial], balls: Sequence[flint.acb]) -> bool:
     """Whether no polynomial is certainly not zero at a point in balls."""
     import flint
 
@@ -96,7 +96,7 @@ def _may_vanish(polynomials: Sequence[Polynomial], balls: Sequence[flint.acb]) -
         )
 
 
-def _point_in_balls(component: WitnessSet) -> list[flint.acb]:
+def point_in_balls(component: WitnessSet) -> list[flint.acb]:
     """A witness point in balls, from the equations that cut it where the component holds them."""
     import flint
 
