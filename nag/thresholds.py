@@ -260,6 +260,10 @@ witness.cutting_in_digits.ZERO              -80     Decimal logarithm of a pivot
                                                     zeros of 100 digits.
 witness.cutting_in_digits.LONG              12      Digits of coefficients from which on multiple
                                                     zeros are told in digits from the first.
+witness.cutting_in_digits.PROBED            1e-6    Part of its size that a point is off where
+                                                    doubles tell Newton's constant there: other
+                                                    zeros are not close where it is below 1e4, which
+                                                    at conditions up to 1e8 rounding is.
 witness.close_points.CLOSE                  1e-4    Relative distance of points that are tracked in
                                                     more digits: corrections that need not contract
                                                     any more may be as large as a hundredth of it.

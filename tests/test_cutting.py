@@ -9,7 +9,9 @@ import pytest
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
-from nag.witness.cutting import Sharpened, regular_on, sharpen
+from nag.witness import cutting_in_digits
+from nag.witness.cutting import Cut, Equations, Sharpened, regular_on, sharpen
+from nag.witness.fibres import Fibre
 
 NO_SLICE = np.zeros((0, 3), dtype=complex)
 
@@ -30,3 +32,23 @@ def test_simple_zeros_side_by_side_are_regular(k: int) -> None:
     sharpened = sharpen(evaluator, NO_SLICE, np.array([10.0**-k, 1.0], dtype=complex))
     assert sharpened.converged
     assert regular_on(evaluator, NO_SLICE, sharpened)
+
+
+def is_alone(distance: Fraction) -> bool:
+    """Whether the zero of ``x^2 = distance^2`` is seen to be alone."""
+    x, y = Polynomial.variables(2)
+    equations = Equations((x**2 - distance**2, y - 1), 2)
+    zero = np.array([[float(distance), 1.0]], dtype=complex)
+    fibre = Fibre(Cut(2, 0, equations.polynomials), 0, zero)
+    return cutting_in_digits.is_alone(fibre, 0, equations, NO_SLICE)
+
+
+def test_doubles_are_enough_to_see_that_no_other_zero_is_near(monkeypatch) -> None:
+    monkeypatch.setattr(cutting_in_digits, "rated", lambda *_: pytest.fail("digits were asked"))
+    assert is_alone(Fraction(1))
+    assert is_alone(Fraction(1, 100))
+
+
+@pytest.mark.parametrize("k", range(5, 15))
+def test_zeros_that_are_close_to_others_are_not_alone(k: int) -> None:
+    assert not is_alone(Fraction(1, 10**k))
