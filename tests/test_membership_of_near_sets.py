@@ -158,3 +158,12 @@ def test_rounded_points_beside_conjugate_sheets_are_told_apart(digits: int, off:
 def _is_above(sheet: nag.WitnessSet, a: float) -> bool:
     (x, y, _), *_ = sheet.points
     return abs(y - x * x - a) < a
+
+
+@pytest.mark.parametrize("exponent", [10, 13, 16, 20])
+def test_a_rounded_point_is_not_on_two_components_that_do_not_meet_there(exponent: int) -> None:
+    circles = nag.decompose(f"(x^2 + y^2 - 4)*(x^2 + y^2 - 4 - 1/10^{exponent})")
+    assert set(memberships(circles, [2**0.5, 2**0.5])) == {Membership.UNDECIDED}
+    crossing = nag.decompose(f"(x^2 + y^2 - 4)*(x - y - 1/10^{exponent})")
+    both = memberships(crossing, [2**0.5 + 10.0**-exponent / 2, 2**0.5 - 10.0**-exponent / 2])
+    assert set(both) == {Membership.MEMBER}

@@ -15,10 +15,11 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import compared
 from nag.numerics.natural_coordinates import NaturalCoordinates
+from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import NONZERO
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
-from nag.witness.component_equations import component_fibres
+from nag.witness.component_equations import component_fibres, component_system
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
 from nag.witness.fibres import Fibre, Moved, Tracker, join_fibres, move
@@ -290,7 +291,28 @@ def memberships(
     nowhere = all(answer is Membership.FOREIGN for answer in answers)
     if nowhere and not exact and _surely_on_one(decomposition, point, accuracy):
         return (Membership.UNDECIDED,) * len(answers)
+    on = [k for k, answer in enumerate(answers) if answer is Membership.MEMBER]
+    if len(on) > 1 and not exact and not _meet_near(decomposition, on, point, accuracy):
+        return tuple(Membership.UNDECIDED if k in on else a for k, a in enumerate(answers))
     return answers
+
+
+def _meet_near(
+    decomposition: Decomposition, on: Sequence[int], point: np.ndarray, accuracy: float
+) -> bool:
+    """Whether components are seen to have a common point within the error of a rounded one.
+
+    Without such a point it is rounded from one of a single component, and it is not known which.
+    Of components that one branch of the equations holds, nothing is said against it.
+    """
+    system, components = decomposition.system, decomposition.components
+    parts = dict.fromkeys(component_system(system, components[k]).polynomials for k in on)
+    if len(parts) == 1:
+        return True
+    together = tuple(dict.fromkeys(f for part in parts for f in part))
+    error = SPREAD * accuracy
+    zero = analyse(together, point, error, np.random.default_rng(0), place_only=True)
+    return zero.place is not Place.UNDECIDED
 
 
 @dataclass(frozen=True, eq=False)
