@@ -6,7 +6,7 @@ slice at once) and `superset` (equation by equation) on `hypersurface` (one step
 out, `excluded`); `splitting` on `trace` (by `zero_sums`), `power_sums` and `monodromy`, `orbits`
 and `symmetric_images` (the same up to symmetry); `final_checks` and `assembly`, which put the
 answer together. `discovery`, `given_points` and `intersection` (on `diagonal` and `factor`) begin
-elsewhere and end alike. `branch_components` with `branch_component` follows what exact factoring
+elsewhere and end alike. `branch_components` follows what exact factoring
 decides; `one_equation` and `rational_curve` on `roots` need no paths. `through` says which
 components a case's points are on, `singular_points` (on `rank_drop` and `linear_hull`) where a
 component is singular, `singular_members` and `sweep` what parameters change, `curve_genus` by

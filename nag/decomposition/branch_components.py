@@ -3,51 +3,137 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 
 import numpy as np
 
-from nag.algebra.algebraic_zeros import BITS, AlgebraicZero, algebraic_zeros
+from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branch_equations import BranchEquations, BranchKind
 from nag.algebra.branches import branches
-from nag.algebra.evaluation import Evaluator, may_vanish
-from nag.algebra.factoring import Factors, factored
-from nag.algebra.generic_multiplicity import (
-    Gradients,
-    generic_multiplicity,
-    independent_gradients,
-)
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.linear_algebra import independent_polynomials
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.branch_component import BranchComponent
 from nag.decomposition.final_checks import judged
 from nag.decomposition.symmetric_images import in_orbits
-from nag.numerics.natural_coordinates import scale_coordinates
-from nag.numerics.singular_point import Place
-from nag.numerics.zero_values import (
-    NONZERO,
-    ON,
-    SINGULAR,
-    WRITTEN,
-    multiplicity_of_all,
-    possible_zeros,
-    widened,
+from nag.numerics.branch_union import (
+    Branch,
+    GenericPoint,
+    Known,
+    find_repeats,
+    multiplicities_in_scheme,
 )
+from nag.numerics.natural_coordinates import scale_coordinates
+from nag.numerics.singular_point import Place, SingularEnd, analyse
+from nag.numerics.zero_values import ON, SINGULAR, WRITTEN, vanishes_at_all, widened
 from nag.witness.change_of_coordinates import coordinates_of
 from nag.witness.component_equations import component_fibres
+from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, numerical_corank
-from nag.witness.exact_points import framed, sharpened
+from nag.witness.exact_points import exact_zeros, framed, sharpened
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, is_member
 from nag.witness.moving import witness_at
-from nag.witness.multiplicity import multiplicity
+from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
 
 Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
+
+
+@dataclass(frozen=True, eq=False)
+class BranchComponent(GenericPoint):
+    """A component of a branch, by its witness points.
+
+    Attributes:
+        zero: the exact zero, where it is one of an algebraic branch.
+    """
+
+    witness: WitnessSet
+    branch: BranchEquations
+    zero: AlgebraicZero | None = None
+
+    @property
+    def dimension(self) -> int:  # type: ignore[override]
+        return self.witness.dimension
+
+    @property
+    def rows(self) -> np.ndarray:  # type: ignore[override]
+        return padded(self.witness.slice.rows, 1 + self.witness.points.shape[1])
+
+    @property
+    def points(self) -> np.ndarray:
+        return self.witness.points
+
+    @cached_property
+    def point(self) -> np.ndarray:
+        """The smallest of the points, shape ``(n,)``."""
+        smallest: np.ndarray = self.points[np.linalg.norm(self.points, axis=1).argmin()]
+        return smallest
+
+    @property
+    def radii(self) -> np.ndarray | None:
+        known = self._each_known and self.witness.multiplicity == 1
+        return self.witness.radii[0] if known else None
+
+    @property
+    def multiplicity_in_branch(self) -> int:
+        # A branch is decomposed as a set: where points are not simple, nothing is known.
+        simple = self.witness.multiplicity == 1 and self.witness.corank == self.witness.dimension
+        return 1 if simple else 0
+
+    @property
+    def error(self) -> float:
+        return widened(self.point, self.witness.accuracy)
+
+    def vanishes_in_digits(self, f: Polynomial, image: Polynomial) -> bool | None:
+        multiple = self._isolated and self.witness.multiplicity != 1
+        fibre = None if multiple and self.zeros else self._fibre
+        if fibre is None:
+            # Doubles do not see that the points are regular, or are of a zero known to 100 digits.
+            return vanishes_at_all(self.zeros, f)
+        first = fibre.only(np.arange(len(fibre)) == 0)
+        (answer,) = vanishing(first.cut, f, self.witness.slice.rows, first.points, first.fine)
+        return vanishes_at_all(self.zeros, f) if answer is None else answer
+
+    def in_digits(self) -> Known:
+        # Zeros of other branches may be close to it.
+        if len(self.zeros) == 1:
+            return self.zeros[0].digits, WRITTEN
+        return self.point, ACCURACY
+
+    @property
+    def _isolated(self) -> bool:
+        """Whether it is a point that paths ended at."""
+        return not self.witness.fibres and not self.witness.dimension
+
+    @property
+    def _each_known(self) -> bool:
+        """Whether it is a point of which the error of each coordinate is known."""
+        return self._isolated and bool(np.ptp(self.witness.radii[0]) > 0)
+
+    def place_among(self, equations: Sequence[Polynomial]) -> Place:
+        """Where it lies among zeros of others, if it is an isolated point and one of these."""
+        if self.witness.dimension or self.zero is not None or len(self.zeros) != 1:
+            return Place.UNDECIDED
+        rng = np.random.default_rng(0)
+        return analyse(equations, self.zeros[0].digits, WRITTEN, rng, place_only=True).place
+
+    @cached_property
+    def _fibre(self) -> Fibre | None:
+        """The points with equations that cut them; None where these are not regular zeros."""
+        try:
+            return component_fibres(self.branch.system, self.witness)[0]
+        except ValueError:
+            return None
+
+    @cached_property
+    def zeros(self) -> tuple[SingularEnd, ...]:
+        """The exact zeros on the slice that the first point may stand for."""
+        return exact_zeros(self.branch.system.polynomials, self.witness)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +175,7 @@ def decompose_apart(
         systems = [b.system(system) for b in apart]
         used = symmetries if len(systems) == 1 and _keep(symmetries, systems[0]) else ()
         parts = [_part(each, whole, used, rng) for each in systems]
-    joined, notes, counts = _joined(parts, rng, Tracker(settings, threads))
+    joined, notes, counts = _join(parts, rng, Tracker(settings, threads))
     components = [c.witness for c in joined]
     if apart is not None:
         components = _in_scheme(system, joined)
@@ -195,92 +281,66 @@ def _corank(evaluator: Evaluator, x: np.ndarray) -> int:
     return numerical_corank(s, len(x), SINGULAR)
 
 
-def _joined(
+@dataclass
+class _Coverage:
+    """Looks for components in larger ones of other branches, and counts the paths that it takes."""
+
+    rng: np.random.Generator
+    tracker: Tracker
+    counts: PathCounts = field(default=PathCounts())
+
+    def is_in_larger(self, part: _Part, component: BranchComponent) -> bool | None:
+        """Whether a component on which the equations of a part vanish is in a larger one of it."""
+        witness = component.witness
+        larger = [c for c in part.components if c.witness.dimension > witness.dimension]
+        if larger and len(larger) == len(part.components):
+            return True
+        place = component.place_among(part.system.polynomials) if larger else Place.ISOLATED
+        if place in (Place.ISOLATED, Place.ON_COMPONENT):
+            return place is Place.ON_COMPONENT
+        result: bool | None = False
+        for each in larger:
+            try:
+                fibres = component_fibres(part.system, each.witness)
+            except ValueError:
+                result = None
+                continue
+            point, rows = witness.points[0], each.witness.slice.rows
+            answer, spent = is_member(point, witness.accuracy, fibres, rows, self.rng, self.tracker)
+            self.counts += spent
+            if answer is Membership.MEMBER:
+                return True
+            if answer is Membership.UNDECIDED:
+                result = None
+        return result
+
+
+def _join(
     parts: Sequence[_Part], rng: np.random.Generator, tracker: Tracker
 ) -> tuple[list[BranchComponent], list[str], PathCounts]:
-    """The components of all branches that lie in no component of another branch.
-
-    A component lies in the zero set of another branch when the equations vanish at one of its
-    generic points. Then it is one of that branch's components or part of a larger one.
-    """
+    """The components of all branches that lie in no component of another branch."""
+    coverage = _Coverage(rng, tracker)
     kept: list[BranchComponent] = []
     notes: list[str] = []
-    counts = PathCounts()
-    systems = [part.system.polynomials for part in parts]
-    first = [c.witness.points[0] for part in parts for c in part.components]
-    near = iter(may_vanish(systems, np.array(first), NONZERO) if first else ())
-    for i, part in enumerate(parts):
-        for component, close in zip(part.components, near, strict=False):
-            inside = False
-            for j in (j for j in np.flatnonzero(close).tolist() if j != i):
-                answer, spent = _covered(component, parts[j], j < i, rng, tracker)
-                counts += spent
-                if answer is Membership.UNDECIDED:
-                    d = component.witness.dimension
-                    notes.append(f"a component of dimension {d} may lie in one of another branch")
-                inside |= answer is Membership.MEMBER
-                if inside:
-                    break
-            if not inside:
-                kept.append(component)
-    return kept, notes, counts
-
-
-def _covered(
-    component: BranchComponent,
-    other: _Part,
-    earlier: bool,
-    rng: np.random.Generator,
-    tracker: Tracker,
-) -> tuple[Membership, PathCounts]:
-    """Whether a component is in one of another branch: in a larger one, or in an earlier branch."""
-    counts = PathCounts()
-    unknown = False
-    for f in other.system.polynomials:
-        there = component.vanishes(f)
-        if there is False:
-            return Membership.FOREIGN, counts
-        unknown |= there is None
-    if unknown:
-        return Membership.UNDECIDED, counts
-    witness = component.witness
-    larger = [c for c in other.components if c.witness.dimension > witness.dimension]
-    if earlier or (larger and len(larger) == len(other.components)):
-        return Membership.MEMBER, counts
-    place = component.place_among(other.system.polynomials) if larger else Place.ISOLATED
-    if place in (Place.ISOLATED, Place.ON_COMPONENT):
-        on = place is Place.ON_COMPONENT
-        return Membership.MEMBER if on else Membership.FOREIGN, counts
-    result = Membership.FOREIGN
-    for each in larger:
-        try:
-            fibres = component_fibres(other.system, each.witness)
-        except ValueError:
-            result = Membership.UNDECIDED
-            continue
-        point, rows = witness.points[0], each.witness.slice.rows
-        answer, spent = is_member(point, witness.accuracy, fibres, rows, rng, tracker)
-        counts += spent
-        if answer is Membership.MEMBER:
-            return answer, counts
-        if answer is Membership.UNDECIDED:
-            result = answer
-    return result, counts
+    branches = [
+        Branch(part.system, part.components, partial(coverage.is_in_larger, part)) for part in parts
+    ]
+    for component, repeated in find_repeats(branches):
+        if repeated is None:
+            d = component.witness.dimension
+            notes.append(f"a component of dimension {d} may lie in one of another branch")
+        if not repeated:
+            kept.append(component)
+    return kept, notes, coverage.counts
 
 
 def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) -> list[WitnessSet]:
     """The components with what the original equations make of them."""
-    equations = [factored(f) for f in system.polynomials if f]
-    factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
     original = Evaluator.of(system.polynomials, system.n)
-    products = Evaluator.of(factors, system.n)
-    gradients = Gradients.of([f for f in system.polynomials if f], system.n)
     found = []
-    for component in components:
+    multiplicities = multiplicities_in_scheme(system, components)
+    for component, multiple in zip(components, multiplicities, strict=True):
         witness = component.witness
-        far = (products.residuals(witness.points) > NONZERO).any(axis=0)
-        component.vanishes.exclude(p for p, nonzero in zip(factors, far, strict=True) if nonzero)
-        multiple = _multiplicity(equations, gradients, component)
         residual = float(original.residuals(witness.points).max(initial=0.0))
         reasons = [witness.note] if witness.note else []
         if residual > max(ON, witness.accuracy):
@@ -297,46 +357,6 @@ def _in_scheme(system: PolynomialSystem, components: Sequence[BranchComponent]) 
         )
         found.append(changed)
     return found
-
-
-def _multiplicity(
-    equations: Sequence[Factors], gradients: Gradients, component: BranchComponent
-) -> int:
-    """The multiplicity of a component in the scheme of all equations; 0 if it was not found."""
-    witness = component.witness
-    n = witness.points.shape[1]
-    x = witness.points[np.linalg.norm(witness.points, axis=1).argmin()]
-
-    codimension = n - witness.dimension
-
-    simple = component.zero is None and witness.multiplicity == 1
-    # A scheme is reduced where as many gradients are independent as its codimension.
-    if simple and gradients.rank(x, widened(x, witness.accuracy)) >= codimension:
-        return 1
-    regular = simple and witness.corank == witness.dimension
-    if regular and component.branch.is_own_ring(equations, component.vanishes):
-        return 1
-
-    def independent(polynomials: Sequence[Polynomial]) -> bool:
-        if component.zero is not None and all(f.exact for f in polynomials):
-            return component.zero.independent(polynomials)
-        return independent_gradients(polynomials, x, widened(x, witness.accuracy))
-
-    def by_local_ring(generators: Sequence[Polynomial]) -> int:
-        rows, rng = witness.slice.rows, np.random.default_rng(0)
-        # Zeros of other branches may be close to it.
-        if component.zero is not None:
-            at, error = component.zero.known_to(BITS), 2.0**-BITS
-        elif len(component.zeros) == 1:
-            at, error = component.zeros[0].digits, WRITTEN
-        else:
-            return multiplicity(generators, rows, x, rng)
-        there = possible_zeros(generators, at, error, rng, padded(rows, 1 + n))
-        return multiplicity_of_all(there) or 0
-
-    return generic_multiplicity(
-        equations, codimension, component.vanishes, independent, by_local_ring
-    )
 
 
 def _orbits(

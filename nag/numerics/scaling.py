@@ -96,21 +96,6 @@ def scaled_terms(f: Polynomial, scales: np.ndarray) -> dict[Exponents, Number]:
     return {e: c if shifts[e] == top else c * powers[shifts[e]] for e, c in f.terms.items()}
 
 
-def scaled_at(
-    polynomials: Sequence[Polynomial], x: np.ndarray
-) -> tuple[list[Polynomial], np.ndarray]:
-    """Polynomials in variables of about size one at ``x``, by powers of two, and the point there.
-
-    Coordinates that vanish, and those whose sizes leave the range, keep their variables.
-    """
-    sizes = np.abs(x)
-    scales = np.zeros(len(x), dtype=np.int64)
-    usable = (sizes > 0) & np.isfinite(sizes)
-    scales[usable] = np.rint(np.log2(sizes[usable])).astype(np.int64)
-    scaled = [Polynomial(f.n, scaled_terms(f, scales)) for f in polynomials]
-    return scaled, np.asarray(x) * np.exp2(-scales.astype(float))
-
-
 def independent_rows(
     rows: Sequence[dict[Exponents, Number]],
 ) -> tuple[dict[Exponents, Number], ...]:

@@ -9,32 +9,28 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import islice
-from typing import Any
 
 import numpy as np
 
-from nag.algebra.algebraic_zeros import BITS, AlgebraicZero, algebraic_zeros
-from nag.algebra.branch_equations import BranchEquations, BranchKind, Vanishing
+from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.branch_equations import BranchEquations, BranchKind
 from nag.algebra.branches import branches
-from nag.algebra.evaluation import Evaluator, may_vanish
-from nag.algebra.factoring import Factors, factored
-from nag.algebra.generic_multiplicity import (
-    generic_multiplicity,
-    independent_gradients,
-)
+from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.scaling import scaled_at
+from nag.numerics.branch_union import (
+    Branch,
+    GenericPoint,
+    Known,
+    find_repeats,
+    multiplicities_in_scheme,
+)
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import (
-    NONZERO,
     SLACK,
     WRITTEN,
     alike,
-    multiplicity_of_all,
     possible_zeros,
-    surely_differs,
     vanishes_at_all,
     widened,
 )
@@ -52,41 +48,61 @@ Tracked = Callable[[PolynomialSystem], SolveResult]
 
 
 @dataclass(frozen=True, eq=False)
-class _Found:
+class _Found(GenericPoint):
     """A solution of one branch.
 
     Attributes:
+        branch: what led there from its equations.
         zero: the exact zero, where it is one of an algebraic branch.
-        branch: of any other, what led there from its equations.
-        tracked: the solution of the system that was left; None where elimination left one point.
+        tracked: the solution of the system that was left; None where none was tracked.
     """
 
     solution: Solution
+    branch: BranchEquations
     zero: AlgebraicZero | None = None
-    branch: BranchEquations | None = None
     tracked: Solution | None = None
 
-    @cached_property
-    def vanishes(self) -> Vanishing:
-        """Whether a polynomial vanishes at the exact zero."""
-        return Vanishing(self._vanishes)
+    @property
+    def points(self) -> np.ndarray:
+        return self.solution.point[None]
 
-    def _vanishes(self, f: Polynomial) -> bool | None:
-        x = self.solution.point
-        if self.zero is not None and f.exact:
-            return self.zero.vanishes(f)
-        if Evaluator.of([f], f.n).residuals(x[None])[0, 0] > NONZERO:
-            return False
-        if self.zero is not None:
-            return None
-        radii = self.solution.radii if self.solution.multiplicity == 1 else None
-        if radii is not None and surely_differs(f, x, radii):
-            return False
-        assert self.branch is not None
-        image, zero = self.branch.image(f)
-        if zero or self.tracked is None:
-            return zero
-        return vanishes_at_all(self._zeros, image)
+    @property
+    def point(self) -> np.ndarray:
+        return self.solution.point
+
+    @property
+    def radii(self) -> np.ndarray | None:
+        return self.solution.radii if self.solution.multiplicity == 1 else None
+
+    @property
+    def multiplicity_in_branch(self) -> int:
+        return self.solution.multiplicity
+
+    @property
+    def error(self) -> float | np.ndarray:
+        x, accuracy = self.point, self.solution.accuracy
+        if self.solution.precision >= DIGITS:
+            # Each coordinate is known to rounding, however small it is beside the others.
+            return SLACK * accuracy * np.where(x == 0, 1.0, np.abs(x))
+        if self.solution.radii is not None:
+            return SLACK * self.solution.radii
+        return widened(x, accuracy)
+
+    def vanishes_in_digits(self, f: Polynomial, image: Polynomial) -> bool | None:
+        return vanishes_at_all(self._zeros, image) if self.tracked is not None else None
+
+    def in_digits(self) -> Known:
+        if self.tracked is not None and len(self._zeros) != 1:
+            return _known(self.solution)
+        # Zeros of other branches may be close to it.
+        import flint
+
+        from nag.numerics.digits import number, point
+
+        with flint.ctx.workdps(WORKING):
+            y = point(self._zeros[0].digits) if self.tracked is not None else []
+            images = self.branch.elimination.images
+            return [flint.acb(f(y, number)).mid() for f in images], WRITTEN
 
     @cached_property
     def _zeros(self) -> tuple[SingularEnd, ...]:
@@ -94,27 +110,13 @@ class _Found:
 
         Paths end at a zero as many times as its multiplicity says: no other is meant.
         """
-        assert self.branch is not None
-        assert self.tracked is not None
+        if self.tracked is None:
+            return ()
         equations = self.branch.elimination.system.polynomials
         y, error = _known(self.tracked)
         zeros = possible_zeros(equations, y, error, np.random.default_rng(0))
         zeros = tuple(z for z in zeros if z.multiplicity == self.tracked.multiplicity)
         return alike(zeros, y) if len(zeros) > 1 else zeros
-
-    @cached_property
-    def in_digits(self) -> list[Any] | None:
-        """The coordinates to 100 digits (FLINT's ``acb``) where it is known which zero this is."""
-        if self.tracked is not None and len(self._zeros) != 1:
-            return None
-        import flint
-
-        from nag.numerics.digits import number, point
-
-        assert self.branch is not None
-        with flint.ctx.workdps(WORKING):
-            y = point(self._zeros[0].digits) if self.tracked is not None else []
-            return [flint.acb(f(y, number)).mid() for f in self.branch.elimination.images]
 
 
 def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:
@@ -143,9 +145,13 @@ class _Part:
     undecided: np.ndarray
 
     @property
-    def finite(self) -> bool:
-        """Whether nothing says that its zero set has positive dimension."""
-        return not len(self.larger.points)
+    def branch(self) -> Branch[_Found]:
+        """The branch by the solutions."""
+        return Branch(self.system, self.found, self._is_in_larger)
+
+    def _is_in_larger(self, zero: _Found) -> bool:
+        """Whether a zero of the equations is no isolated one: these were all found."""
+        return bool(len(self.larger.points)) and not _near(zero, self.found)
 
 
 def solve_apart(
@@ -186,8 +192,9 @@ def _exact(
     evaluator = Evaluator.of(system.polynomials, system.n)
     none, nothing = np.zeros((0, system.n), dtype=complex), LargerSets.of(system.n)
     if zeros is not None:
-        known = ((_rounded_solution(evaluator, z.point, z.multiplicity, z.real), z) for z in zeros)
-        return _Part(system, tuple(_Found(*each) for each in known), None, nothing, none)
+        solutions = (_rounded_solution(evaluator, z.point, z.multiplicity, z.real) for z in zeros)
+        known = tuple(_Found(s, branch, z) for s, z in zip(solutions, zeros, strict=True))
+        return _Part(system, known, None, nothing, none)
     if branch.kind is BranchKind.EMPTY:
         return _Part(system, (), None, nothing, none)
     # Of a linear space, or a graph over one, every point will do.
@@ -196,7 +203,7 @@ def _exact(
     if branch.kind is BranchKind.LINEAR_SPACE:
         excluded = any(branch.image(f)[1] for f in nonzero)
         return _Part(system, (), None, LargerSets.of(system.n, [(point[0], excluded)]), none)
-    found = _Found(_rounded_solution(evaluator, point[0], 1, True), None, branch)
+    found = _Found(_rounded_solution(evaluator, point[0], 1, True), branch)
     return _Part(system, (found,), None, nothing, none)
 
 
@@ -223,7 +230,7 @@ def _part(
     result = tracked(replace(elimination.system, nonzero=images))
     # All equations say later which of them are left out.
     solutions = (*result.solutions, *result.excluded_solutions)
-    found = tuple(_Found(lifted_solution(s, elimination), None, branch, s) for s in solutions)
+    found = tuple(_Found(lifted_solution(s, elimination), branch, None, s) for s in solutions)
     larger = result.larger.mapped(elimination.lift)
     return _Part(branch.system, found, result, larger, elimination.lift(result.undecided))
 
@@ -233,14 +240,11 @@ def _joined(
 ) -> SolveResult:
     undecided = [np.zeros((0, system.n), dtype=complex), *(part.undecided for part in parts)]
     kept: list[_Found] = []
-    systems = [part.system.polynomials for part in parts]
-    points = _points([f for part in parts for f in part.found], system.n)
-    near = iter(may_vanish(systems, points, NONZERO))
-    for i, part in enumerate(parts):
-        close = list(islice(near, len(part.found)))
-        isolated, left_open = _own(i, parts, close)
-        kept += isolated
-        undecided.append(_points(left_open, system.n))
+    doubtful: list[_Found] = []
+    for each, repeated in find_repeats([part.branch for part in parts]):
+        if not repeated:
+            (doubtful if repeated is None else kept).append(each)
+    undecided.append(_points(doubtful, system.n))
     solutions, left_open, excluded = _in_scheme(system, kept, apart)
     undecided.append(_points(left_open, system.n))
     open_points = np.vstack(undecided)
@@ -297,64 +301,30 @@ def _in_scheme(
     Also those where that was not found, and those where a polynomial vanishes that must not, with
     the multiplicities that they have in their branches.
     """
-    equations = [factored(f) for f in system.polynomials if f]
-    factors = [*dict.fromkeys(p for each in equations for p, _ in each)]
-    points = _points(kept, system.n)
-    far = Evaluator.of(factors, system.n).residuals(points) > NONZERO
-    residuals = Evaluator.of(system.polynomials, system.n).residuals(points)
-    solutions, left_open, excluded = [], [], []
-    for each, nonzero, residual in zip(kept, far, residuals, strict=True):
+    residuals = Evaluator.of(system.polynomials, system.n).residuals(_points(kept, system.n))
+    allowed: list[tuple[_Found, float]] = []
+    left_open, excluded, solutions = [], [], []
+    for each, residual in zip(kept, residuals, strict=True):
         forbidden = [each.vanishes(f) for f in system.nonzero]
         if any(forbidden):
             excluded.append(each.solution)
-            continue
-        multiplicity = each.solution.multiplicity
-        if apart:
-            each.vanishes.exclude(p for p, there in zip(factors, nonzero, strict=True) if there)
-            multiplicity = _multiplicity(equations, each)
-        if not multiplicity or None in forbidden:
+        elif None in forbidden:
+            left_open.append(each)
+        else:
+            allowed.append((each, float(residual.max(initial=0.0))))
+    points = [each for each, _ in allowed]
+    given = (each.solution.multiplicity for each in points)
+    multiplicities = multiplicities_in_scheme(system, points) if apart else given
+    for (each, size), multiplicity in zip(allowed, multiplicities, strict=True):
+        if not multiplicity:
             left_open.append(each)
             continue
-        size = float(residual.max(initial=0.0))
         solutions.append(replace(each.solution, multiplicity=multiplicity, residual=size))
     return tuple(solutions), left_open, tuple(excluded)
 
 
 def _points(found: Sequence[_Found], n: int) -> np.ndarray:
     return np.array([f.solution.point for f in found], dtype=complex).reshape(-1, n)
-
-
-def _own(
-    i: int, parts: Sequence[_Part], near: Sequence[np.ndarray]
-) -> tuple[list[_Found], list[_Found]]:
-    """The solutions of a branch that are isolated, and no ones of an earlier branch.
-
-    Also those that are left open.
-
-    Args:
-        near: for each solution in which branches it may lie, shape ``(branches,)``.
-    """
-    isolated: list[_Found] = []
-    left_open: list[_Found] = []
-    for each, close in zip(parts[i].found, near, strict=True):
-        place: list[_Found] | None = isolated
-        for j in np.flatnonzero(close).tolist():
-            if j == i:
-                continue
-            there = [each.vanishes(f) for f in parts[j].system.polynomials]
-            if False in there:
-                continue
-            if None in there:
-                place = left_open
-                break
-            alone = parts[j].finite or _near(each, parts[j].found)
-            if j < i or not alone:
-                place = None
-            if not alone:
-                break
-        if place is not None:
-            place.append(each)
-    return isolated, left_open
 
 
 def _near(each: _Found, others: Sequence[_Found]) -> bool:
@@ -364,31 +334,3 @@ def _near(each: _Found, others: Sequence[_Found]) -> bool:
         np.linalg.norm(other.solution.point - x) < NEAR * (1 + np.linalg.norm(x))
         for other in others
     )
-
-
-def _multiplicity(equations: Sequence[Factors], each: _Found) -> int:
-    """The multiplicity of a solution in the scheme of all equations; 0 if it was not found."""
-    x, accuracy = each.solution.point, each.solution.accuracy
-    if each.branch is not None and each.branch.is_own_ring(equations, each.vanishes):
-        return each.solution.multiplicity
-
-    def independent(polynomials: Sequence[Polynomial]) -> bool:
-        if each.zero is not None and all(f.exact for f in polynomials):
-            return each.zero.independent(polynomials)
-        if each.solution.precision >= DIGITS:
-            # Each coordinate is known to rounding, however small it is beside the others.
-            return independent_gradients(*scaled_at(polynomials, x), SLACK * accuracy)
-        if each.solution.radii is not None:
-            return independent_gradients(polynomials, x, SLACK * each.solution.radii)
-        return independent_gradients(polynomials, x, widened(x, accuracy))
-
-    def by_local_ring(generators: Sequence[Polynomial]) -> int | None:
-        at, error = _known(each.solution)
-        if each.zero is not None:
-            at, error = each.zero.known_to(BITS), 2.0**-BITS
-        elif each.in_digits is not None:
-            # Zeros of other branches may be close to it.
-            at, error = each.in_digits, WRITTEN
-        return multiplicity_of_all(possible_zeros(generators, at, error, np.random.default_rng(0)))
-
-    return generic_multiplicity(equations, len(x), each.vanishes, independent, by_local_ring)
