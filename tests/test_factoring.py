@@ -11,11 +11,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from systems import system
 
+from nag.algebra import branch_equations
+from nag.algebra.branch_equations import BranchEquations, BranchKind
 from nag.algebra.branches import branches
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.factoring import factored, product
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.solving.solve import solve
 
 small = st.lists(
     st.tuples(st.integers(0, 2), st.integers(0, 2), st.fractions(-3, 3, max_denominator=5)),
@@ -106,6 +109,28 @@ def test_too_many_branches_are_not_followed_but_common_factors_are() -> None:
 
 def test_a_system_that_linear_equations_only_repeat_is_whole() -> None:
     assert branches(system("x y z", "x - 1", "y", "x^2 + y^2 - 1", "z^2 + x*y - 2")) is None
+
+
+def test_what_kind_a_branch_is_takes_no_elimination_where_equations_are_solved(monkeypatch) -> None:
+    monkeypatch.setattr(branch_equations, "eliminate_linear", lambda *_, **__: pytest.fail())
+    left = system("x y z", "x - y + 1", "y^2 + z^2 - 1")
+    assert BranchEquations(left, graphs=False).kind is BranchKind.SYSTEM
+    assert BranchEquations(left, graphs=True).kind is BranchKind.SYSTEM
+    assert solve(system("x y z", "x + y + z - 1", "x^2 + 2*y^2 - 3", "y^2 + x*z - 5")).complete
+
+
+@pytest.mark.parametrize(
+    ("equations", "kind"),
+    [
+        (("x - y + 1", "z - y^2"), BranchKind.LINEAR_SPACE),
+        (("x - 1", "y - x^2", "z - y^2"), BranchKind.POINT),
+        (("x - y", "x - y + 1", "z^2 - y^2 - 2"), BranchKind.EMPTY),
+        (("x - y", "y - x", "z^2 - y^2 - 2"), BranchKind.SYSTEM),
+        (("x - y", "2*x - y - 1", "x^2 + y^2 - 2"), BranchKind.LINEAR_SPACE),
+    ],
+)
+def test_what_kind_a_branch_is(equations, kind) -> None:
+    assert BranchEquations(system("x y z", *equations), graphs=True).kind is kind
 
 
 def test_flint_is_not_loaded_before_something_is_factored() -> None:

@@ -5,12 +5,19 @@ Whether polynomials vanish on a component is said as far as exact algebra shows 
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 
-from nag.algebra.elimination import Elimination, eliminate_linear, solved, substituted
+from nag.algebra.elimination import (
+    Elimination,
+    eliminate_linear,
+    linear_variables,
+    solved,
+    substituted,
+)
 from nag.algebra.factoring import Factors, factored
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -60,10 +67,12 @@ class BranchEquations:
 
     Attributes:
         graphs: whether equations of degree two and more are solved for variables as well.
+        curved: whether it is known before that elimination ends with equations left.
     """
 
     system: PolynomialSystem
     graphs: bool
+    curved: bool = False
     _images: dict[Polynomial, tuple[Polynomial, bool]] = field(default_factory=dict)
     _own: dict[frozenset[Polynomial], bool] = field(default_factory=dict)
 
@@ -79,12 +88,28 @@ class BranchEquations:
         Its dimension, where no equation is left, is the number of variables that are. It has no
         points where a polynomial that must not vanish does so identically.
         """
+        if not self.system.nonzero and (self.curved or self._is_solved):
+            return BranchKind.SYSTEM
         reduced = self.elimination.system
         if any(f.degree == 0 for f in reduced.polynomials) or not all(reduced.nonzero):
             return BranchKind.EMPTY
         if reduced.polynomials:
             return BranchKind.SYSTEM
         return BranchKind.LINEAR_SPACE if reduced.n else BranchKind.POINT
+
+    @property
+    def _is_solved(self) -> bool:
+        """Whether there is nothing to solve but linear equations for variables of their own.
+
+        The others are then those that are left.
+        """
+        equations = [f for f in self.system.polynomials if f]
+        curved = [f for f in equations if f.degree > 1]
+        if not curved or (self.graphs and any(linear_variables(f) for f in curved)):
+            return False
+        often = Counter(i for f in equations for i in f.support)
+        linear = [f for f in equations if f.degree <= 1]
+        return all(any(often[i] == 1 for i in f.support) for f in linear)
 
     def image(self, f: Polynomial) -> tuple[Polynomial, bool]:
         """A polynomial in the variables that are left, and whether it is seen to vanish there."""

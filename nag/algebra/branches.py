@@ -40,32 +40,59 @@ class Branch:
         return replace(like, polynomials=self.polynomials)
 
 
+@dataclass(frozen=True)
+class Branches:
+    """What the search for branches of a system shows.
+
+    Attributes:
+        parts: the branches, none of them in another one; None if the system is its only branch.
+        curved: whether it is, and others are left when linear equations have been used, none of
+            them linear in a variable, so that elimination ends there.
+    """
+
+    parts: tuple[Branch, ...] | None
+    curved: bool = False
+
+
 def branches(system: PolynomialSystem) -> tuple[Branch, ...] | None:
     """The branches of a system, none of them in another one; None if it is its only branch.
 
     Their zero sets together are that of the system, but for what lies in the zero set of a
     polynomial of ``system.nonzero``. There is no branch where the equations contradict each other.
     """
+    return search_branches(system).parts
+
+
+def search_branches(system: PolynomialSystem) -> Branches:
+    """The branches of a system, as `branches` says, and what else was seen on the way."""
     equations = [f for f in system.polynomials if f]
     exact = [f for f in equations if f.exact and len(f.terms) <= MOST_TERMS]
     rest = tuple(dict.fromkeys(f for f in equations if not f.exact or len(f.terms) > MOST_TERMS))
     if not exact:
-        return None
+        return Branches(None)
     search = Search(ring(system.n), system.groups, bool(rest))
     start = search.start(exact, [f for f in system.nonzero if f and f.exact])
     if start is None:
-        return ()
+        return Branches(())
     try:
         leaves = list(search.leaves(start))
     except TooManyBranches:
         leaves = search.parted(start)
     else:
         if len(leaves) == 1 and (not search.changed or search.without_factors(exact, leaves[0])):
-            return None
+            return Branches(None, not rest and _is_curved(leaves[0]))
         leaves = search.refined(leaves)
     leaves = [leaf for leaf in leaves if not search.contradictory(leaf)]
     found = [_branch(search, leaf, rest) for leaf in search.irredundant(leaves)]
-    return tuple(sorted(found, key=lambda b: len(b.polynomials)))
+    return Branches(tuple(sorted(found, key=lambda b: len(b.polynomials))))
+
+
+def _is_curved(leaf: State) -> bool:
+    """Whether equations are left, and none of them is linear in a variable."""
+    left = [product_of(e) for e in leaf.equations]
+    return bool(left) and not any(
+        k == 1 and f.derivative(i).is_constant() for f in left for i, k in enumerate(f.degrees())
+    )
 
 
 def _branch(search: Search, leaf: State, rest: tuple[Polynomial, ...]) -> Branch:

@@ -14,7 +14,7 @@ import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branch_equations import BranchEquations, BranchKind
-from nag.algebra.branches import branches
+from nag.algebra.branches import search_branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -168,9 +168,10 @@ def solve_apart(
     """
     if system.n == 0:
         return None
-    apart = branches(replace(system, nonzero=()))
+    found = search_branches(replace(system, nonzero=()))
+    apart = found.parts
     if apart is None:
-        branch = BranchEquations(replace(system, nonzero=()), graphs=True)
+        branch = BranchEquations(replace(system, nonzero=()), True, found.curved)
         whole = _exact(branch, system.nonzero) if exactly else None
         if whole is None:
             return None
