@@ -192,7 +192,7 @@ def _from_fine(
     """A point that is close to others, from the digits that it has."""
     import flint
 
-    lost = max(0, int(np.log10(fine.curvature)))
+    lost = int(np.log10(max(fine.curvature, 1.0)))
     with flint.ctx.workdps(digits + SPARE + 2 * lost):
         found = zero_from(cut.polynomials, rows, fine, digits + lost)
         if found is None:
@@ -366,9 +366,10 @@ def _exact(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) -> 
 
 def _radii(fibre: Fibre, exact: ExactPoints) -> tuple[np.ndarray, np.ndarray]:
     """Distances from points that are known to more digits, and how many these are."""
-    off = (exact.values - fixed(fibre.x, exact.bits)).astype(float)
+    # Whole numbers of the unit may leave the range of doubles.
+    off = ((exact.values - fixed(fibre.x, exact.bits)) / (1 << exact.bits)).astype(float)
     n = fibre.cut.n
-    distances = np.ldexp(np.hypot(off[:, :n], off[:, n:]), -exact.bits)
+    distances = np.hypot(off[:, :n], off[:, n:])
     radii = (1 + 4 * EPS) * distances + ESTIMATE * exact.radii[:, None]
     balls = np.where(exact.balls, IN_BALLS, IN_DOUBLE_DOUBLE)
     return radii, np.where(np.isfinite(exact.radii), balls, DOUBLE)
