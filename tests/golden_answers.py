@@ -27,6 +27,7 @@ import io
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 import time
@@ -271,19 +272,22 @@ def keep(options: argparse.Namespace) -> int:
     asker = Asker(folder, frozenset(options.ask or ASKED), range(first, last))
     chosen = options.case or cases
     seconds: list[tuple[float, str]] = []
+    slow = 0
     for questions in (asker.about_cases(chosen), asker.about_exports(chosen)):
         left = asker.left(questions, options.below)
         for run in timed_runs(ask, left, limit=options.below, jobs=options.jobs, first=WARM):
             _keep_run(run)
             name = str(run.task.target.relative_to(folder))
             seconds.append((run.seconds, name))
+            slow += run.slow
             if run.error:
                 print(f"{name}: {run.error}", flush=True)
     if "atlas" in asker.names and not options.case:
-        began = os.times()
+        began = _children()
         keep_atlas(folder / "atlas", len(asker.seeds), max(1, round(options.below)), options.jobs)
-        seconds.append((_children(began), "atlas"))
-    print(f"{len(seconds)} questions, {sum(s for s, _ in seconds):.0f} s of processor time")
+        seconds.append((_children() - began, "atlas"))
+    total = sum(s for s, _ in seconds)
+    print(f"{len(seconds)} questions, {slow} slow, {total:.0f} s of processor time")
     for spent, name in sorted(seconds, reverse=True)[:10]:
         print(f"{spent:8.1f} s  {name}")
     return 0
@@ -295,16 +299,17 @@ def _refused(folder: Path) -> str:
     now = subprocess.run(describe, capture_output=True, text=True, check=True).stdout
     file = folder / "sources.txt"
     if file.exists() and (file.read_text() != now or "dirty" in now):
-        return f"{folder}: holds answers of {file.read_text().strip()}; name another folder"
+        held = file.read_text().strip()
+        return f"{folder}: holds answers of {held}, these are of {now.strip()}; name another folder"
     folder.mkdir(parents=True, exist_ok=True)
     file.write_text(now)
     return ""
 
 
-def _children(began: os.times_result) -> float:
-    """Processor time of the processes that ended since."""
-    now = os.times()
-    return now.children_user + now.children_system - began.children_user - began.children_system
+def _children() -> float:
+    """Processor time of all processes that were started here and have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def keep_atlas(folder: Path, seeds: int, limit: int, jobs: int) -> None:
@@ -374,7 +379,7 @@ HOW = frozenset([
 # Numbers of components in the order of the export.
 NUMBERS = frozenset(["essential", "examined", "smooth", "same", "unknown"])
 # Lines of what is printed that are part of the answer.
-ROWS = ("answer", "known", "mobility", "genus", "bonds")
+ROWS = ("answer", "known", "mobility", "components", "curve", "point")
 # Relative radius of points that are exported without.
 ROUNDED = 1e-8
 
@@ -603,7 +608,7 @@ def compare_atlas(a: Path, b: Path) -> tuple[Grade, str]:
 
 def kept_in(folder: Path) -> set[str]:
     """Names of the answers in a folder: files without endings."""
-    files = [*folder.rglob("*.*.txt"), *folder.rglob("*/*.txt"), *(folder / "atlas").glob("*.json")]
+    files = [*folder.rglob("*/*.txt"), *(folder / "atlas").glob("*.json")]
     return {file.relative_to(folder).with_suffix("").as_posix() for file in files}
 
 
@@ -665,10 +670,10 @@ def timer(checkout: Path) -> Iterator[Any]:
 
 
 def _process_seconds(checkout: Path) -> float:
-    began = os.times()
+    began = _children()
     command = [sys.executable, "-m", "nag", *START_UP]
     subprocess.run(command, stdout=subprocess.DEVNULL, check=False, **_environment(checkout))
-    return _children(began)
+    return _children() - began
 
 
 def pair(options: argparse.Namespace) -> int:
