@@ -17,6 +17,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
 from nag.algebra.symmetric_family import SymmetricFamily
 from nag.cli import main
+from nag.errors import StartError
 from nag.files.solutions_export import export_text
 from nag.solving import solve_classes
 from nag.solving.kantorovich import Confirmation
@@ -24,7 +25,6 @@ from nag.solving.parameter import solve_family, solve_generic
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solve_classes import ClassEnds, track_classes
 from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
-from nag.solving.start.target import StartError
 
 # Symmetric in x and y, and even.
 EVEN = family(

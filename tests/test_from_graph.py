@@ -10,7 +10,8 @@ import networkx as nx
 import pytest
 
 import nag
-from nag.mechanism.graph import Body, MechanismError
+from nag.errors import MechanismError
+from nag.mechanism.graph import Body
 
 CASES = Path(__file__).parent.parent / "cases"
 MECHANISMS = [

@@ -9,9 +9,10 @@ from solved import components_of
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
+from nag.errors import MechanismError
 from nag.mechanism.axes import space_of
 from nag.mechanism.euler import euler_parameters, prime_component
-from nag.mechanism.graph import Joint, Mechanism, MechanismError
+from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.loops import loop_structure
 from nag.mechanism.model import ModelError, model

@@ -3,7 +3,8 @@ from fractions import Fraction
 import pytest
 from linkages import case, exact, four_bar, loop
 
-from nag.mechanism.graph import Body, Joint, Mechanism, MechanismError
+from nag.errors import MechanismError
+from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.loops import loop_structure
 
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from systems import family
 
+from nag.errors import StartError
 from nag.solving.parameter import solve_family, solve_generic
-from nag.solving.start.target import StartError
 
 LINEAR = family("x y", "a b", "x^2 + y^2 - a", "x*y - b")
 NONLINEAR = family("x", "a b", "x^2 - (a^2 + b)*x + a^2*b")

@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from systems import benchmark
 
+from nag.errors import StartError
 from nag.solving.start.choice import choose
 from nag.solving.start.fibre_monodromy import GenericSystem
 from nag.solving.start.mixed_cells import MixedCells, mixed_cells
@@ -23,7 +24,7 @@ from nag.solving.start.polyhedral import (
     cell_weights,
     polyhedral,
 )
-from nag.solving.start.target import Start, StartError, unit
+from nag.solving.start.target import Start, unit
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 

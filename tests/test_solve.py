@@ -15,13 +15,13 @@ import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose
+from nag.errors import StartError
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.numerics.coincidence import clusters, conjugates_present
 from nag.solving.shown import answer_text
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
-from nag.solving.start.target import StartError
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 

@@ -10,6 +10,7 @@ import pytest
 from evaluated import values
 from systems import benchmark
 
+from nag.errors import StartError
 from nag.solving.start import monodromy as module
 from nag.solving.start import pencil as pencil_module
 from nag.solving.start.fibre_monodromy import GenericSystem, by_monodromy
@@ -21,7 +22,7 @@ from nag.solving.start.pencil import (
     seeded_pencil,
     trace_is_linear,
 )
-from nag.solving.start.target import StartError, Target
+from nag.solving.start.target import Target
 
 BENCHMARKS = Path(__file__).parent.parent / "cases" / "benchmarks"
 

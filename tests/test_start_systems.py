@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
+from nag.errors import StartError
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.solving.start.choice import choose
 from nag.solving.start.multihomogeneous import (
@@ -21,7 +22,7 @@ from nag.solving.start.multihomogeneous import (
     count,
     multihomogeneous,
 )
-from nag.solving.start.target import Start, StartError, Target
+from nag.solving.start.target import Start, Target
 from nag.solving.start.total_degree import bezout, total_degree
 from nag.tracking.paths import PathStatus
 from nag.tracking.track import track

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 
 Terms = Mapping[Exponents, Number | complex]
 
@@ -31,9 +32,9 @@ class Family:
             object.__setattr__(self, name, tuple(getattr(self, name)))
         n, total = self.n, self.n + len(self.parameters)
         if len(self.polynomials) != n:
-            raise ValueError(f"{len(self.polynomials)} equations for {n} unknowns")
+            raise NagError(f"{len(self.polynomials)} equations for {n} unknowns")
         if any(f.n != total for f in self.polynomials):
-            raise ValueError(f"the polynomials must be in {n} unknowns and the parameters")
+            raise NagError(f"the polynomials must be in {n} unknowns and the parameters")
 
     @property
     def n(self) -> int:

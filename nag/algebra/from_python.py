@@ -30,6 +30,7 @@ from nag.algebra.tokens import (
     nearest,
     quote,
 )
+from nag.errors import NagError
 
 __all__ = ["exact_number", "exact_vector", "system"]
 
@@ -285,15 +286,15 @@ def coordinates(point: Any, variables: Sequence[str]) -> tuple[Any, ...]:
         places = variable_indices(point, variables, "point")
         missing = [name for i, name in enumerate(variables) if i not in places]
         if missing:
-            raise ValueError(f"point: no value for {missing[0]!r}; give one for each variable")
+            raise NagError(f"point: no value for {missing[0]!r}; give one for each variable")
         by_place = dict(zip(places, point.values(), strict=True))
         values = [by_place[i] for i in range(n)]
     elif isinstance(point, Iterable) and not isinstance(point, str):
         values = list(point)
     else:
-        raise ValueError(f"point: {point!r} is given; give {n} numbers, or a dict of them by name")
+        raise NagError(f"point: {point!r} is given; give {n} numbers, or a dict of them by name")
     if len(values) != n:
-        raise ValueError(
+        raise NagError(
             f"point: {len(values)} coordinates are given; there are {n} variables: "
             f"{', '.join(variables)}"
         )

@@ -9,6 +9,8 @@ from numbers import Integral, Real
 from os import PathLike
 from typing import Any
 
+from nag.errors import NagError
+
 SETTINGS = ("fast", "default", "careful")
 
 
@@ -33,7 +35,7 @@ def check_type(value: Any, kind: type, place: str, advice: str) -> None:
         ValueError: if it is not; ``advice`` says what to give.
     """
     if not isinstance(value, kind):
-        raise ValueError(f"{place}: {shown(value)} is given; give {advice}")
+        raise NagError(f"{place}: {shown(value)} is given; give {advice}")
 
 
 def check_listed(values: Any, place: str, advice: str) -> None:
@@ -43,7 +45,7 @@ def check_listed(values: Any, place: str, advice: str) -> None:
         ValueError: if it is not.
     """
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
-        raise ValueError(f"{place}: {shown(values)} is given; give {advice}")
+        raise NagError(f"{place}: {shown(values)} is given; give {advice}")
 
 
 def check_whole(value: Any, place: str, least: int = 0) -> None:
@@ -53,7 +55,7 @@ def check_whole(value: Any, place: str, least: int = 0) -> None:
         ValueError: if it is not.
     """
     if isinstance(value, bool) or not isinstance(value, Integral) or value < least:
-        raise ValueError(f"{place}: {shown(value)} is given; give a whole number from {least} up")
+        raise NagError(f"{place}: {shown(value)} is given; give a whole number from {least} up")
 
 
 def check_error(value: Any, place: str) -> None:
@@ -64,7 +66,7 @@ def check_error(value: Any, place: str) -> None:
     """
     number = isinstance(value, Real) and not isinstance(value, bool)
     if value is not None and not (number and isfinite(value) and value >= 0):
-        raise ValueError(f"{place}: {shown(value)} is given; give a number from 0 up")
+        raise NagError(f"{place}: {shown(value)} is given; give a number from 0 up")
 
 
 def check_choice(value: Any, place: str, known: Sequence[str]) -> None:
@@ -74,7 +76,7 @@ def check_choice(value: Any, place: str, known: Sequence[str]) -> None:
         ValueError: if it is not.
     """
     if value not in known:
-        raise ValueError(f"{place}: {shown(value)} is unknown; use {', '.join(known)}")
+        raise NagError(f"{place}: {shown(value)} is unknown; use {', '.join(known)}")
 
 
 def check_path(value: Any, place: str = "path") -> None:
@@ -84,7 +86,7 @@ def check_path(value: Any, place: str = "path") -> None:
         ValueError: if it cannot.
     """
     if not isinstance(value, str | PathLike):
-        raise ValueError(f"{place}: {shown(value)} is given; give the name of a file")
+        raise NagError(f"{place}: {shown(value)} is given; give the name of a file")
 
 
 def check_running(seed: Any, threads: Any, settings: Any, progress: Any = None) -> None:
@@ -98,7 +100,7 @@ def check_running(seed: Any, threads: Any, settings: Any, progress: Any = None) 
     if not is_a(settings, "nag.tracking.settings", "Settings"):
         check_choice(settings, "settings", SETTINGS)
     if progress is not None and not callable(progress):
-        raise ValueError(
+        raise NagError(
             f"progress: {shown(progress)} is given; give a function of a stage's name, the step "
             "reached and the number of steps"
         )

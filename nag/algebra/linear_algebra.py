@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
+from nag.errors import NagError
 
 if TYPE_CHECKING:
     import flint
@@ -148,7 +149,7 @@ def left_inverse(columns: Sequence[Sequence[Number]]) -> list[Row]:
     ]
     reduced, pivots = row_echelon(gram)
     if pivots[:k] != list(range(k)):
-        raise ValueError("the columns are linearly dependent")
+        raise NagError("the columns are linearly dependent")
     inverse = [row[k:] for row in reduced]
     size = len(columns[0])
     return [

@@ -8,6 +8,8 @@ from fractions import Fraction
 from math import isqrt
 from typing import Any
 
+from nag.errors import NagError
+
 # Two expressions are taken to be equal when they agree to this many digits; a rational identity
 # between square roots of case-file numbers that holds so far and then fails is not to be expected.
 EQUALITY_DIGITS = 60
@@ -279,7 +281,7 @@ def square_root(value: Number | int) -> Number:
     """
     value = _number(value)
     if value < 0:
-        raise ValueError("square root of a negative number")
+        raise NagError("square root of a negative number")
     if isinstance(value, Irrational):
         return Irrational("sqrt", (value,))
     root, radicand = 1, value.numerator * value.denominator
@@ -311,7 +313,7 @@ def pi_multiple(value: Number) -> Fraction | None:
 
 def _bounded_angle(value: Number) -> Number:
     if abs(to_mpf(value, 20)) > LARGEST_ANGLE:
-        raise ValueError(f"an angle beyond {LARGEST_ANGLE:.0e} is no angle; reduce it by turns")
+        raise NagError(f"an angle beyond {LARGEST_ANGLE:.0e} is no angle; reduce it by turns")
     return value
 
 

@@ -12,6 +12,7 @@ from types import MappingProxyType
 from typing import Any
 
 from nag.algebra.number import Irrational, Number, is_zero, number_text
+from nag.errors import NagError
 
 Exponents = tuple[int, ...]
 
@@ -59,7 +60,7 @@ class Polynomial:
         try:
             for exponents, coefficient in self.terms.items():
                 if len(exponents) != n:
-                    raise ValueError(f"terms: exponents {exponents} do not belong to {n} variables")
+                    raise NagError(f"terms: exponents {exponents} do not belong to {n} variables")
                 if type(coefficient) is Fraction:
                     # To compare fractions takes five times as long.
                     if coefficient.numerator:
@@ -72,7 +73,7 @@ class Polynomial:
                 if not is_zero(coefficient):
                     kept[exponents] = coefficient
         except (AttributeError, TypeError):
-            raise ValueError(
+            raise NagError(
                 "terms: give a dict from tuples of exponents to fractions; nag.system reads "
                 "polynomials as text"
             ) from None
@@ -103,7 +104,7 @@ class Polynomial:
     def _coerce(self, other: Polynomial | Number | int) -> Polynomial | None:
         if isinstance(other, Polynomial):
             if other.n != self.n:
-                raise ValueError(f"polynomials in {self.n} and in {other.n} variables do not mix")
+                raise NagError(f"polynomials in {self.n} and in {other.n} variables do not mix")
             return other
         if isinstance(other, int | Fraction | Irrational):
             return Polynomial.constant(self.n, other)
@@ -161,7 +162,7 @@ class Polynomial:
 
     def __pow__(self, exponent: int) -> Polynomial:
         if exponent < 0:
-            raise ValueError("a polynomial has no negative power")
+            raise NagError("a polynomial has no negative power")
         result, base = Polynomial.constant(self.n, 1), self
         while exponent:
             if exponent & 1:
@@ -249,7 +250,7 @@ class Polynomial:
     def compose(self, images: Sequence[Polynomial]) -> Polynomial:
         """The polynomial in the images' variables, variable ``i`` replaced by ``images[i]``."""
         if len(images) != self.n:
-            raise ValueError(f"{self.n} images are needed, {len(images)} were given")
+            raise NagError(f"{self.n} images are needed, {len(images)} were given")
         if not images:
             return self
         m = images[0].n

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
 
+from nag.errors import NagError
+
 Order = Literal["lex", "degrevlex"]
 
 
@@ -58,7 +60,7 @@ class RationalFunction:
     def _coerce(self, other: Any) -> RationalFunction | None:
         if isinstance(other, RationalFunction):
             if other.field is not self.field:
-                raise ValueError("functions of different fields do not mix")
+                raise NagError("functions of different fields do not mix")
             return other
         return self.field(other) if isinstance(other, int | Fraction) else None
 

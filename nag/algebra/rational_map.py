@@ -13,12 +13,13 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.errors import EquationError, NagError
 
 # Larger groups are taken for infinite ones.
 MOST_ELEMENTS = 720
 
 
-class MapError(ValueError):
+class MapError(EquationError):
     """Maps that cannot be used; the message is one line."""
 
 
@@ -36,9 +37,9 @@ class RationalMap:
 
     def __post_init__(self) -> None:
         if not self.numerators or len(self.numerators) != len(self.denominators):
-            raise ValueError("a map needs a numerator and a denominator for each unknown")
+            raise NagError("a map needs a numerator and a denominator for each unknown")
         if len({f.n for f in (*self.numerators, *self.denominators)}) != 1:
-            raise ValueError("numerators and denominators are in the same variables")
+            raise NagError("numerators and denominators are in the same variables")
 
     @property
     def n(self) -> int:
@@ -99,7 +100,7 @@ class MapGroup:
         rng = np.random.default_rng(seed)
         n, total = generators[0].n, generators[0].numerators[0].n
         if any((g.n, g.numerators[0].n) != (n, total) for g in generators):
-            raise ValueError("the maps are of different unknowns or parameters")
+            raise NagError("the maps are of different unknowns or parameters")
         z = [Fraction(int(a), int(b)) for a, b in rng.integers(1, 1 << 20, (total, 2))]
         values = z[n:]
         words: list[tuple[int, ...]] = [()]

@@ -17,12 +17,13 @@ from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import is_name, nearest, quote
+from nag.errors import EquationError
 
 # Multiples of equations beyond this number are not searched for the image of an equation.
 MOST_MULTIPLES = 400
 
 
-class SymmetryError(ValueError):
+class SymmetryError(EquationError):
     """A map that is no signed permutation, or does not carry the system into itself."""
 
 

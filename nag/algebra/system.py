@@ -9,6 +9,7 @@ from typing import Any
 
 from nag.algebra.given import check_listed, check_type, shown
 from nag.algebra.polynomial import Polynomial
+from nag.errors import NagError
 from nag.text.table import LINE, counted, html_table, printable, shortened
 
 # Of longer systems the first equations are shown.
@@ -40,16 +41,16 @@ class PolynomialSystem:
             object.__setattr__(self, name, tuple(getattr(self, name)))
         object.__setattr__(self, "groups", tuple(tuple(g) for g in self.groups))
         if len(set(self.variables)) != len(self.variables):
-            raise ValueError("variables: two have the same name")
+            raise NagError("variables: two have the same name")
         for polynomial in self.polynomials + self.nonzero:
             advice = "nag.Polynomial only; nag.system reads equations as text"
             check_type(polynomial, Polynomial, "polynomials", advice)
             if polynomial.n != self.n:
-                raise ValueError(
+                raise NagError(
                     f"polynomials: one is in {polynomial.n} variables in a system of {self.n}"
                 )
         if self.groups and sorted(i for g in self.groups for i in g) != list(range(self.n)):
-            raise ValueError(
+            raise NagError(
                 "groups: they are no partition of the variables; give each variable once"
             )
 
@@ -76,7 +77,7 @@ class PolynomialSystem:
     def __call__(self, point: Sequence[Any]) -> list[Any]:
         """Values of all polynomials at ``point``, exact if its entries are."""
         if not hasattr(point, "__len__") or len(point) != self.n:
-            raise ValueError(f"point: {shown(point)} is given; give {self.n} numbers")
+            raise NagError(f"point: {shown(point)} is given; give {self.n} numbers")
         return [f(point) for f in self.polynomials]
 
     def text(self) -> list[str]:

@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from nag.errors import EquationError
+
 MAX_LENGTH = 100_000
 
 FUNCTION_NAMES = ("sqrt", "sin", "cos")
@@ -24,7 +26,7 @@ _SPACE = re.compile(r"\s*")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
 
 
-class ExpressionError(ValueError):
+class ExpressionError(EquationError):
     """Text that is no number or polynomial; one line: where, what is wrong, what would be right."""
 
 

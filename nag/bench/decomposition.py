@@ -16,6 +16,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.peers import in_macaulay2
 from nag.decomposition.components import decompose
+from nag.errors import NagError
 from nag.files.cases import Truth
 from nag.report.agreement import Verdict, compare
 
@@ -165,7 +166,7 @@ def growth_exponent(rows: Sequence[Decomposed], quantity: str) -> float:
     import numpy as np
 
     if len(rows) < 2:
-        raise ValueError("a slope needs two chains at least")
+        raise NagError("a slope needs two chains at least")
     x = np.log([row.components for row in rows])
     y = np.log([getattr(row, quantity) for row in rows])
     return float(np.polyfit(x, y, 1)[0])

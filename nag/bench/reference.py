@@ -9,6 +9,7 @@ import flint
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import overlaps
 from nag.numerics.certified_points import independent_equations
@@ -20,7 +21,7 @@ from nag.numerics.krawczyk import BITS, Boxes, FineBox, box_about, enter_box
 NEAR = 1e-6
 
 
-class ReferenceError(ValueError):
+class ReferenceError(NagError):
     """There is no reference, for the reason that the text says."""
 
 

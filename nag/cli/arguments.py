@@ -7,6 +7,7 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
+from nag.errors import NagError
 from nag.mechanism.formulation_names import FORMULATIONS
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ MOST_THREADS = 256
 LARGEST_SEED = 2**63 - 1
 
 
-class UsageError(ValueError):
+class UsageError(NagError):
     """Bad input; the message is one line for the user.
 
     Attributes:

@@ -105,11 +105,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.bench.measure import as_json, flop_rate, measure
     from nag.bench.peers import installed, run_peer
     from nag.bench.table import table
+    from nag.errors import StartError
     from nag.files.cases import CaseError, read_case
     from nag.files.problem import truth_of
     from nag.files.written_file import write_target
     from nag.mechanism.model import ModelError, model
-    from nag.solving.start.target import StartError
 
     cases = []
     for path in files(options.case, options.folder):

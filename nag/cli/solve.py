@@ -33,9 +33,9 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     Raises:
         UsageError: if the system cannot be solved, or the export cannot be written.
     """
+    from nag.errors import StartError
     from nag.interface.solve import solve
     from nag.report.solutions import solution_lines
-    from nag.solving.start.target import StartError
     from nag.text.table import labelled
 
     case, model = read_problem(options)

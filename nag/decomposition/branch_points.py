@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
+from nag.errors import ComponentError
 from nag.numerics.digits import doubles, log_norm, log_size, middle, number, working
 from nag.numerics.exact_system import ExactSystem, value
 from nag.numerics.implicit_function import jacobian
@@ -33,7 +34,7 @@ NEWTON_STEPS = 14
 BATCH = 12
 
 
-class BranchPointError(ValueError):
+class BranchPointError(ComponentError):
     """Branch points that were not found, with the reason."""
 
 

@@ -25,6 +25,7 @@ from nag.decomposition.branch_points import BranchPointError, Sheets, branch_poi
 from nag.decomposition.factor import IntersectionError
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.rank_drop import rank_drop, rank_drop_points
+from nag.errors import ComponentError, NagError
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Tracker, move_regular
@@ -43,7 +44,7 @@ LEAST_RADIUS = 1e-3
 SHRINK = 1e-2
 
 
-class GenusError(ValueError):
+class GenusError(ComponentError):
     """A genus that could not be determined, with the reason."""
 
 
@@ -105,7 +106,7 @@ def genus(
     """
     check_component(system, component, seed, threads, settings)
     if component.dimension != 1:
-        raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
+        raise NagError(f"the component has dimension {component.dimension}; a curve has 1")
     rng, tracker = np.random.default_rng([seed, 9, 0]), Tracker(settings, threads)
     natural = coordinates_of(system)
     system = natural.system(system)

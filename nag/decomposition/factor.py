@@ -9,6 +9,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
+from nag.errors import ComponentError
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.witness.change_of_coordinates import carry_component
 from nag.witness.component_equations import component_system
@@ -22,7 +23,7 @@ from nag.witness.witness import PathCounts, WitnessSet
 NOT_MOVED = "the witness points could not be moved to a generic slice"
 
 
-class IntersectionError(ValueError):
+class IntersectionError(ComponentError):
     """Sets that cannot be intersected; the message is one line."""
 
 

@@ -22,11 +22,11 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import most_zeros
 from nag.decomposition.final_checks import judged
 from nag.decomposition.symmetric_images import in_orbits
+from nag.errors import StartError
 from nag.numerics.coincidence import coincident
 from nag.numerics.zero_values import NONZERO, SINGULAR
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
-from nag.solving.start.target import StartError
 from nag.witness.cutting import dyadic, numerical_corank
 from nag.witness.fibres import Tracker
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet, even_radii

@@ -30,6 +30,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.rank_drop import BITS, new_names, product
+from nag.errors import NagError
 from nag.interpolation.conjugates import conjugate_classes
 from nag.interpolation.image_ideal import common_zeros, equations_of_image
 from nag.interpolation.point_cloud import Ambient, Cloud
@@ -192,9 +193,9 @@ def _variables(system: PolynomialSystem, count: int) -> int:
     check_whole(count, "count", 1)
     n, m = system.n - count, len(system.polynomials)
     if n < 1:
-        raise ValueError(f"count: {count} is given; give fewer than the {system.n} variables")
+        raise NagError(f"count: {count} is given; give fewer than the {system.n} variables")
     if not 0 < m <= n:
-        raise ValueError(f"system: {m} equations in {n} variables are no complete intersection")
+        raise NagError(f"system: {m} equations in {n} variables are no complete intersection")
     return n
 
 

@@ -12,8 +12,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import looped_turns
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Superset
+from nag.errors import StartError
 from nag.solving.start.isotropic import IsotropicSection, in_doubles
-from nag.solving.start.target import StartError
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.track import track

@@ -22,6 +22,7 @@ from nag.algebra.expression import parse_number
 from nag.algebra.given import check_type
 from nag.algebra.number import Number
 from nag.algebra.tokens import ExpressionError, is_name, names_in, nearest, quote
+from nag.errors import InputError
 
 ReadNumber = Callable[[Any], Number]
 
@@ -33,7 +34,7 @@ MAX_KEY_PARTS = 50
 _QUOTED = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|[0-9]\.[0-9]")
 
 
-class CaseError(ValueError):
+class CaseError(InputError):
     """A case file that cannot be read: "file: table: key: what is wrong; what would be right"."""
 
 

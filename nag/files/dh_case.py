@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from nag.algebra.number import cosine, pi_multiple, sine
 from nag.algebra.tokens import is_name
+from nag.errors import NagError
 from nag.files.case_table import ReadNumber, Table
 from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, assembled, dh_model
 from nag.mechanism.graph import Mechanism
@@ -42,7 +43,7 @@ def in_formulation(case: Case, formulation: str) -> Case:
     from nag.mechanism.dh_euler import table_model
 
     if not case.is_table:
-        raise ValueError("the case is no table with open angles")
+        raise NagError("the case is no table with open angles")
     made = table_model(case.assembly.loop, formulation)  # type: ignore[union-attr]
     if made.formulation == case.assembly.formulation:  # type: ignore[union-attr]
         return case

@@ -22,6 +22,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.given import check_path
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.errors import InputError, NagError
 
 
 def real_or_null(value: float) -> float | None:
@@ -73,7 +74,7 @@ LARGEST_FILE = 256 * 1024**2
 T = TypeVar("T")
 
 
-class ExportError(ValueError):
+class ExportError(InputError):
     """An export that cannot be read; the message is one line: file, key, what is wrong."""
 
 
@@ -197,7 +198,7 @@ def as_document(value: Any, name: str, *versions: int) -> dict[str, Any]:
 
 
 def _refuse_constant(name: str) -> float:
-    raise ValueError(f"{name} is not a JSON number")
+    raise NagError(f"{name} is not a JSON number")
 
 
 def read_file(path: str | os.PathLike[str], convert: Callable[[Any], T]) -> T:

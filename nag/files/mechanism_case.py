@@ -7,9 +7,10 @@ and the moment, point x direction, of any point of the line; the two are orthogo
 from __future__ import annotations
 
 from nag.algebra.number import Number, is_zero, number_text
+from nag.errors import MechanismError
 from nag.files.case_table import ReadNumber, Table
 from nag.mechanism.axes import Vector, cross, difference, dot, nearest, vanishes
-from nag.mechanism.graph import ORIGIN, Body, Joint, Mechanism, MechanismError
+from nag.mechanism.graph import ORIGIN, Body, Joint, Mechanism
 from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS
 
 LINE_KEYS = ("through", "line")

@@ -16,6 +16,7 @@ from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import names_in, nearest, quote
+from nag.errors import NagError
 from nag.files.case_table import CaseError, Table, read_toml, with_values
 from nag.files.cases import read_case
 from nag.files.export import Origin
@@ -30,7 +31,7 @@ def system_of(case: Case, model: Model | None) -> PolynomialSystem:
     """The system that is decomposed."""
     system = case.system if model is None else model.system
     if system is None:
-        raise ValueError("a case without a system and without a mechanism")
+        raise NagError("a case without a system and without a mechanism")
     return system
 
 

@@ -8,8 +8,10 @@ import stat
 import uuid
 from pathlib import Path
 
+from nag.errors import InputError
 
-class TargetError(ValueError):
+
+class TargetError(InputError):
     """A file that cannot be written; the message is one line for the user."""
 
 

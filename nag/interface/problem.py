@@ -10,6 +10,7 @@ from nag.algebra.from_python import system as system_of_equations
 from nag.algebra.given import check_listed, is_a
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 
 
 @dataclass(frozen=True)
@@ -48,19 +49,19 @@ def problem_of(given: Any, variables: Any = None) -> Problem:
             else Problem(given.system, given.symmetries, given.assembly, given.family)
         )
     elif is_a(given, "networkx", "Graph"):
-        raise ValueError(
+        raise NagError(
             "system: a networkx graph is given; make it a mechanism first: "
             "nag.Mechanism.from_graph(graph, ground=...)"
         )
     elif given is None or isinstance(given, Mapping | bool | int | float):
-        raise ValueError(
+        raise NagError(
             f"system: something of type {type(given).__name__} is given; give equations in a list, "
             "or a nag.PolynomialSystem, nag.Mechanism, nag.Case, or a model"
         )
     else:
         return Problem(system_of_equations(given, variables))
     if variables is not None:
-        raise ValueError("variables: are for equations; what is given has its own, leave them out")
+        raise NagError("variables: are for equations; what is given has its own, leave them out")
     return problem
 
 

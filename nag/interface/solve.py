@@ -46,7 +46,7 @@ def solve(
         The solutions; ``.points`` has shape ``(k, n)``, ``.real`` are the real ones.
 
     Raises:
-        nag.solving.start.target.StartError: if there would be too many paths, or ``"parameter"``
+        nag.StartError: if there would be too many paths, or ``"parameter"``
             is asked for and there is no family.
         ValueError: if an argument makes no sense; the message says which, and what would.
 
@@ -69,8 +69,8 @@ def solve(
 
 
 def _by_family(problem: Problem, exact_first: bool, options: dict[str, Any]) -> SolveResult:
+    from nag.errors import StartError
     from nag.solving.parameter import solve_member
-    from nag.solving.start.target import StartError
 
     if problem.family is None:
         raise StartError("parameter: the system has no [family]; leave out start")

@@ -17,6 +17,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
+from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.natural_coordinates import scale_coordinates
 from nag.numerics.zero_values import ON
@@ -35,7 +36,7 @@ FIRST_STEPS = 4
 ROUNDED = 1e-15
 
 
-class SourceError(ValueError):
+class SourceError(ComponentError):
     """Points that cannot be sampled from; the message is one line."""
 
 

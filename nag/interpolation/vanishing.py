@@ -18,6 +18,7 @@ import numpy as np
 
 from nag.algebra.multipliers import order
 from nag.algebra.polynomial import Polynomial, divides
+from nag.errors import ComponentError
 from nag.interpolation.point_cloud import (
     Cloud,
     Exponents,
@@ -44,7 +45,7 @@ LARGEST_NUMBER = 10**6
 MOST_ENTRIES = 4_000_000
 
 
-class InterpolationError(ValueError):
+class InterpolationError(ComponentError):
     """Polynomials that are not found, with the reason in one line."""
 
 

@@ -8,6 +8,7 @@ from math import gcd
 from typing import Any, Literal
 
 from nag.algebra.number import Number, is_zero, square_root
+from nag.errors import NagError
 from nag.mechanism.graph import Joint
 
 Vector = tuple[Any, Any, Any]
@@ -136,7 +137,7 @@ def planar_normal(joints: Sequence[Joint]) -> Vector:
     """The normal of the plane in which a planar mechanism moves."""
     normal = _planar_normal([j for j in joints if j.type != "rigid"])
     if normal is None:
-        raise ValueError("the mechanism is not planar")
+        raise NagError("the mechanism is not planar")
     return direction(normal)
 
 

@@ -25,6 +25,7 @@ import numpy as np
 from nag.algebra.high_precision import DIGITS, sharp_zero
 from nag.algebra.number import Number, to_mpf
 from nag.algebra.system import PolynomialSystem
+from nag.errors import MechanismError, NagError
 from nag.mechanism.axes import direction, dot
 from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
@@ -47,7 +48,7 @@ LARGEST_ORDER, UNCLEAR = 6, 0.03
 _Kind = tuple[tuple[str, int], ...]
 
 
-class BondError(ValueError):
+class BondError(MechanismError):
     """Bonds that could not be determined, with the reason."""
 
 
@@ -131,7 +132,7 @@ def _loop(given: Model | DHModel) -> _Loop:
     if isinstance(given, DHModel):
         rows = given.loop.rows
         if len(given.loop.open) < len(rows):
-            raise ValueError("bonds are for loops with all joints open")
+            raise NagError("bonds are for loops with all joints open")
         names = tuple(row.name for row in rows)
         kept = tuple(rows[i].name for i in given.kept)
 
@@ -141,9 +142,9 @@ def _loop(given: Model | DHModel) -> _Loop:
         return _Loop(given.system, names, kept, dict.fromkeys(names, Fraction(1)), turns)
     form = given.form
     if not isinstance(form, HalfAngleModel) or len(form.closures) != 1:
-        raise ValueError("bonds are for single loops in formulation H")
+        raise NagError("bonds are for single loops in formulation H")
     if any(joint.type != "revolute" for joint in given.structure.joints):
-        raise ValueError("bonds are for loops of revolute joints")
+        raise NagError("bonds are for loops of revolute joints")
     axes = {joint.name: direction(joint.axis) for joint in given.structure.joints}
     return _Loop(
         given.system,
@@ -182,7 +183,7 @@ def bonds(
     """
     loop = _loop(model)
     if component.dimension != 1:
-        raise ValueError(f"the component has dimension {component.dimension}; a curve has 1")
+        raise NagError(f"the component has dimension {component.dimension}; a curve has 1")
     rng = np.random.default_rng([seed, 10])
     search = _Ends(loop, component, rng, Tracker(settings, threads))
     order = loop.joints

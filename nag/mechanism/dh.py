@@ -18,6 +18,7 @@ from nag.algebra.linear_algebra import independent_polynomials, left_inverse, nu
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.errors import MechanismError
 from nag.mechanism.assembly import RealCoordinates
 from nag.mechanism.axes import zero_length
 from nag.mechanism.graph import Joint, Mechanism
@@ -49,7 +50,7 @@ _CHARTS = tuple(
 )  # fmt: skip
 
 
-class DHError(ValueError):
+class DHError(MechanismError):
     """A table that makes no sense.
 
     Attributes:

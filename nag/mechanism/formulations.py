@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import FEWEST_LOOPS
+from nag.errors import MechanismError
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space
 from nag.mechanism.euler import EulerModel, euler_model
@@ -23,7 +24,7 @@ from nag.text.table import counted
 Form = EulerModel | HalfAngleModel | PlanarModel | RodModel
 
 
-class ModelError(ValueError):
+class ModelError(MechanismError):
     """A mechanism that the asked formulation does not cover."""
 
 

@@ -15,6 +15,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.number import Number, is_zero
+from nag.errors import MechanismError
 
 if TYPE_CHECKING:
     import networkx
@@ -23,7 +24,7 @@ Place = tuple[Number, ...]
 Bar = tuple[str, str]
 
 
-class FrameworkError(ValueError):
+class FrameworkError(MechanismError):
     """A framework that makes no sense.
 
     Attributes:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from nag.algebra.given import is_a, shown
-from nag.mechanism.graph import Mechanism, MechanismError
+from nag.errors import MechanismError
+from nag.mechanism.graph import Mechanism
 
 
 def check_mechanism(given: Any, others: str = "") -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from nag.algebra.from_python import exact_vector
 from nag.algebra.given import check_listed, check_type
 from nag.algebra.number import Number, is_zero, number_text
+from nag.errors import MechanismError
 from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS
 
 if TYPE_CHECKING:
@@ -18,36 +19,6 @@ if TYPE_CHECKING:
 
 Vector = tuple[Number, Number, Number]
 ORIGIN: Vector = (Fraction(0), Fraction(0), Fraction(0))
-
-
-class MechanismError(ValueError):
-    """A mechanism that makes no sense.
-
-    Attributes:
-        joint: name of the joint that is wrong, or None.
-        body: name of the body that is wrong, or None.
-        key: the field that is wrong (``type``, ``bodies``, ``axis``, ...), or None.
-    """
-
-    def __init__(
-        self,
-        message: str,
-        *,
-        joint: str | None = None,
-        body: str | None = None,
-        key: str | None = None,
-    ) -> None:
-        super().__init__(message)
-        self.message = message
-        self.joint = joint
-        self.body = body
-        self.key = key
-
-    def __str__(self) -> str:
-        owner = f"joint {self.joint!r}" if self.joint is not None else ""
-        if not owner and self.body is not None:
-            owner = f"body {self.body!r}"
-        return ": ".join([*filter(None, (owner, self.key)), self.message])
 
 
 @dataclass(frozen=True)

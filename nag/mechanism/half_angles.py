@@ -15,6 +15,7 @@ from typing import Any
 
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import difference
 from nag.mechanism.configuration import (
@@ -145,7 +146,7 @@ def half_angle_model(structure: LoopStructure, modes: Modes = REFERENCE) -> Half
     lost = {f for c in chosen for f in c.lost}
     kept = [f for f in _in_order(chosen) if f not in lost]
     if not kept:
-        raise ValueError(_too_short(len(structure.joints)))
+        raise NagError(_too_short(len(structure.joints)))
     charts = Charts.of(kept)
     equations = [f for c in chosen for f in c.polynomials(charts.values.__getitem__)]
     return HalfAngleModel(
@@ -191,7 +192,7 @@ def _choose_closures(
             chosen.append(best)
         else:
             return elements, chosen
-    raise ValueError(problem)
+    raise NagError(problem)
 
 
 def _nothing_to_eliminate(loop: Loop, loops: int) -> str:

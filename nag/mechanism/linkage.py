@@ -18,12 +18,13 @@ from typing import Any
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.errors import MechanismError
 from nag.mechanism.assembly import RealCoordinates
 
 Place = tuple[Number, Number]
 
 
-class LinkageError(ValueError):
+class LinkageError(MechanismError):
     """A linkage that makes no sense.
 
     Attributes:

@@ -24,6 +24,7 @@ from typing import Any
 from nag.algebra.linear_algebra import left_inverse, null_space, row_echelon
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
+from nag.errors import NagError
 from nag.mechanism.axes import dot
 from nag.mechanism.graph import Joint
 from nag.mechanism.joint_factors import (
@@ -264,7 +265,7 @@ def displacement(
         value = combination(element, values.__getitem__, convert)
         result = value if result is None else dual_multiply(result, value)
     if result is None:
-        raise ValueError("a product of nothing")
+        raise NagError("a product of nothing")
     return result
 
 

@@ -14,6 +14,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.curve_genus import GenusError, genus
 from nag.decomposition.through import through_points, zero_at
+from nag.errors import MechanismError, NagError
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
@@ -37,7 +38,7 @@ from nag.witness.witness import Decomposition, WitnessSet
 PARTS = FrameworkModel | LinkageModel | PinModel | DHModel | DHEulerModel
 
 
-class NoAssembly(ValueError):
+class NoAssembly(MechanismError):
     """Parts that cannot be assembled, with the reason."""
 
 
@@ -209,7 +210,7 @@ def _report(
 def _in_general(subject: Subject, detail: str, options: dict[str, Any]) -> MobilityReport:
     """The mobility at a general configuration of parts that may be assembled."""
     if detail == "local":
-        raise ValueError("the parts are not assembled; give a point, an assembly of them")
+        raise NagError("the parts are not assembled; give a point, an assembly of them")
     found = _decomposed(subject, **options)
     components = expanded(found).components
     if found.complete and not components:

@@ -16,6 +16,7 @@ from fractions import Fraction
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import in_span
+from nag.errors import NagError
 from nag.mechanism.assembly_modes import Modes, all_modes, number_of_modes
 from nag.mechanism.axes import Vector, across, cross, difference, direction, dot, vanishes
 from nag.mechanism.euler import (
@@ -72,7 +73,7 @@ def mode_classes(structure: LoopStructure) -> tuple[ModeClass, ...]:
     """
     count = number_of_modes(structure.joints)
     if count > MOST_MODES:
-        raise ValueError(
+        raise NagError(
             f"the joints have {count} combinations of assembly modes; at most {MOST_MODES} are "
             "decomposed"
         )
@@ -209,6 +210,6 @@ def unit_image(
     for e, c in f.terms.items():
         degree = sum(k for i, k in enumerate(e) if i in moved_set)
         if (degree - parity) % 2:
-            raise ValueError("the equation has terms of both parities")
+            raise NagError("the equation has terms of both parities")
         terms[e] = c / squared ** ((degree - parity) // 2)
     return Polynomial(f.n, terms).compose(images)

@@ -11,6 +11,7 @@ from nag.algebra.given import check_choice, check_listed
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import Space, same_line, space_of, zero_length
 from nag.mechanism.configuration import Configuration
@@ -83,7 +84,7 @@ class Model:
         """
         check_listed(point, "point", f"{self.system.n} numbers")
         if len(point) != self.system.n:
-            raise ValueError(
+            raise NagError(
                 f"point: it has {len(point)} coordinates, the model {self.system.n} variables"
             )
         return self.form.lift(point)
@@ -95,7 +96,7 @@ class Model:
             ValueError: for other formulations.
         """
         if not isinstance(self.form, EulerModel | PlanarModel):
-            raise ValueError(f"formulation {self.formulation} has no coordinates of bodies")
+            raise NagError(f"formulation {self.formulation} has no coordinates of bodies")
         return projected(self.form, configuration)
 
     @cached_property

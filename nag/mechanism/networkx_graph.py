@@ -8,7 +8,8 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.tokens import quote
-from nag.mechanism.graph import Body, Joint, Mechanism, MechanismError
+from nag.errors import MechanismError
+from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.joint_types import JOINT_TYPES, SYNONYMS
 
 if TYPE_CHECKING:

@@ -21,6 +21,7 @@ from typing import Any
 
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.mechanism.assembly_modes import REFERENCE, Modes
 from nag.mechanism.axes import across, cross, difference, dot
 from nag.mechanism.configuration import (
@@ -161,12 +162,12 @@ def rod_model(structure: LoopStructure, modes: Modes = REFERENCE) -> RodModel:
     without, zero_rods = contract_zero_rods(structure)
     rods = _rods(without)
     if not rods and not zero_rods:
-        raise ValueError("no body has two spherical joints and no other joint")
+        raise NagError("no body has two spherical joints and no other joint")
     tree, closing = _spanning_joints(without, {r.body for r in rods})
     joints, paths = _trees(without, {r.body for r in rods}, tree, dict(modes))
     charts = Charts.of(factors_in([e for own in paths.values() for e in own]))
     if not charts.n:
-        raise ValueError("nothing turns but rods about themselves")
+        raise NagError("nothing turns but rods about themselves")
     equations: list[Any] = []
     products: dict[tuple[str, str], DualQuaternion] = {}
     first: dict[tuple[str, str], Any] = {}
@@ -175,7 +176,7 @@ def rod_model(structure: LoopStructure, modes: Modes = REFERENCE) -> RodModel:
         if bodies not in products:
             between = _without_common([*opposite(paths[bodies[0]]), *paths[bodies[1]]])
             if len(factors_in(between)) > MOST_FACTORS:
-                raise ValueError(f"{what} spans more than {MOST_FACTORS} joint coordinates")
+                raise NagError(f"{what} spans more than {MOST_FACTORS} joint coordinates")
             products[bodies] = _motion(between, charts.values, lambda c: c)
         return products[bodies]
 
@@ -270,7 +271,7 @@ def _spanning_joints(
         elif joint.type == "spherical":
             closing.append(joint)
         else:
-            raise ValueError("the joints between the bodies that are no rods have a loop")
+            raise NagError("the joints between the bodies that are no rods have a loop")
     return tuple(j for j in left if j not in closing), tuple(closing)
 
 

@@ -27,6 +27,7 @@ from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_error, check_type, check_whole
 from nag.algebra.number import Irrational, Number, is_zero
 from nag.algebra.system import PolynomialSystem
+from nag.errors import ComponentError
 from nag.numerics.read_only import fixed_array
 
 # Relative error that a point of doubles is taken to have.
@@ -35,7 +36,7 @@ ROUNDED = 1e-8
 MOST_ROUNDED = 1e-8
 
 
-class NoSolution(ValueError):
+class NoSolution(ComponentError):
     """A point that does not satisfy the equations."""
 
 

@@ -15,6 +15,8 @@ from typing import Any
 
 import flint
 
+from nag.errors import NagError
+
 # Bits of one exponent.
 BITS = 10
 MASK = (1 << BITS) - 1
@@ -37,7 +39,7 @@ class SeriesRing:
 
     def __post_init__(self) -> None:
         if self.order > MASK:
-            raise ValueError(f"series of order {self.order} are too long")
+            raise NagError(f"series of order {self.order} are too long")
 
     def unit(self, i: int) -> int:
         """The key of variable ``i``."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.errors import ComponentError
 from nag.numerics.certified_points import NEAR
 from nag.solving.solutions import SolveResult
 from nag.solving.square_problem import SquareProblem
@@ -32,7 +33,7 @@ MOST_PATHS = 4096
 FURTHER = (1e-12, 1e-24, 0.0)
 
 
-class PathsError(ValueError):
+class PathsError(ComponentError):
     """Why paths cannot be proved, in one line."""
 
 

@@ -13,12 +13,13 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import ZeroCount, most_zeros
+from nag.errors import StartError
 from nag.numerics.singular_point import Place, analyse
 from nag.solving.isolated_zero import FinePoint, IsolatedZero
 from nag.solving.judged_ends import JudgedEnds, enlarged
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import FEW
-from nag.solving.start.target import Start, StartError
+from nag.solving.start.target import Start
 from nag.solving.tropical_zeros import tropical_zeros
 from nag.tracking.paths import Paths, PathStatus
 

@@ -17,6 +17,7 @@ from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import most_zeros
+from nag.errors import StartError
 from nag.solving.branch_solutions import solve_apart
 from nag.solving.certificate import bound_of_zeros
 from nag.solving.parameter_line import parameter_line
@@ -30,7 +31,7 @@ from nag.solving.solve_classes import (
 )
 from nag.solving.start.choice import choose
 from nag.solving.start.family_monodromy import Progress
-from nag.solving.start.target import Start, StartError, Target, unit
+from nag.solving.start.target import Start, Target, unit
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import PathStatus
 from nag.tracking.settings import Settings, named

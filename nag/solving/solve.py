@@ -62,7 +62,7 @@ def solve(
             quickly there, if the set proves to have positive dimension.
 
     Raises:
-        nag.solving.start.target.StartError: if there would be too many paths.
+        nag.StartError: if there would be too many paths.
         ValueError: if there is no such start system or no settings of that name.
     """
     named(settings)

@@ -21,11 +21,11 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
+from nag.errors import StartError
 from nag.numerics.scaling import magnitude, scaled_terms
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.solving.start.mixed_cells import LARGEST_LIFT, MixedCells, mixed_cells
 from nag.solving.start.polyhedral import binomial_solutions, cell_vectors
-from nag.solving.start.target import StartError
 
 # Units of a lifting value in a factor of 2, at most, and random ones that make it generic.
 UNITS, RANDOM = 4096, 32

@@ -21,6 +21,7 @@ import numpy as np
 
 from nag.algebra.number import Number, decimal_digits
 from nag.algebra.polynomial import Exponents, Polynomial
+from nag.errors import NagError
 
 Terms = Mapping[Exponents, Number | complex]
 
@@ -131,10 +132,10 @@ def compile_rows(
     """
     n = polynomials[0].n if n is None else n
     if any(f.n != n for f in polynomials):
-        raise ValueError("the polynomials have different numbers of variables")
+        raise NagError("the polynomials have different numbers of variables")
     partition = tuple(tuple(g) for g in groups) or (tuple(range(n)),)
     if sorted(i for g in partition for i in g) != list(range(n)):
-        raise ValueError("the groups are not a partition of the variables")
+        raise NagError("the groups are not a partition of the variables")
     degrees = np.array(
         [[max(f.degree_in(g), 0) for g in partition] for f in polynomials], dtype=np.int64
     ).reshape(len(polynomials), len(partition))
@@ -150,7 +151,7 @@ def compile_rows(
                 int(d) - sum(e[i] for i in g) for g, d in zip(partition, row_degrees, strict=True)
             )
             if not homogenize and any(missing):
-                raise ValueError(f"{f} is not homogeneous in its groups of variables")
+                raise NagError(f"{f} is not homogeneous in its groups of variables")
             terms[missing + e if homogenize else e] = c
         rows.append(((0, terms),))
     if not homogenize:
@@ -167,9 +168,9 @@ def blend(first: CompiledRows, second: CompiledRows) -> CompiledRows:
         ValueError: if numbers of rows, coordinates or degrees differ.
     """
     if (first.N, first.groups, len(first)) != (second.N, second.groups, len(second)):
-        raise ValueError("the two systems differ in coordinates, groups or number of rows")
+        raise NagError("the two systems differ in coordinates, groups or number of rows")
     if not np.array_equal(first.degrees, second.degrees):
-        raise ValueError("the two systems differ in the degrees of their rows")
+        raise NagError("the two systems differ in the degrees of their rows")
     shift = first.part_count
     rows = tuple(
         row + tuple((p + shift, terms) for p, terms in other)

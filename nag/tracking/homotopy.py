@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from nag.errors import NagError
 from nag.tracking.compiled import CompiledRows, blend
 
 Factors = tuple[tuple[complex, complex], ...]
@@ -56,17 +57,17 @@ class Homotopy:
         A0 = _frozen(self.A0, (-1, N))
         A1 = _frozen(self.A1, (len(A0) if self.A1 is None else -1, N))
         if A0.shape != A1.shape:
-            raise ValueError(f"A0 has {len(A0)} rows, A1 has {len(A1)}")
+            raise NagError(f"A0 has {len(A0)} rows, A1 has {len(A1)}")
         object.__setattr__(self, "A0", A0)
         object.__setattr__(self, "A1", A1)
         factors = tuple(self.factors) or ((1.0, 0.0),) * self.rows.part_count
         if len(factors) < self.rows.part_count:
-            raise ValueError(f"{self.rows.part_count} pairs of factors are needed")
+            raise NagError(f"{self.rows.part_count} pairs of factors are needed")
         object.__setattr__(self, "factors", tuple((complex(a), complex(b)) for a, b in factors))
         if self.infinity is None:
             object.__setattr__(self, "infinity", self.rows.infinity)
         if len(self.rows) + len(A0) + len(self.groups) != N:
-            raise ValueError(
+            raise NagError(
                 f"{len(self.rows)} polynomial rows, {len(A0)} linear rows and {len(self.groups)}"
                 f" patches do not make {N} rows"
             )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from nag.errors import NagError
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -67,7 +69,7 @@ def named(settings: Settings | str) -> Settings:
     if isinstance(settings, Settings):
         return settings
     if settings not in NAMED:
-        raise ValueError(f"settings: no settings {settings!r}; there are {', '.join(NAMED)}")
+        raise NagError(f"settings: no settings {settings!r}; there are {', '.join(NAMED)}")
     return NAMED[settings]
 
 

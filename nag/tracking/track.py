@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from nag.errors import NagError
 from nag.tracking import evaluations
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.jumps import alike, collisions
@@ -71,7 +72,7 @@ def track(
     chosen = named(settings)
     starts = np.asarray(starts, dtype=np.complex128)
     if starts.ndim != 2 or starts.shape[1] != homotopy.N:
-        raise ValueError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
+        raise NagError(f"starts have shape {starts.shape}, not (paths, {homotopy.N})")
     starts = homotopy.normalized(starts)
     paths = _attempt(homotopy, starts, chosen, threads, endgame, known if distinct else NOTHING)
     for attempt in range(chosen.retries if distinct else 0):

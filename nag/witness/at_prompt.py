@@ -14,6 +14,7 @@ from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_whole
 from nag.algebra.number import Irrational, is_zero
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.witness.given_component import rounded
 from nag.witness.membership import Membership, UndecidedError, memberships
 from nag.witness.sampling import sample
@@ -40,7 +41,7 @@ def sampled(
     elif isinstance(rng, np.random.Generator):
         seed = int(rng.integers(2**63))
     else:
-        raise ValueError(f"rng: {rng!r} is given; give numpy.random.default_rng(), or a seed")
+        raise NagError(f"rng: {rng!r} is given; give numpy.random.default_rng(), or a seed")
     found = sample(system, component, int(count), seed=seed, threads=threads, settings=settings)
     return found.points
 

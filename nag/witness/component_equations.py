@@ -13,6 +13,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import DIGITS, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.numerics.digits import number
 from nag.numerics.natural_coordinates import scale_coordinates
 from nag.numerics.zero_values import ON
@@ -38,7 +39,7 @@ def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fi
         return list(component.fibres)
     _, fibres = _cut(system, component, branches(system) or ())
     if fibres is None:
-        raise ValueError("the witness points are no regular zeros of the system")
+        raise NagError("the witness points are no regular zeros of the system")
     return fibres
 
 

@@ -11,6 +11,7 @@ from nag.algebra.from_python import coordinates
 from nag.algebra.given import check_running, check_type, check_whole
 from nag.algebra.number import Irrational
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.witness.witness import Decomposition, WitnessSet
 
 
@@ -34,7 +35,7 @@ def check_component(
     check_system(system)
     check_type(component, WitnessSet, place, "one of the components of a nag.Decomposition")
     if component.points.shape[1] != system.n:
-        raise ValueError(
+        raise NagError(
             f"{place}: it has {component.points.shape[1]} coordinates, and system has "
             f"{system.n} variables; give the system that it is a component of"
         )
@@ -60,7 +61,7 @@ def check_index(value: Any, place: str, count: int) -> None:
     """
     check_whole(value, place)
     if value >= count:
-        raise ValueError(f"{place}: {value} is no index; there are {count} components, from 0 on")
+        raise NagError(f"{place}: {value} is no index; there are {count} components, from 0 on")
 
 
 def in_doubles(point: Any, variables: Sequence[str]) -> np.ndarray:

@@ -13,6 +13,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_error
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
+from nag.errors import ComponentError
 from nag.numerics.coincidence import compared
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.singular_point import Place, analyse
@@ -457,7 +458,7 @@ def _is_exactly(
     return bool((np.array(gaps) <= SPREAD * zeros[0].radii).all())
 
 
-class UndecidedError(ValueError):
+class UndecidedError(ComponentError):
     """A membership that could not be decided.
 
     Attributes:

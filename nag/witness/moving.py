@@ -10,6 +10,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
+from nag.errors import ComponentError
 from nag.numerics.zero_values import ON
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
@@ -23,7 +24,7 @@ from nag.witness.witness import Slice, WitnessSet
 DEPENDENT = 1e-10
 
 
-class SliceError(ValueError):
+class SliceError(ComponentError):
     """A slice that does not cut the component in as many regular points as its degree."""
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from nag.algebra.from_python import variable_indices
 from nag.algebra.system import PolynomialSystem
+from nag.errors import ComponentError, NagError
 from nag.numerics.coincidence import clusters
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import SINGULAR
@@ -37,7 +38,7 @@ SLICES = 2
 SHARP = 1e-8
 
 
-class ProjectionError(ValueError):
+class ProjectionError(ComponentError):
     """A projection that could not be determined, with the reason."""
 
 
@@ -148,7 +149,7 @@ def project(
     check_component(system, component, seed, threads, settings)
     chosen = variable_indices(coordinates, system.variables, "coordinates")
     if not chosen or len(set(chosen)) < len(chosen):
-        raise ValueError(
+        raise NagError(
             f"coordinates: {list(chosen)} are given; give at least one variable, each once"
         )
     rng = np.random.default_rng([seed, 4])

@@ -16,6 +16,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.numerics.coincidence import coincident
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import LEAST, ON
@@ -155,7 +156,7 @@ def _real_vector(near: Any, n: int) -> np.ndarray:
     except (TypeError, ValueError):
         point = np.zeros(0)
     if point.shape != (n,) or not np.isfinite(point).all():
-        raise ValueError(f"near: the point must be {n} finite real numbers")
+        raise NagError(f"near: the point must be {n} finite real numbers")
     return point
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
+from nag.errors import ComponentError
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import ON
@@ -54,7 +55,7 @@ class Samples:
         return samples_html(self)
 
 
-class SamplingError(ValueError):
+class SamplingError(ComponentError):
     """Points that could not be found, with the reason.
 
     Attributes:

@@ -12,6 +12,7 @@ import numpy as np
 from nag.algebra.given import check_error, check_listed, check_running, check_type
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.numerics.read_only import fixed_array
 
 if TYPE_CHECKING:
@@ -60,9 +61,9 @@ class Slice:
             try:
                 object.__setattr__(self, name, fixed_array(getattr(self, name), complex))
             except (TypeError, ValueError):
-                raise ValueError(f"{name}: give an array of numbers") from None
+                raise NagError(f"{name}: give an array of numbers") from None
         if self.A.ndim != 2 or self.b.shape != self.A.shape[:1]:
-            raise ValueError(
+            raise NagError(
                 f"A, b: arrays of shapes {self.A.shape} and {self.b.shape} are given; give (d, n) "
                 "and (d,)"
             )
@@ -133,7 +134,7 @@ class WitnessSet:
         object.__setattr__(self, "points", points)
         radii, digits = fixed_array(self.radii, float), fixed_array(self.digits, int)
         if radii.shape != points.shape or digits.shape != points.shape[:1]:
-            raise ValueError(
+            raise NagError(
                 f"radii have shape {radii.shape}, digits {digits.shape}, where the points have "
                 f"{points.shape}"
             )
@@ -201,7 +202,7 @@ class WitnessSet:
 
     def _known_system(self) -> PolynomialSystem:
         if self.system is None:
-            raise ValueError(
+            raise NagError(
                 "system: the witness set does not know its equations; take it from the "
                 "components of a Decomposition, or replace(component, system=...)"
             )

@@ -13,6 +13,7 @@ from nag.bench.atlas.asked import asked
 from nag.bench.atlas.families import FAMILIES, Family
 from nag.bench.timed_runs import timed_runs
 from nag.bench.verdicts import Answer, described, verdict
+from nag.errors import NagError
 from nag.files.json_values import (
     as_count,
     as_document,
@@ -164,7 +165,7 @@ def completed(atlas: Atlas, rest: Atlas) -> Atlas:
     for name in ("settings", "seeds", "limit"):
         ours, theirs = getattr(atlas, name), getattr(rest, name)
         if ours != theirs:
-            raise ValueError(f"{name} there are {theirs}, not {ours}")
+            raise NagError(f"{name} there are {theirs}, not {ours}")
     rows = {row.name: row for row in (*rest.rows, *atlas.rows)}
     return replace(atlas, rows=tuple(rows[f.name] for f in FAMILIES if f.name in rows))
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from nag.errors import NagError, StartError
 from nag.solving.start.multihomogeneous import (
     MOST_TERMS,
     Groups,
@@ -13,7 +14,7 @@ from nag.solving.start.multihomogeneous import (
     multihomogeneous,
     terms_of_start,
 )
-from nag.solving.start.target import Start, StartError, Target, group_degrees
+from nag.solving.start.target import Start, Target, group_degrees
 from nag.solving.start.total_degree import Shape, bezout, total_degree
 from nag.tracking.known import Known
 
@@ -32,7 +33,7 @@ def check_kind(kind: str) -> None:
         ValueError: if there is none.
     """
     if kind not in KINDS:
-        raise ValueError(f"start: no start system {kind!r}; there are {', '.join(KINDS)}")
+        raise NagError(f"start: no start system {kind!r}; there are {', '.join(KINDS)}")
 
 
 def choose(

@@ -21,10 +21,11 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.family import Family
 from nag.algebra.symmetric_family import SymmetricFamily
+from nag.errors import StartError
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solution_classes import SolutionClasses
 from nag.solving.start.scalings import random_scaling, scaling_weights
-from nag.solving.start.target import StartError, unit
+from nag.solving.start.target import unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.paths import PathStatus
 from nag.tracking.settings import named

@@ -22,9 +22,10 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import Turns, looped_turns
+from nag.errors import StartError
 from nag.solving.start.mixed_cells import MixedCells, mixed_cells
 from nag.solving.start.polyhedral import polyhedral
-from nag.solving.start.target import Start, StartError, Target, Terms, homogenized
+from nag.solving.start.target import Start, Target, Terms, homogenized
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.known import Known
 from nag.tracking.paths import PathStatus

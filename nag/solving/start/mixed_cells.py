@@ -19,10 +19,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from nag.errors import StartError
 from nag.machine_code.kernel import Kernel
 from nag.machine_code.lanes import aligned, any_less, load, select_less, splat, store
 from nag.machine_code.records import Reals, Wholes
-from nag.solving.start.target import StartError
 
 # Lifting values are integers below this; equal crossing times are then as good as impossible.
 LARGEST_LIFT = 1 << 22

@@ -6,10 +6,11 @@ from functools import partial
 
 import numpy as np
 
+from nag.errors import StartError
 from nag.solving.start.fibre_monodromy import by_monodromy, seeded, start_at
 from nag.solving.start.mixed_cells import mixed_cells
 from nag.solving.start.pencil import irreducible_row, seeded_pencil, trace_is_linear
-from nag.solving.start.target import Start, StartError, Target, unit
+from nag.solving.start.target import Start, Target, unit
 from nag.solving.start.total_degree import MOST_PATHS
 
 

@@ -14,14 +14,8 @@ from math import comb, factorial, prod
 
 import numpy as np
 
-from nag.solving.start.target import (
-    Start,
-    StartError,
-    Target,
-    group_degrees,
-    homogenized,
-    unit,
-)
+from nag.errors import StartError
+from nag.solving.start.target import Start, Target, group_degrees, homogenized, unit
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.homotopy import straight_line
 

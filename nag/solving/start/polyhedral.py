@@ -21,9 +21,10 @@ from itertools import count
 
 import numpy as np
 
+from nag.errors import StartError
 from nag.solving.start.fibre_monodromy import DistinctPoints, GenericSystem, by_monodromy, start_at
 from nag.solving.start.mixed_cells import MixedCells
-from nag.solving.start.target import Start, StartError, Target, group_degrees, homogenized
+from nag.solving.start.target import Start, Target, group_degrees, homogenized
 from nag.solving.start.total_degree import MOST_PATHS
 from nag.tracking.compiled import CompiledRows
 from nag.tracking.homotopy import Homotopy

@@ -12,6 +12,7 @@ import numpy as np
 from nag.algebra.combinations import of_fewest_terms
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
+from nag.errors import NagError
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.scaling import independent_rows, scaled_terms, variable_scales
 from nag.tracking.compiled import CompiledRows
@@ -21,10 +22,6 @@ from nag.tracking.known import NOTHING, Known
 # Largest relative error of a number that is rounded to a double.
 HALF_UNIT = 2.0**-53
 Terms = Mapping[Exponents, Number | complex]
-
-
-class StartError(ValueError):
-    """A start system that cannot be had for a target; the message is one line."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +50,7 @@ class Target:
 
     def __post_init__(self) -> None:
         if len(self.rows) != self.n:
-            raise ValueError(f"{len(self.rows)} polynomials in {self.n} variables are not square")
+            raise NagError(f"{len(self.rows)} polynomials in {self.n} variables are not square")
 
     @classmethod
     def of(

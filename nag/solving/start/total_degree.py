@@ -18,16 +18,9 @@ from math import comb, factorial, frexp, hypot, lcm, prod
 import numpy as np
 
 from nag.algebra.polynomial import Exponents
+from nag.errors import StartError
 from nag.solving.start.interchange import Interchange, interchange
-from nag.solving.start.target import (
-    Start,
-    StartError,
-    Target,
-    Terms,
-    group_degrees,
-    homogenized,
-    unit,
-)
+from nag.solving.start.target import Start, Target, Terms, group_degrees, homogenized, unit
 from nag.tracking.homotopy import straight_line
 from nag.tracking.known import Known
 

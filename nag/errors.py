@@ -1,0 +1,56 @@
+"""Errors for users: one line each that names what is wrong, where, and what to give instead.
+
+All are `NagError`, which is a ``ValueError``; the five below it say what the line is about.
+"""
+
+from __future__ import annotations
+
+
+class NagError(ValueError):
+    """An argument makes no sense, or a question has no answer that could be given."""
+
+
+class InputError(NagError):
+    """A file does not say what it should, or cannot be read or written."""
+
+
+class MechanismError(NagError):
+    """A mechanism that makes no sense.
+
+    Attributes:
+        joint: name of the joint that is wrong, or None.
+        body: name of the body that is wrong, or None.
+        key: the field that is wrong (``type``, ``bodies``, ``axis``, ...), or None.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        joint: str | None = None,
+        body: str | None = None,
+        key: str | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.message = message
+        self.joint = joint
+        self.body = body
+        self.key = key
+
+    def __str__(self) -> str:
+        owner = f"joint {self.joint!r}" if self.joint is not None else ""
+        if not owner and self.body is not None:
+            owner = f"body {self.body!r}"
+        return ": ".join([*filter(None, (owner, self.key)), self.message])
+
+
+class EquationError(NagError):
+    """Equations, symmetries or maps are no exact polynomials, or do not fit each other."""
+
+
+class StartError(NagError):
+    """A start system cannot be used, or would need too many paths."""
+
+
+class ComponentError(NagError):
+    """What was asked of a component was not found, or could not be decided."""
