@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 from fractions import Fraction
-from subprocess import run
 
 import pytest
 from hypothesis import given, settings
@@ -131,12 +129,3 @@ def test_what_kind_a_branch_is_takes_no_elimination_where_equations_are_solved(m
 )
 def test_what_kind_a_branch_is(equations, kind) -> None:
     assert BranchEquations(system("x y z", *equations), graphs=True).kind is kind
-
-
-def test_flint_is_not_loaded_before_something_is_factored() -> None:
-    code = (
-        "import sys, nag, nag.cli, nag.algebra.branches, nag.solving.solve, nag.decomposition\n"
-        "nag.decompose, nag.solve\n"
-        "assert 'flint' not in sys.modules"
-    )
-    run([sys.executable, "-c", code], check=True)

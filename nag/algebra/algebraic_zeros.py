@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.algebra.bivariate import zero_families
@@ -72,8 +73,6 @@ class AlgebraicZero:
 
     def balls(self, bits: int) -> list[Any]:
         """Balls that hold the coordinates, computed with so many bits."""
-        import flint
-
         with flint.ctx.workprec(bits):
             root = self.root
             if self.minimal.degree() == 1:
@@ -115,8 +114,6 @@ class AlgebraicZero:
 
     def _seen_independent(self, polynomials: Sequence[Polynomial]) -> bool:
         """Whether balls prove it: Gram's determinant of the gradients is not zero."""
-        import flint
-
         with flint.ctx.workprec(BALL_BITS):
             x = self.balls(BALL_BITS)
             rows = [[_at(f.derivative(i), x) for i in range(f.n)] for f in polynomials]
@@ -231,8 +228,6 @@ def _of_two_variables(
 
 def _composed(f: Any, at: Sequence[Any], p: Any) -> Any:
     """A polynomial at coordinates that are polynomials modulo p."""
-    import flint
-
     powers: dict[tuple[int, int], Any] = {}
 
     def power(i: int, k: int) -> Any:
@@ -254,8 +249,6 @@ def _composed(f: Any, at: Sequence[Any], p: Any) -> Any:
 
 def _at(f: Polynomial, x: Sequence[Any]) -> Any:
     """An exact polynomial at a point in balls."""
-    import flint
-
     total = flint.acb(0)
     for exponents, c in f.terms.items():
         term = flint.acb(flint.fmpq(c.numerator, c.denominator))
@@ -280,16 +273,12 @@ def _pivot(equations: list[Any], left: set[int]) -> tuple[int, int] | None:
 
 
 def _univariate(f: Any, index: int) -> Any:
-    import flint
-
     coefficients = {int(e[index]): c for e, c in f.to_dict().items()}
     top = max(coefficients, default=-1)
     return flint.fmpq_poly([coefficients.get(k, 0) for k in range(top + 1)])
 
 
 def _zeros_of(f: Any, images: list[Any]) -> tuple[AlgebraicZero, ...]:
-    import flint
-
     found: list[AlgebraicZero] = []
     for factor, multiplicity in f.factor()[1]:
         p = flint.fmpq_poly(factor)
@@ -299,8 +288,6 @@ def _zeros_of(f: Any, images: list[Any]) -> tuple[AlgebraicZero, ...]:
 
 def _conjugates(p: Any, coordinates: tuple[Any, ...], multiplicity: int) -> list[AlgebraicZero]:
     """One zero for each root of an irreducible polynomial."""
-    import flint
-
     with flint.ctx.workprec(LEAST_BITS):
         if p.degree() == 1:
             roots = [flint.acb(-p[0] / p[1])]

@@ -15,6 +15,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+import flint
+
 # Shears y = u - k x that are tried; all but finitely many tell the zeros apart.
 SHEARS = (0, 1, -1, 2, -2, 3, -3, 5, -5, 7, 11, 13)
 # Systems with more zeros, by Bezout's theorem, are left to other methods; so are those where the
@@ -88,8 +90,6 @@ def _separated(resultant: Any, f: Any, g: Any, k: int) -> tuple[ZeroFamily, ...]
     With a constant leading coefficient of f, the order of the resultant at a root is the sum of the
     intersection multiplicities at the zeros above it.
     """
-    import flint
-
     found = []
     degree = f.total_degree() * g.total_degree()
     subresultant = _first_subresultant(_rows(f), _rows(g), degree)
@@ -108,16 +108,12 @@ def _separated(resultant: Any, f: Any, g: Any, k: int) -> tuple[ZeroFamily, ...]
 
 
 def _second_only(f: Any) -> Any:
-    import flint
-
     terms = {int(e[1]): c for e, c in f.to_dict().items()}
     return flint.fmpq_poly([terms.get(i, 0) for i in range(max(terms) + 1)])
 
 
 def _rows(f: Any) -> list[Any]:
     """The coefficients of the powers of the first variable, polynomials in the second one."""
-    import flint
-
     rows: dict[int, dict[int, Any]] = {}
     for e, c in f.to_dict().items():
         rows.setdefault(int(e[0]), {})[int(e[1])] = c
@@ -134,8 +130,6 @@ def _first_subresultant(f: list[Any], g: list[Any], degree: int) -> list[Any]:
     Where it does not vanish at a root of the resultant, it is the common divisor there. Its
     coefficients are determinants of at most the given degree, found by interpolation.
     """
-    import flint
-
     m, n = len(f) - 1, len(g) - 1
     if m == 1:
         return f
@@ -156,8 +150,6 @@ def _first_subresultant(f: list[Any], g: list[Any], degree: int) -> list[Any]:
 
 
 def _determinant(rows: list[list[Any]]) -> Any:
-    import flint
-
     return flint.fmpq_mat(len(rows), len(rows), [c for row in rows for c in row]).det()
 
 
@@ -200,8 +192,6 @@ def _gcd(f: list[Any], g: list[Any], p: Any) -> list[Any]:
 
 
 def _divided(f: list[Any], g: list[Any], p: Any) -> list[Any]:
-    import flint
-
     quotient = [flint.fmpq_poly([])] * (len(f) - len(g) + 1)
     for shift, c, _ in _reductions(f, g, p):
         quotient[shift] = c

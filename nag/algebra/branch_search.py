@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+import flint
+
 from nag.algebra.consequences import Consequences, consequences, generators
 from nag.algebra.factoring import Ring
 from nag.algebra.polynomial import Polynomial
@@ -312,8 +314,6 @@ class Search:
         """Whether a combination of the equations, by numbers, is a constant that is not zero."""
         if len(leaf.equations) < 2:
             return False
-        import flint
-
         rows = [product_of(e).to_dict() for e in leaf.equations]
         monomials = sorted({e for row in rows for e in row}, reverse=True)
         if any(monomials[-1]) or len(rows) * len(monomials) > MOST_ENTRIES:

@@ -17,6 +17,8 @@ from fractions import Fraction
 from math import lcm, prod
 from typing import Any
 
+import flint
+
 from nag.algebra.linear_algebra import LARGE
 from nag.algebra.polynomial import Exponents, Polynomial
 
@@ -101,8 +103,6 @@ def _surely_lowest(polynomials: Sequence[Polynomial], monomials: Sequence[Expone
 
 
 def _row(f: Polynomial) -> Row:
-    import flint
-
     return {e: flint.fmpq(c.numerator, c.denominator) for e, c in f.terms.items()}
 
 
@@ -118,8 +118,6 @@ def _descending(rows: Sequence[Mapping[Exponents, Any]]) -> list[Exponents]:
 
 
 def _matrix(rows: Sequence[Row], monomials: Sequence[Exponents]) -> Any:
-    import flint
-
     return flint.fmpq_mat([[row.get(e, 0) for e in monomials] for row in rows])
 
 

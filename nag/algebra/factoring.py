@@ -14,6 +14,7 @@ from functools import lru_cache
 from math import gcd, lcm
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.algebra.linear_algebra import LARGE
@@ -29,8 +30,6 @@ class Ring:
     """The polynomials over the rationals in ``n`` variables, as FLINT's ``fmpq_mpoly``."""
 
     def __init__(self, n: int) -> None:
-        import flint
-
         names = [f"x{i}" for i in range(n)]
         self.n = n
         self._rational = flint.fmpq

@@ -15,6 +15,8 @@ from functools import cached_property
 from math import lcm
 from typing import Any
 
+import flint
+
 from nag.algebra.polynomial import Exponents, Polynomial, divides
 from nag.algebra.rational_function import FunctionField, Order, RationalFunction
 
@@ -235,8 +237,6 @@ def ideal(
     Raises:
         UnfinishedBasis: beyond the bounds.
     """
-    import flint
-
     given = [f.numerator if isinstance(f, RationalFunction) else f for f in generators]
     given = [f for f in given if f != 0]
     if not given:

@@ -11,7 +11,9 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
+import flint
 import numpy as np
+from flint import acb, arb, fmpq
 
 from nag.algebra.number import Number, to_mpf
 from nag.algebra.polynomial import Exponents, Polynomial
@@ -59,14 +61,10 @@ class BallValues:
 
     def at(self, point: Sequence[Any]) -> list[Any]:
         """The values at a point of ``acb``."""
-        import flint
-
         return self._sums(flint.acb_mat, point, flint.acb(1), False)
 
     def sizes_at(self, sizes: Sequence[Any]) -> list[Any]:
         """Sums of the absolute values of the terms where coordinates have these sizes, ``arb``."""
-        import flint
-
         return self._sums(flint.arb_mat, sizes, flint.arb(1), True)
 
     def _sums(self, matrix: Any, point: Sequence[Any], one: Any, absolute: bool) -> list[Any]:
@@ -80,9 +78,6 @@ class BallValues:
         return [sums[i, 0] for i in range(len(self._polynomials))]
 
     def _coefficients(self, matrix: Any, absolute: bool) -> Any:
-        import flint
-        from flint import arb, fmpq
-
         key = flint.ctx.prec, absolute
         if key not in self._matrices:
             entries = [[0] * len(self._steps) for _ in self._polynomials]
@@ -96,8 +91,6 @@ class BallValues:
 
 
 def _number(c: Number) -> Any:
-    from flint import arb, fmpq
-
     if isinstance(c, Fraction):
         return arb(fmpq(c.numerator, c.denominator))
     sign, mantissa, exponent, _ = to_mpf(c, DIGITS)._mpf_
@@ -116,8 +109,6 @@ def _middle(z: Any) -> Any:
 
 def _relative(f: Polynomial, z: Sequence[Any]) -> Any:
     """The size of ``f(z)`` beside its terms, coordinates below one counted as one."""
-    from flint import arb
-
     sizes = [max(abs(x).mid(), arb(1)) for x in z]
     values = _values_of((f,))
     bound = abs(values.sizes_at(sizes)[0]).mid()
@@ -130,8 +121,6 @@ def vanish_at(equations: Sequence[Polynomial], point: Sequence[tuple[str, str]])
     Args:
         point: real and imaginary parts of the coordinates as decimals.
     """
-    import flint
-
     with flint.ctx.workdps(DIGITS + 10):
         z = [_middle(flint.acb(flint.arb(re), flint.arb(im))) for re, im in point]
     return vanish_in_balls(equations, z)
@@ -139,8 +128,6 @@ def vanish_at(equations: Sequence[Polynomial], point: Sequence[tuple[str, str]])
 
 def vanish_in_balls(equations: Sequence[Polynomial], point: Sequence[Any]) -> bool:
     """Whether equations vanish at a point known to `DIGITS` digits, in FLINT's ``acb``."""
-    import flint
-
     with flint.ctx.workdps(DIGITS + 10):
         vanishing = flint.arb(VANISHES)
         return all(_relative(f, point[: f.n]) < vanishing for f in equations)
@@ -172,9 +159,6 @@ def zero_near(
     if balanced is None:
         return None
     inverse, columns, weights = balanced
-    import flint
-    from flint import acb, arb
-
     evaluate = _values_of(tuple(square))
     with flint.ctx.workdps(digits):
         point = [acb(complex(x)) for x in z]

@@ -11,6 +11,8 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
+from flint import fmpq, fmpq_poly
+
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 
@@ -24,8 +26,6 @@ def rational_function(places: Sequence[Fraction], values: Sequence[Fraction]) ->
 
     None if none goes through all values with `SPARE` of them to spare.
     """
-    from flint import fmpq_poly
-
     modulus, interpolated = fmpq_poly([1]), fmpq_poly([0])
     for x, y in zip(places, values, strict=True):
         # Newton's form: one more value, one degree more.
@@ -82,8 +82,6 @@ def _comparable(systems: Sequence[PolynomialSystem]) -> bool:
 
 def _polynomial(places: Sequence[Fraction], parts: Sequence[Polynomial]) -> Polynomial | None:
     """One equation, from what it is at each place up to a factor."""
-    from flint import fmpq_poly
-
     common = [e for e in sorted(parts[0].terms) if all(e in f.terms for f in parts)]
     if not common:
         return None
@@ -106,7 +104,5 @@ def _polynomial(places: Sequence[Fraction], parts: Sequence[Polynomial]) -> Poly
 
 
 def _exact(value: Fraction) -> Any:
-    from flint import fmpq
-
     value = Fraction(value)
     return fmpq(value.numerator, value.denominator)

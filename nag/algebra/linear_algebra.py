@@ -11,12 +11,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+import flint
+
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
 
 if TYPE_CHECKING:
-    import flint
     import numpy as np
 
 Rows = Sequence[Sequence[int]]
@@ -46,8 +47,6 @@ class PrimeField:
 
     def matrix(self, rows: Rows) -> flint.nmod_mat:
         """Rows of integers, of which there are some."""
-        import flint
-
         found = flint.nmod_mat(len(rows), len(rows[0]), self.modulus)
         # Most entries are zero, as a rule, and each that is entered is taken modulo the prime.
         for i, row in enumerate(rows):
@@ -163,8 +162,6 @@ def left_inverse(columns: Sequence[Sequence[Number]]) -> list[Row]:
 
 def rational_matrix(rows: Sequence[Sequence[Fraction | int]]) -> flint.fmpq_mat:
     """Rows, of which there are some, as a matrix of FLINT's."""
-    import flint
-
     return flint.fmpq_mat([[flint.fmpq(c.numerator, c.denominator) for c in row] for row in rows])
 
 

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
 
+import flint
+
 from nag.errors import NagError
 
 Order = Literal["lex", "degrevlex"]
@@ -25,8 +27,6 @@ class FunctionField:
     """
 
     def __init__(self, names: str | Sequence[str], order: Order = "lex") -> None:
-        import flint
-
         self.names = tuple(names.split() if isinstance(names, str) else names)
         self.order = order
         self.context = flint.fmpz_mpoly_ctx.get(self.names, flint.Ordering[order])

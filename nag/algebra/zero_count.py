@@ -20,6 +20,7 @@ from itertools import combinations_with_replacement
 from math import comb, lcm
 from typing import NamedTuple
 
+import flint
 import numpy as np
 
 from nag.algebra.polynomial import Exponents, Polynomial
@@ -186,8 +187,6 @@ class _Quotient:
         rows = rows[rows.any(axis=1)]
         if not len(rows):
             return
-        import flint
-
         columns = len(self.standard)
         matrix = flint.nmod_mat(len(rows), columns, self.prime)
         # Most entries are zero.

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import flint
+
 from nag.algebra.groebner import ideal
 from nag.algebra.rational_function import FunctionField
 from nag.check.loops import axis_equations, local
@@ -141,8 +143,6 @@ def component_of_the_mechanism() -> Verdict:
 @statement("T25 section 4", "I_1 = <g_0, .., g_9>, a lexicographic Groebner basis")
 def two_joints() -> Verdict:
     """For a3 > a1 > b3 > b1 > b2 > b0 > a2 > a0, as printed."""
-    import flint
-
     field = FunctionField("a3 a1 b3 b1 b2 b0 a2 a0")
     a3, a1, b3, b1, b2, b0, a2, a0 = field.variables
     a, b = (a0, a1, a2, a3), (b0, b1, b2, b3)

@@ -9,6 +9,7 @@ from fractions import Fraction
 from itertools import product
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.algebra.factoring import is_absolutely_irreducible
@@ -137,8 +138,6 @@ def _stabiliser(part: Ideal) -> int:
 @statement("T25 section 4", "h_0 to h_18 are a Groebner basis, and I_bric its elimination ideal")
 def groebner_basis() -> Verdict:
     """Lexicographic with c2 > a2 > a0 last: leading monomials without common variables."""
-    import flint
-
     rest = [f"{x}{i}" for x in "abcde" for i in range(4)]
     names = [x for x in rest if x not in ("c2", "a2", "a0")]
     field = FunctionField([*names, "c2", "a2", "a0"])

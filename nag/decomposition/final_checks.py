@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement, permutations
-from typing import TYPE_CHECKING
 
+import flint
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
@@ -23,9 +23,6 @@ from nag.witness.multiplicity import multiplicity
 from nag.witness.points import Points, with_fine
 from nag.witness.slices import complex_normal, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
-
-if TYPE_CHECKING:
-    import flint
 
 # Multidegrees are counted only where so many choices of groups are enough.
 MOST_MULTIDEGREES = 100

@@ -17,6 +17,7 @@ from itertools import combinations, combinations_with_replacement, permutations
 from math import comb
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.algebra.factoring import factored, most_absolute_factors
@@ -162,8 +163,6 @@ class _Line:
 
         With the sizes of the sums that they are.
         """
-        import flint
-
         n = self.f.n
         first = [self.f.derivative(i) for i in range(n)]
         second = [[g.derivative(j) for j in range(n)] for g in first]
@@ -187,8 +186,6 @@ class _Line:
 
 
 def _value(f: Polynomial, x: Sequence[Any]) -> Any:
-    import flint
-
     total = flint.acb(0)
     for exponents, c in f.terms.items():
         term = ball(c)
@@ -201,8 +198,6 @@ def _value(f: Polynomial, x: Sequence[Any]) -> Any:
 
 def _vanishes(bends: Sequence[tuple[Any, float]]) -> bool:
     """Whether a sum of balls is zero to many digits beside its terms."""
-    import flint
-
     with flint.ctx.workprec(BITS):
         total = sum((bend for bend, _ in bends[1:]), bends[0][0])
     size = max(size for _, size in bends)

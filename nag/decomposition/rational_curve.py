@@ -7,6 +7,7 @@ of one polynomial.
 
 from __future__ import annotations
 
+import flint
 import numpy as np
 
 from nag.algebra.elimination import eliminate_linear, linear_variables
@@ -36,8 +37,6 @@ def decompose_rational_curve(
     Returns:
         None where the equations do not give it in this way, or its degree is too high.
     """
-    import flint
-
     reduced, n = reduction.reduced, reduction.n
     exact = all(f.exact for f in (*reduced.polynomials, *reduced.nonzero))
     if not exact or n < 3 or len(reduced.polynomials) != n - 1:

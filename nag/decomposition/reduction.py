@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
+import flint
 import numpy as np
 
 from nag.algebra.elimination import Elimination, eliminate_linear
@@ -95,8 +96,6 @@ class Reduction:
 
     def lifted_fine(self, point: Fine) -> Fine:
         """A point in these coordinates as one in the original variables, in all its digits."""
-        import flint
-
         from nag.numerics.digits import number
 
         with flint.ctx.workdps(2 * DIGITS):

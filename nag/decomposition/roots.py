@@ -7,6 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
@@ -22,8 +23,6 @@ BITS, TOLERANCE = 400, 300
 
 def ball(c: Fraction) -> Any:
     """A rational number, in the digits of FLINT's context."""
-    import flint
-
     return flint.acb(flint.arb(c.numerator) / c.denominator)
 
 
@@ -32,8 +31,6 @@ def line(rows: np.ndarray) -> list[Any]:
 
     The line is that of the rows themselves: points that are close need all digits of it.
     """
-    import flint
-
     A = rows[:, 1:]
     n, direction = A.shape[1], np.linalg.svd(A)[2][-1]
     with flint.ctx.workprec(BITS):
@@ -52,8 +49,6 @@ def zeros_on(f: Polynomial, images: Sequence[Any]) -> list[list[Any]] | None:
     Returns:
         As `points_at_roots`.
     """
-    import flint
-
     with flint.ctx.workprec(BITS):
         powers = [[image**k for k in range(f.degree_in([i]) + 1)] for i, image in enumerate(images)]
         restricted = flint.acb_poly([])
@@ -77,8 +72,6 @@ def points_at_roots(f: Any, degree: int, images: Sequence[Any]) -> list[list[Any
         The coordinates of each point; None where the roots cannot be told apart, or are not as
         many.
     """
-    import flint
-
     try:
         roots = f.roots(tol=flint.arb(2) ** -TOLERANCE)
     except ValueError:
@@ -91,8 +84,6 @@ def points_in_balls(cut: Cut, rows: np.ndarray, balls: Sequence[Sequence[Any]]) 
 
     How close, the points tell.
     """
-    import flint
-
     points = np.array([[complex(c) for c in point] for point in balls])
     with flint.ctx.workprec(BITS):
         fine = {i: in_words(balls[i], 1.0) for pair in close_pairs(points) for i in pair}

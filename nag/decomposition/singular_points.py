@@ -13,8 +13,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import comb
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import flint
 import numpy as np
 
 from nag.algebra.given import check_listed
@@ -41,9 +42,6 @@ from nag.witness.frame import expanded
 from nag.witness.given_component import check_decomposition, check_index
 from nag.witness.multiplicity import multiplicity_at
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
-
-if TYPE_CHECKING:
-    import flint
 
 # More pairs of components are not intersected.
 MOST_PAIRS = 150

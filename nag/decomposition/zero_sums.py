@@ -10,6 +10,7 @@ echelon form.
 
 from __future__ import annotations
 
+import flint
 import numpy as np
 
 # Bits for each vector, beside those of the bound, that let other vectors be seen to be longer: of
@@ -32,8 +33,6 @@ def smallest_zero_sums(
         Disjoint lists of indices; None if vectors are not known to enough digits to tell. A sum
         that is found differs from zero by no more than some errors.
     """
-    import flint
-
     count = len(vectors)
     if not count:
         return []
@@ -84,8 +83,6 @@ def _orthogonal_lengths(basis) -> np.ndarray:
 
 def _disjoint_sets(relations: list[list[int]]) -> list[list[int]] | None:
     """Disjoint sets whose indicators span what these vectors span; None if there are none such."""
-    import flint
-
     if not relations:
         return []
     form, scale, _ = flint.fmpz_mat(relations).rref()

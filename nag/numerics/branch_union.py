@@ -11,8 +11,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, TypeVar
 
+import flint
 import numpy as np
 
 from nag.algebra.algebraic_zeros import BITS, AlgebraicZero
@@ -32,9 +33,6 @@ from nag.numerics.zero_values import (
     possible_zeros,
     surely_differs,
 )
-
-if TYPE_CHECKING:
-    import flint
 
 # A point, in doubles or in balls, and how far the exact one may be from it.
 Known = tuple["np.ndarray | Sequence[flint.acb | tuple[str, str]]", "float | np.ndarray"]

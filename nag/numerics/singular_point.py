@@ -6,14 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
+import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-
-if TYPE_CHECKING:
-    import flint
 
 
 class Place(Enum):

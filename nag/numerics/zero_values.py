@@ -10,16 +10,13 @@ is the same at all of them is known.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+import flint
 import numpy as np
 
 from nag.algebra.high_precision import BallValues, vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-
-if TYPE_CHECKING:
-    import flint
 
 # Zeros lie below 2.5e-13 at sharpened points, others above 2e-6 in all systems measured.
 ON = 1e-9
@@ -81,8 +78,6 @@ def alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularEnd, ...
 def vanishes_at(zero: SingularEnd, f: Polynomial) -> bool:
     """Whether a polynomial vanishes at a zero, in the digits that each coordinate is known to."""
     if zero.radii is not None and zero.digits:
-        import flint
-
         with flint.ctx.workdps(DIGITS):
             ball = [
                 flint.acb(flint.arb(re, r), flint.arb(im, r))
@@ -108,8 +103,6 @@ def surely_differs(f: Polynomial, x: np.ndarray, radii: np.ndarray) -> bool:
     Args:
         radii: errors of the coordinates, shape ``(n,)``; to them comes that of writing them.
     """
-    import flint
-
     wide = SLACK * (radii + np.finfo(float).eps * np.abs(x))
     with flint.ctx.workprec(BITS):
         ball = [

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import flint
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
@@ -95,8 +96,6 @@ class _Found(GenericPoint):
         if self.tracked is not None and len(self._zeros) != 1:
             return _known(self.solution)
         # Zeros of other branches may be close to it.
-        import flint
-
         from nag.numerics.digits import number, point
 
         with flint.ctx.workdps(WORKING):

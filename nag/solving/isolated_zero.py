@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import flint
 import numpy as np
 
 from nag.numerics.coincidence import SAFETY
@@ -34,8 +35,6 @@ class FinePoint:
     @classmethod
     def of_ball(cls, begin: Start, ball: Ball) -> FinePoint:
         """The affine coordinates of an end that a path reached in more digits."""
-        import flint
-
         shift, radii = len(begin.groups), ball.radii
         values: dict[int, Any] = {}
         errors: dict[int, float] = {}
@@ -59,8 +58,6 @@ class FinePoint:
         """
         if not end.digits or end.radii is None:
             return None
-        import flint
-
         from nag.numerics.digits import point
 
         with flint.ctx.workdps(DIGITS):

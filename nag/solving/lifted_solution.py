@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import flint
 import numpy as np
 
 from nag.algebra.elimination import Elimination
@@ -48,8 +49,6 @@ def _in_digits(
 
     None if there is none.
     """
-    import flint
-
     from nag.numerics.digits import doubles, number, point
 
     zeros = possible_zeros(elimination.system.polynomials, y, error, np.random.default_rng(0))

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import flint
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
@@ -138,8 +139,6 @@ def _carry_fine(point: Fine, natural: NaturalCoordinates) -> Fine:
         further = np.ones(len(point.words) - n)
         words = point.words / np.append(natural.sizes, further)[:, None, None]
         return replace(point, words=words)
-    import flint
-
     from nag.numerics.digits import number
 
     with flint.ctx.workdps(2 * DIGITS):

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import flint
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
@@ -81,8 +82,6 @@ class Fine:
 
     def balls(self) -> list[Any]:
         """The coordinates in FLINT's ``acb``; the working precision must hold the words."""
-        import flint
-
         return [
             flint.acb(*(sum(map(flint.arb, part.tolist()), flint.arb(0)) for part in parts))
             for parts in self.words
@@ -110,8 +109,6 @@ def in_words(values: Sequence[Any], curvature: float) -> Fine:
 
 def affine_fine(centre: np.ndarray, curvature: float) -> Fine:
     """The affine point of homogeneous coordinates in words, shape ``(N, 2, words)``."""
-    import flint
-
     with flint.ctx.workdps(2 * DIGITS):
         first, *others = Fine(centre, curvature).balls()
         return in_words([z / first for z in others], curvature)
@@ -122,8 +119,6 @@ def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> F
 
     Two of Newton's corrections from a point that is a little off: their quotient over the first.
     """
-    import flint
-
     from nag.numerics.ball_polynomials import BallPolynomials
 
     exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
@@ -148,8 +143,6 @@ def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> F
 
 def with_roots(point: Fine, f: Polynomial) -> list[Fine]:
     """A point with each root of ``u^m = f`` there, for f of degree m, as a further coordinate."""
-    import flint
-
     from nag.numerics.digits import number
 
     with flint.ctx.workdps(2 * DIGITS):
@@ -171,8 +164,6 @@ def zero_from(
         ``10 ** -digits`` relative to the point; None if Newton's method does not converge at
         once to a zero that is far nearer than the next one.
     """
-    import flint
-
     from nag.numerics.ball_polynomials import BallPolynomials
 
     exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(start.words)))
@@ -203,8 +194,6 @@ def follow_slice(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fin
     The step along the tangent may be much longer than other zeros are far, as these move along:
     only what is left after it, of the order of its square, has to be small beside their distance.
     """
-    import flint
-
     from nag.numerics.ball_polynomials import BallPolynomials
 
     exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
@@ -223,8 +212,6 @@ def follow_slice(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fin
 
 
 def _middle(z: Any) -> Any:
-    import flint
-
     return flint.acb(z.real.mid(), z.imag.mid())
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
+import flint
 import numpy as np
 
 from nag.algebra.branches import Branch, branches
@@ -22,9 +22,6 @@ from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre, cut_fibres
 from nag.witness.witness import WitnessSet
-
-if TYPE_CHECKING:
-    import flint
 
 
 def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fibre]:
@@ -89,8 +86,6 @@ def _cut(
 
 def may_vanish(polynomials: Sequence[Polynomial], balls: Sequence[flint.acb]) -> bool:
     """Whether no polynomial is certainly not zero at a point in balls."""
-    import flint
-
     with flint.ctx.workdps(DIGITS):
         return all(
             vanish_in_balls([f], balls) or bool(f(balls, number).contains(0)) for f in polynomials
@@ -99,8 +94,6 @@ def may_vanish(polynomials: Sequence[Polynomial], balls: Sequence[flint.acb]) ->
 
 def point_in_balls(component: WitnessSet) -> list[flint.acb]:
     """A witness point in balls, from the equations that cut it where the component holds them."""
-    import flint
-
     if component.fibres:
         fibre, n = component.fibres[0], component.points.shape[1]
         rows, fine = component.slice.rows, fibre.fine.get(0)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
+import flint
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
@@ -17,9 +17,6 @@ from nag.witness.close_points import Fine, zero_from
 from nag.witness.cutting import Cut
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded
-
-if TYPE_CHECKING:
-    import flint
 
 # Above this singular value a zero of as many equations as unknowns needs no confirmation.
 REGULAR = 1e-5
@@ -111,8 +108,6 @@ def zero_in_digits(
     """
     if fine is None:
         return sharp_zero(cut.polynomials, padded(rows, 1 + len(z)), cut.evaluator.jacobian(z), z)
-    import flint
-
     more = int(2 * np.log10(max(fine.curvature, 1.0)))
     with flint.ctx.workdps(DIGITS + 10 + 2 * more):
         found = zero_from(cut.polynomials, rows, fine, DIGITS + more)

@@ -13,8 +13,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import flint
 import numpy as np
 
 from nag.algebra.high_precision import zero_near
@@ -30,9 +31,6 @@ from nag.witness.frame import EPS, Frame
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded
 from nag.witness.witness import DOUBLE, WitnessSet, relative_errors
-
-if TYPE_CHECKING:
-    import flint
 
 # Digits that points are known to at least, where their condition allows it.
 FEWEST = 28
@@ -190,8 +188,6 @@ def _from_fine(
     cut: Cut, rows: np.ndarray, fine: Fine, digits: int, bits: int
 ) -> tuple[np.ndarray, float]:
     """A point that is close to others, from the digits that it has."""
-    import flint
-
     lost = int(np.log10(max(fine.curvature, 1.0)))
     with flint.ctx.workdps(digits + SPARE + 2 * lost):
         found = zero_from(cut.polynomials, rows, fine, digits + lost)
@@ -213,8 +209,6 @@ def _in_balls(
     n = cut.n
     nothing = np.zeros(2 * n, dtype=object)
     slices = padded(rows, 1 + len(z))
-    import flint
-
     with flint.ctx.workdps(digits + SPARE):
         found = zero_near(cut.polynomials, slices, cut.evaluator.jacobian(z), z, digits + SPARE)
         if found is None:

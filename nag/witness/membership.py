@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 
+import flint
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
@@ -205,8 +206,6 @@ def _at_end(
 
 def _beside(cut: Cut, point: np.ndarray) -> float:
     """How far the set beside a point is, by Newton's method; infinite if that is unknown."""
-    import flint
-
     from nag.numerics.ball_polynomials import BallPolynomials
 
     if cut.aux or not cut.polynomials:
@@ -225,8 +224,6 @@ def _beside(cut: Cut, point: np.ndarray) -> float:
 
 def _angle(cut: Cut, rows: np.ndarray, end: Fine) -> float:
     """The least singular value of the gradients and the slice, all of length one."""
-    import flint
-
     from nag.numerics.ball_polynomials import BallPolynomials
 
     exact = BallPolynomials.of(cut.polynomials, padded(rows, 1 + len(end.words)))
@@ -444,8 +441,6 @@ def _is_exactly(
 
     The latter is known to 100 digits, and is the only zero within the error of these.
     """
-    import flint
-
     from nag.numerics.digits import number
     from nag.numerics.digits import point as in_digits
 

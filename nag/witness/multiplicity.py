@@ -11,8 +11,8 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
@@ -20,9 +20,6 @@ from nag.numerics.coincidence import compared
 from nag.numerics.zero_values import WRITTEN, multiplicity_of_all, possible_zeros
 from nag.witness.fibres import Fibre, Tracker, move
 from nag.witness.slices import padded, rows_through, unit_complex
-
-if TYPE_CHECKING:
-    import flint
 
 # How well points are known that were sharpened in doubles, by a deflation that may be badly
 # conditioned.

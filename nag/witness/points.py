@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+import flint
 import numpy as np
 
 from nag.witness.close_points import (
@@ -90,8 +91,6 @@ class Points:
 
     def _in_digits(self, i: int, apart: float) -> Fine | None:
         """More digits of a point in doubles that is so far from the next one."""
-        import flint
-
         steep = STEEPER * self._size(i) / max(apart, 1e-300)
         with flint.ctx.workdps(2 * DIGITS):
             cut = self.cuts[self.which[i]]

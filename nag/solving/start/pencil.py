@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import flint
 import numpy as np
 
 from nag.solving.start.fibre_monodromy import GenericSystem
@@ -172,8 +173,6 @@ def _second_differences(
     there: Sequence[tuple[CompiledRows, np.ndarray]], shifts: Sequence[complex]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Of each point, and of all together: worked out in 64 digits, then rounded."""
-    import flint
-
     from nag.tracking.ends.newton_steps import affine_points, newton_steps
 
     fine = []

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from math import log2
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.tracking.ends.inclusion import patches_through, system_at
@@ -38,8 +39,6 @@ def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) ->
         centre: a point near enough for Newton's method, shape ``(N, 2, words)``.
         coordinates: those that are asked for.
     """
-    import flint
-
     with flint.ctx.workprec(BITS):
         terms.work_out()
         return _zero(flint, terms, [number(c) for c in centre], coordinates) is not None
@@ -54,8 +53,6 @@ def regular_paths(
         points: near enough to regular zeros for Newton's method, shape ``(P, N)``.
         condition: of the Jacobian there, shape ``(P,)``.
     """
-    import flint
-
     terms, balls = Terms(homotopy), {}
     with flint.ctx.workprec(BITS):
         terms.work_out()

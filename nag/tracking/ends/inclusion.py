@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.tracking.ends.terms import BITS, Factors, Terms, number
@@ -33,8 +34,6 @@ def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray |
     Returns:
         Half sides, some rounding errors of the coordinates or less, shape ``(N,)``.
     """
-    import flint
-
     before = flint.ctx.prec
     try:
         flint.ctx.prec = BITS[centre.shape[-1]]

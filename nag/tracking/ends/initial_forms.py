@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from math import inf, log10
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.numerics.digits import log_size
@@ -65,8 +66,6 @@ class InitialForms:
 
     def residual(self, orders: tuple[int, ...], winding: int, point: Sequence[Any]) -> float:
         """The largest value of a form over the sum of its terms, at a point in FLINT's ``acb``."""
-        import flint
-
         worst = 0.0
         with flint.ctx.workprec(self.bits):
             for terms in _terms(self._of(orders, winding), point):
@@ -87,8 +86,6 @@ class InitialForms:
             point: in FLINT's ``acb``; coordinates of order `NEVER` are not looked at.
             error: of the coordinates, relative to each.
         """
-        import flint
-
         there = [j for j, order in enumerate(orders) if order < NEVER]
         with flint.ctx.workprec(self.bits):
             forms = [
@@ -157,8 +154,6 @@ def _inverse(
 
 def _left(forms: Sequence[Form], inverse: np.ndarray, x: Sequence[Any]) -> np.ndarray:
     """What is left of each form where those that can be solved for vanish; decimal logarithms."""
-    import flint
-
     last = inf
     for _ in range(STEPS):
         values = [sum(own, flint.acb(0)).mid() for own in _terms(forms, x)]

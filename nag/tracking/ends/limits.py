@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.algebra.number import decimal_digits
@@ -106,8 +107,6 @@ class Limits:
             None where the orders are no rational numbers with a common small denominator, or no
             coordinate of a group is known.
         """
-        import flint
-
         bits = flint.ctx.prec
         try:
             flint.ctx.prec = BITS[self.words]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import flint
 import numpy as np
 
 from nag.algebra.number import Irrational, Number, rounded_fraction
@@ -27,8 +28,6 @@ class Terms:
     @cached_property
     def rows(self) -> list[list[Term]]:
         """For each row its terms."""
-        import flint
-
         h = self.homotopy
         rows: list[list[Term]] = []
         for row in h.rows.parts:
@@ -48,8 +47,6 @@ class Terms:
     @cached_property
     def at_end(self) -> list[list[tuple[Factors, Any]]]:
         """The terms of the polynomial rows at t = 0: exponents, and coefficients that are not 0."""
-        import flint
-
         factors = [flint.acb(a) if a != 1 else None for a, _ in self.homotopy.factors]
         rows = []
         for row in self.homotopy.rows.parts:
@@ -68,8 +65,6 @@ class Terms:
     @cached_property
     def lines(self) -> list[list[Any]]:
         """The linear rows at t = 0."""
-        import flint
-
         return [[flint.acb(c) for c in row] for row in self.homotopy.A0.tolist()]
 
     def work_out(self) -> None:
@@ -79,15 +74,11 @@ class Terms:
 
 def real(parts: np.ndarray) -> Any:
     """A sum of doubles."""
-    import flint
-
     return sum(map(flint.arb, parts.tolist()), flint.arb(0))
 
 
 def number(parts: np.ndarray) -> Any:
     """A complex number from sums of doubles, shape ``(2, words)``."""
-    import flint
-
     return flint.acb(real(parts[0]), real(parts[1]))
 
 
@@ -103,8 +94,6 @@ def doubles(z: Any, words: int) -> np.ndarray:
 
 def exact(c: Number | complex) -> Any:
     """A coefficient, to the working precision."""
-    import flint
-
     if isinstance(c, complex | float | np.complexfloating | np.floating):
         return flint.acb(complex(c))
     if isinstance(c, Irrational):
