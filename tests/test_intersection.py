@@ -241,3 +241,42 @@ def test_components_whose_linear_equations_contradict_each_other_do_not_meet() -
     assert [c.dimension for c in whole.components] == [1, 0, 0]
     found = intersect_pair(whole, 0, 1)
     assert found.complete and not found.components
+
+
+@pytest.mark.parametrize("digits", [3, 5, 7, 9, 12, 15])
+@pytest.mark.parametrize("seed", [0, 1])
+def test_concentric_circles_do_not_meet_however_close_they_are(digits: int, seed: int) -> None:
+    whole = nag.decompose(f"(x^2 + y^2 - 1)*(x^2 + y^2 - 1 - 1/10^{digits})", seed=seed)
+    found = intersect_pair(whole, 0, 1, seed=seed)
+    assert found.complete and not found.components
+
+
+@pytest.mark.parametrize("digits", [4, 8, 12])
+@pytest.mark.parametrize(
+    "equation",
+    ["({f})*({f} + ({g})/10^{k})", "({f})^2 - 2*({g})^2/10^(2*{k})"],
+)
+def test_components_that_are_close_to_each_other_meet_where_they_cross(
+    equation: str, digits: int
+) -> None:
+    # They are f = 0 and f + e g = 0, which meet where f = g = 0.
+    f, g = "2*x^2 - 3*x*y + y^2 + x - 5", "x + 4*y - 2"
+    whole = nag.decompose(equation.format(f=f, g=g, k=digits))
+    assert whole.complete and [c.degree for c in whole.components] == [2, 2]
+    found = intersect_pair(whole, 0, 1)
+    assert kinds(found, SINGULAR) == {(0, 1): 2}
+    right = [c.points[0] for c in nag.decompose([f, g]).components]
+    near = [min(np.abs(x - c.points[0]).max() for x in right) for c in found.components]
+    assert max(near) < SINGULAR
+
+
+@pytest.mark.parametrize("digits", [6, 13])
+def test_sheets_of_one_component_meet_a_line_in_as_many_points(digits: int) -> None:
+    whole = nag.decompose(f"(y^2 - (x + 2)/10^{2 * digits})*(x - 2)")
+    assert whole.complete and [c.degree for c in whole.components] == [1, 2]
+    for found in (
+        intersect_pair(whole, 0, 1),
+        intersect_equations(whole.system, whole.components[1], system("x y", "x - 2")),
+    ):
+        points = [c.points[0, 1].real * 10**digits for c in found.components]
+        assert not found.complete or sorted(np.round(points, 6)) == [-2.0, 2.0]

@@ -23,13 +23,16 @@ from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import are_new_alone
 from nag.numerics.coincidence import clusters, coincident, compared
-from nag.numerics.zero_values import possible_zeros, vanishes_at
+from nag.numerics.zero_values import possible_zeros, vanishes_at, vanishes_at_all
+from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, Fine, chosen, in_words
 from nag.witness.close_to_sets import among, meant
+from nag.witness.confirm import vanishing, zero_in_digits
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
 from nag.witness.cutting_in_digits import admit_zero
-from nag.witness.fibres import Fibre, Moved, Tracker, admit
+from nag.witness.fibres import STEEPER, Fibre, Moved, Tracker, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.moving import SliceError, orthonormal_rows
+from nag.witness.points import with_fine
 from nag.witness.slices import padded, random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
@@ -117,8 +120,28 @@ def _pairs(first: Fibre, second: Fibre) -> Fibre:
     points = np.zeros((len(first) * len(second), n + aux), dtype=complex)
     points[:, left] = np.repeat(first.points, len(second), axis=0)
     points[:, right] = np.tile(second.points, (len(first), 1))
+    fine = {
+        i * len(second) + j: _pair(first, i, second, j, (left, right))
+        for i in range(len(first))
+        for j in range(len(second))
+        if i in first.fine or j in second.fine
+    }
     cut = Cut(n, aux, tuple(polynomials))
-    return Fibre(cut, first.dimension + second.dimension, points)
+    return Fibre(cut, first.dimension + second.dimension, points, fine)
+
+
+def _pair(
+    first: Fibre, i: int, second: Fibre, j: int, places: tuple[Sequence[int], Sequence[int]]
+) -> Fine:
+    """The pair of two points in the digits that are known of them."""
+    both = [
+        fibre.fine.get(k) or Fine.of_doubles(fibre.points[k])
+        for fibre, k in ((first, i), (second, j))
+    ]
+    words = np.zeros((sum(len(each.words) for each in both), *both[0].words.shape[1:]))
+    for each, place in zip(both, places, strict=True):
+        words[place] = each.words
+    return Fine(words, max(each.curvature for each in both))
 
 
 def intersected(
@@ -149,27 +172,45 @@ def intersected(
     fibres = moved
     diagonal = _Diagonal(product, common, flag, result, rng, tracker)
     d = len(rows)
+    # What vanishes on the diagonal, and nowhere else but by chance.
+    probes = [*equations[1:], None]
     if d == 0:
-        diagonal.take_those_on_it(fibres)
+        diagonal.take_those_on_it(fibres, equations[0] if equations else None)
         return result
-    for k, f in enumerate(equations):
+    for k, (f, probe) in enumerate(zip(equations, probes, strict=True)):
         if not fibres or d == 0:
             break
         tracker.tell("intersecting", k, len(equations))
         d -= 1
-        fibres = diagonal.met(fibres, f, d)
+        fibres = diagonal.met(fibres, f, probe, d)
     if result.counts.failed:
         result.notes.append(f"{result.counts.failed} paths failed; points may be missing")
     return result
 
 
-def _regular(cut: Cut, rows: np.ndarray, ends: Moved, chosen: np.ndarray) -> tuple[np.ndarray, int]:
-    """The chosen ends as regular zeros of a cut, and how many of them are none.
+def _regular(
+    cut: Cut,
+    rows: np.ndarray,
+    ends: Moved,
+    away: np.ndarray,
+    gaps: np.ndarray,
+    probe: Polynomial | None,
+) -> tuple[Fibre, int]:
+    """The ends off the diagonal as regular zeros of a cut, and how many of them are none.
 
-    Off the diagonal all are; an end that seems singular is a badly conditioned one.
+    Off the diagonal all are; an end that seems singular is a badly conditioned one. What is still
+    to vanish is known beside its size only where its distance from the diagonal is.
     """
-    points, lost = [ends.points[chosen & ends.regular]], 0
-    for i in np.flatnonzero(chosen & ~ends.regular):
+    places = np.flatnonzero(away & ends.regular)
+    points, lost, fine = [ends.points[places]], 0, {}
+    for k, i in enumerate(places.tolist()):
+        if i in ends.fine or gaps[i] < CLOSE:
+            there = _in_words(cut, rows, ends.points[i], ends.fine.get(i), probe)
+            if there is None:
+                lost += 1
+            else:
+                fine[k] = there
+    for i in np.flatnonzero(away & ~ends.regular):
         z = ends.points[i]
         sharpened = sharpen(cut.evaluator, rows, z)
         near = is_end(z, ends.accuracy[i], sharpened.z)
@@ -178,7 +219,32 @@ def _regular(cut: Cut, rows: np.ndarray, ends: Moved, chosen: np.ndarray) -> tup
             points.append(sharpened.z[None])
         else:
             lost += 1
-    return np.vstack(points), lost
+    fibre = Fibre(cut, len(rows), np.vstack(points), fine)
+    return with_fine([fibre], rows)[0], lost
+
+
+def _in_words(
+    cut: Cut, rows: np.ndarray, z: np.ndarray, known: Fine | None, probe: Polynomial | None
+) -> Fine | None:
+    """A regular zero in digits, as close to others as the zeros of a polynomial are to it at least.
+
+    None if it is not found.
+    """
+    import flint
+
+    from nag.numerics.digits import number
+
+    there = zero_in_digits(cut, rows, z, known)
+    if there is None:
+        return None
+    steep = known.curvature if known else 1.0
+    with flint.ctx.workdps(2 * DIGITS):
+        if probe is not None:
+            value = float(abs(probe(there[: probe.n], number)).mid())
+            terms = sum(abs(complex(c)) for c in probe.terms.values())
+            apart = value / terms / (1 + float(np.linalg.norm(z)))
+            steep = max(steep, STEEPER / max(apart, 1 / STEEPEST))
+        return in_words(there, steep)
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,10 +258,15 @@ class _Diagonal:
     rng: np.random.Generator
     tracker: Tracker
 
-    def met(self, fibres: Sequence[Fibre], f: Polynomial, d: int) -> list[Fibre]:
+    def met(
+        self, fibres: Sequence[Fibre], f: Polynomial, probe: Polynomial | None, d: int
+    ) -> list[Fibre]:
         """Points of sets that met ``f``, in dimension ``d``: those off the diagonal.
 
         Those on it are added to the result.
+
+        Args:
+            probe: a polynomial that vanishes on the diagonal alone; None if all points are on it.
         """
         product, flag, result = self.product, self.flag, self.result
         gamma = complex(unit_complex(self.rng))
@@ -203,17 +274,16 @@ class _Diagonal:
         for fibre in fibres:
             ends = intersect(fibre, f, flag, gamma, self.tracker)
             result.counts += ends.counts
-            gaps = np.full(len(ends.points), np.inf)
+            cut, gaps = fibre.cut.extended(f), np.full(len(ends.points), np.inf)
             gaps[ends.finite] = product.gaps(ends.points[ends.finite])
-            on_it, doubtful = compared(gaps, ends.accuracy)
+            on_it, doubtful = self.compared(gaps, cut, ends, probe, bool(fibre.fine))
             here, away = ends.finite & on_it, ends.finite & ~on_it
             unclear = int(np.sum(away & doubtful))
             on.append(ends.points[here, : product.n])
             errors.append(ends.accuracy[here])
             if d > 0 and away.any():
-                cut = fibre.cut.extended(f)
-                points, lost = _regular(cut, flag[:d], ends, away)
-                off.append(Fibre(cut, d, points))
+                rest, lost = _regular(cut, flag[:d], ends, away, gaps, probe)
+                off.append(rest)
                 unclear += lost
             if unclear:
                 result.notes.append(
@@ -222,12 +292,49 @@ class _Diagonal:
         self.take(np.vstack(on), np.concatenate(errors), d)
         return off
 
-    def take_those_on_it(self, fibres: Sequence[Fibre]) -> None:
+    def compared(
+        self, gaps: np.ndarray, cut: Cut, ends: Moved, probe: Polynomial | None, close: bool
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Which ends of paths are on the diagonal, and of which that is not clear.
+
+        Regular ends that are near it are looked at in digits, and so are singular ones where
+        sheets are ``close``: there errors of doubles do not say which one was met.
+        """
+        on_it, doubtful = compared(gaps, ends.accuracy)
+        if probe is None:
+            return on_it, doubtful
+        rows, near = self.flag[: cut.n - len(cut.polynomials) + cut.aux], gaps < CLOSE
+        regular = np.flatnonzero(near & ends.regular)
+        fine = chosen(ends.fine, regular)
+        answers = dict(
+            zip(regular, vanishing(cut, probe, rows, ends.points[regular], fine), strict=True)
+        )
+        if close:
+            for i in np.flatnonzero(near & ~ends.regular):
+                rng, error = np.random.default_rng(0), max(float(ends.accuracy[i]), ROUNDED)
+                zeros = possible_zeros(
+                    cut.polynomials, ends.points[i], error, rng, padded(rows, 1 + cut.n + cut.aux)
+                )
+                answers[i] = vanishes_at_all(zeros, probe)
+        for i, answer in answers.items():
+            on_it[i], doubtful[i] = answer is True, answer is None
+        return on_it, doubtful
+
+    def take_those_on_it(self, fibres: Sequence[Fibre], probe: Polynomial | None) -> None:
         """Add the pairs of isolated points that are equal."""
         accuracy = max(f.component.accuracy for f in (self.product.first, self.product.second))
-        z = np.vstack([fibre.x for fibre in fibres])
-        near, _ = compared(self.product.gaps(z), accuracy)
-        self.take(z[near], np.full(int(near.sum()), accuracy), 0)
+        equal = [np.zeros((0, self.product.n), dtype=complex)]
+        for fibre in fibres:
+            near = self.product.gaps(fibre.x) < CLOSE
+            if probe is not None:
+                rows, fine = self.flag[:0], chosen(fibre.fine, np.flatnonzero(near))
+                answers = vanishing(fibre.cut, probe, rows, fibre.points[near], fine)
+                if None in answers:
+                    self.result.notes.append(f"{answers.count(None)} points may be equal or not")
+                near[near] = [answer is True for answer in answers]
+            equal.append(fibre.x[near])
+        z = np.vstack(equal)
+        self.take(z, np.full(len(z), accuracy), 0)
 
     def allowed(self, x: np.ndarray, accuracy: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """At which points nothing vanishes that must not; decided in digits at those near it."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from nag.decomposition.reduction import Reduction
 from nag.errors import ComponentError
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.witness.change_of_coordinates import carry_component
+from nag.witness.close_points import CLOSE, Fine, follow_slice, rated
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre, Tracker, cut_fibres, move_regular
@@ -77,14 +79,31 @@ class Factor:
         """
         kept = [self._reduced(fibre) for fibre in self.component.fibres]
         if kept and all(len(f.cut.polynomials) == self.n + f.cut.aux - f.dimension for f in kept):
-            return kept
+            return [self._with_fine(fibre, fibre.fine) for fibre in kept]
         deflate = self.component.multiplicity != 1
         points = self.component.points[:, self.reduction.kept]
         equations = self.reduction.equations
         fibres = cut_fibres(points, self.component.accuracy, equations, self.rows, rng, deflate)
         if fibres is None:
             raise IntersectionError("the witness points are no regular zeros of the system")
-        return fibres
+        return [
+            self._with_fine(fibre, dict(enumerate(map(Fine.of_doubles, fibre.points))))
+            for fibre in fibres
+        ]
+
+    def _with_fine(self, fibre: Fibre, known: Mapping[int, Fine]) -> Fibre:
+        """A fibre with more digits of the points that are close to other zeros of its cut.
+
+        Those that are close to zeros of other equations only need none. The slice is rounded beside
+        the component's own one, and followed by points in all their digits.
+        """
+        if not known:
+            return fibre
+        polynomials, rows = fibre.cut.polynomials, self.rows
+        there = {i: follow_slice(polynomials, rows, each) for i, each in known.items()}
+        found = {i: rated(polynomials, rows, each) for i, each in there.items()}
+        steep = {i: each for i, each in found.items() if each.curvature * CLOSE > 1}
+        return replace(fibre, fine=steep)
 
     def _reduced(self, fibre: Fibre) -> Fibre:
         """A fibre in the coordinates that are left, its linear equations solved."""

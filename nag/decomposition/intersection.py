@@ -24,11 +24,9 @@ from nag.decomposition.superset import (
     intersection_order,
     witness_superset,
 )
-from nag.numerics.coincidence import MISS
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.zero_values import LEAST, ON
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
-from nag.witness.close_points import rated
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
 from nag.witness.fibres import Fibre, Progress, Tracker, admit
@@ -52,11 +50,6 @@ __all__ = [
     "intersect_equations",
     "intersect_pair",
 ]
-
-# What is said where a component comes near to others.
-CLOSE_SHEETS = (
-    "a component comes so near to others that doubles do not tell where it meets something"
-)
 
 
 @dataclass(frozen=True)
@@ -152,25 +145,9 @@ def intersect_factors(
     first, second = first.carried(natural), second.carried(natural)
     found = intersected(first, second, common, rng, tracker)
     points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
-    notes = [*found.notes, *_doubts(first.component, second.component)]
-    result = _intersection(common, points, found.counts, notes, rng, tracker)
+    result = _intersection(common, points, found.counts, found.notes, rng, tracker)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
     return _carry_back(result, (*result.components, *bare), whole, natural, seed)
-
-
-def _doubts(*components: WitnessSet) -> list[str]:
-    """What leaves an intersection open whatever is found: where sets meet is told in doubles.
-
-    Args:
-        components: in the units in which they are intersected, which say anew what is close.
-    """
-    close = any(
-        rated(fibre.cut.polynomials, component.slice.rows, point).curvature * MISS > 1
-        for component in components
-        for fibre in component.fibres
-        for point in fibre.fine.values()
-    )
-    return [CLOSE_SHEETS] if close else []
 
 
 def _carry_back(
@@ -239,7 +216,7 @@ def intersect_equations(
 
     rng = np.random.default_rng([seed, 6])
     superset = _met(factor, natural.system(equations), rng, tracker)
-    notes = [*superset.notes, *_doubts(factor.component)]
+    notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
     points = {}
@@ -249,6 +226,8 @@ def intersect_equations(
         points[d], lost = _in_common(found, superset.flag[:d], factor, common, rng)
         if lost:
             notes.append(f"{lost} singular points of dimension {d} could not be made regular")
+        if len(points[d]) + lost < sum(map(len, found)):
+            notes.append(f"points of dimension {d} are too close to each other")
     answer = _intersection(common, points, superset.counts, notes, rng, tracker)
     return _carry_back(answer, answer.components, whole, natural, seed)
 
