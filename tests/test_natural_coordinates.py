@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from random_small import small_system
 from systems import kinds
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.bench.atlas.changes import in_far_coordinates
 from nag.decomposition import decompose
 from nag.files.cases import read_case
 from nag.mechanism.model import model
@@ -21,6 +23,7 @@ from nag.numerics.natural_coordinates import (
     FAR,
     NaturalCoordinates,
     natural_coordinates,
+    shift_polynomial,
 )
 from nag.solving.solve import solve
 
@@ -99,15 +102,51 @@ def test_sparse_equations_are_not_made_denser() -> None:
 
 
 def test_scales_that_equations_leave_free_make_no_origin_far() -> None:
-    text = "-7/10^16*x^2*w + 4/10^15*y^3 + 2*10^7*y*z^2 - 4/10^6*x^2 - 8/10^10*y^2 - 4"
-    f = parse_polynomial(text, ["x", "y", "z", "w"])
+    texts = (
+        "-7/10^16*x^2*w + 4/10^15*y^3 + 2*10^7*y*z^2 - 4/10^6*x^2 - 8/10^10*y^2 - 4",
+        "y^5 + 3*x^2*w",
+    )
+    equations = [parse_polynomial(text, ["x", "y", "z", "w"]) for text in texts]
+    # Alone, the first one is a translated one with a term fewer.
+    assert natural_coordinates(equations[:1], 4).origin == (0, 0, 0, Fraction(-4 * 10**10, 7))
     # Of x and w only x^2 w has a size about the new origin: w may be as large as it was.
-    assert natural_coordinates([f], 4).origin == (0, 0, 0, 0)
+    assert natural_coordinates(equations, 4).origin == (0, 0, 0, 0)
 
 
 def test_the_vertex_of_a_cone_is_its_origin() -> None:
     x, y, z, w = (v - b for v, b in zip(Polynomial.variables(4), (700, -3000, 22, 0), strict=True))
     assert natural_coordinates([x * w - y * z, x**2 - y * w], 4).origin == (700, -3000, 22, 0)
+
+
+def test_equations_without_a_common_centre_are_outvoted() -> None:
+    x, y = (v - b for v, b in zip(Polynomial.variables(2), (1000, -3000), strict=True))
+    apart = x * y + x * Fraction(1, 1000) - 2
+    assert natural_coordinates([apart, x**2 + y**2 - 1, x**3 - y * 5], 2).origin == (1000, -3000)
+
+
+def test_translated_random_systems_are_as_sparse_as_the_plain_ones_about_their_origin() -> None:
+    denser = []
+    for number in range(40):
+        plain, rng = small_system(7, number).system, np.random.default_rng(number)
+        far = in_far_coordinates(plain, ("translated", "third", "one")[number % 3], 4, rng)
+        origin = natural_coordinates(far.polynomials, far.n).origin
+        found = [shift_polynomial(f, origin) for f in far.polynomials]
+        terms = [sum(len(f.terms) for f in fs) for fs in (plain.polynomials, found)]
+        if terms[1] > terms[0] + 1:
+            denser.append(number)
+    assert len(denser) <= 1
+
+
+@pytest.mark.parametrize("number", range(8))
+def test_translations_of_equations_translate_their_origin(number: int) -> None:
+    plain, rng = small_system(7, number).system, np.random.default_rng(number)
+    found = []
+    for decades in (4, 6):
+        shift = [Fraction(int(b), 997) * 10**decades for b in rng.integers(100, 1000, plain.n)]
+        moved = [shift_polynomial(f, [-b for b in shift]) for f in plain.polynomials]
+        origin = natural_coordinates(moved, plain.n).origin
+        found.append([shift_polynomial(f, origin) for f in moved])
+    assert found[0] == found[1]
 
 
 def test_equations_that_depend_on_each_other_have_one_origin() -> None:

@@ -3,10 +3,11 @@
 ``f(y + c)`` has the leading form of ``f`` and, in the next degree, ``f_(d-1) + c . grad f_d``. The
 origin ``c`` is where as many of these coefficients as possible vanish, exactly: the centres of
 circles, spheres and quadrics, of products of them, and of anything that was translated from such
-coordinates. What leading forms do not determine, the next forms do, degree by degree. Scales make
-pure powers in one equation, as ``a x^2 + b y^2`` has, of one size, exactly where the root is
-rational, and leave coefficients of comparable size else. Where little is gained, or an equation
-would have more terms, nothing changes.
+coordinates. Where they have different centres, equations vote, and what has the fewest terms is
+taken. What leading forms do not determine, the next forms do, degree by degree. Scales make pure
+powers in one equation, as ``a x^2 + b y^2`` has, of one size, exactly where the root is rational,
+and leave coefficients of comparable size else. Where little is gained, or there would be more
+terms, nothing changes.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import comb, gcd, isqrt, lcm, log2, prod
+from typing import Any
 
 import numpy as np
 
@@ -34,7 +36,10 @@ LARGER = 1
 SIMPLE, DIGITS = 128, 6
 # Terms beyond which no system is moved.
 MOST_TERMS = 20_000
+# Terms beyond which places of as many votes are not compared by the terms that are left there.
+MOST_COMPARED = 500
 Row = dict[int, int]
+Plane = tuple[tuple[int, int], ...]
 
 
 @dataclass(frozen=True)
@@ -174,11 +179,11 @@ def natural_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoo
     Equations of degree one do not count: they are solved before anything is tracked.
     """
     nothing = NaturalCoordinates.identity(n)
-    curved = sorted((f for f in polynomials if f.degree > 1), key=_simplicity)
+    curved = [f for f in polynomials if f.degree > 1]
     if not curved or not all(f.exact for f in polynomials):
         return nothing
     origin, moved, powers = _accepted_origin(curved, n)
-    if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
+    if np.abs(powers).max(initial=0) < log2(LEAST_SCALE):
         return nothing if not any(origin) else replace(nothing, origin=origin)
     return NaturalCoordinates(_scales(moved, powers), origin)
 
@@ -194,7 +199,7 @@ def scale_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoord
     ['1/1024', '1']
     """
     powers = variable_scales(polynomials, n)
-    if 2 ** np.abs(powers).max(initial=0) < LEAST_SCALE:
+    if np.abs(powers).max(initial=0) < log2(LEAST_SCALE):
         return NaturalCoordinates.identity(n)
     return NaturalCoordinates(tuple(Fraction(2) ** int(k) for k in powers), (Fraction(0),) * n)
 
@@ -210,20 +215,38 @@ def comparable_coordinates(polynomials: Sequence[Polynomial], n: int) -> Natural
 
 def shift_polynomial(f: Polynomial, origin: Sequence[Fraction]) -> Polynomial:
     """``f(y + origin)``."""
-    places = [i for i in f.support if origin[i]]
-    if not places:
+    if not any(origin[i] for i in f.support):
         return f
-    terms = dict(f.terms)
-    for i in places:
-        b, whole = origin[i], terms
-        terms = {e: c for e, c in whole.items() if not e[i]}
-        for e, c in whole.items():
-            k = e[i]
-            for j in range(k + 1 if k else 0):
-                key = (*e[:i], k - j, *e[i + 1 :])
-                value = c * b**j * comb(k, j) if j else c
-                terms[key] = terms[key] + value if key in terms else value
-    return Polynomial(f.n, terms)
+    terms, common = _shift_terms(f, origin)
+    if f.exact:
+        return Polynomial(f.n, {e: Fraction(c, common) for e, c in terms.items()})
+    return Polynomial(f.n, {e: c / common for e, c in terms.items()})
+
+
+def _shift_terms(f: Polynomial, origin: Sequence[Fraction]) -> tuple[dict[Exponents, Any], int]:
+    """``f(y + origin)`` times a whole number, and that: of an exact polynomial, in integers.
+
+    Coefficients that cancel stay as zeros.
+    """
+    terms, common = f.whole or (dict(f.terms), 1)
+    for i in f.support:
+        p, q = origin[i].as_integer_ratio()
+        if not p:
+            continue
+        top = max(e[i] for e in terms)
+        common *= q**top
+        # Binomial coefficients times powers of the shift, for each exponent.
+        weights = [
+            [comb(k, j) * p**j * q ** (top - j) for j in range(k + 1)] for k in range(top + 1)
+        ]
+        shifted: dict[Exponents, Any] = {}
+        for e, c in terms.items():
+            before, k, after = e[:i], e[i], e[i + 1 :]
+            for j, weight in enumerate(weights[k]):
+                key = (*before, k - j, *after)
+                shifted[key] = shifted[key] + c * weight if key in shifted else c * weight
+        terms = shifted
+    return terms, common
 
 
 def _accepted_origin(
@@ -237,23 +260,24 @@ def _accepted_origin(
     nothing = (Fraction(0),) * n, polynomials, before
     if not any(origin):
         return nothing
-    sizes = np.array([magnitude(b) if b else -np.inf for b in origin])
-    # Zeros that are far from their origin make their coordinates as large as it is.
-    if not (sizes > before - log2(FAR)).any():
-        return nothing
     moved = [shift_polynomial(f, origin) for f in polynomials]
-    if any(len(g.terms) > len(f.terms) for f, g in zip(polynomials, moved, strict=True)):
+    vanishing = [len(f.terms) - len(g.terms) for f, g in zip(polynomials, moved, strict=True)]
+    sizes = np.array([magnitude(b) if b else -np.inf for b in origin])
+    # That more terms vanish than numbers were chosen is no accident.
+    translated = sum(vanishing) > np.isfinite(sizes).sum()
+    # Else no equation may be denser for it. Zeros that are far from their origin make their
+    # coordinates as large as it is.
+    if not translated and (min(vanishing) < 0 or not (sizes > before - log2(FAR)).any()):
         return nothing
     # Scales that the equations leave free, as those of a cone, are any: to have them is a gain only
     # where terms vanish for it. Else they are what they were.
-    simpler = sum(len(g.terms) for g in moved) < sum(len(f.terms) for f in polynomials)
-    after = variable_scales(moved, n, near=0.0 if simpler else before)
-    kept = (after <= before + LARGER) | (sizes <= before)
+    after = variable_scales(moved, n, near=0.0 if sum(vanishing) > 0 else before)
+    kept = translated | (after <= before + LARGER) | (sizes <= before)
     gain = (sizes - after)[kept].max(initial=-np.inf)
     if gain <= log2(FAR):
         return nothing
     # What is gained in distance must not be lost in coefficients that no scales make comparable.
-    if gain <= _unevenness(moved, after) - _unevenness(polynomials, before):
+    if not translated and gain <= _unevenness(moved, after) - _unevenness(polynomials, before):
         return nothing
     accepted = tuple(
         _simple(b, int(k)) if keep else Fraction(0)
@@ -286,26 +310,55 @@ def _simple(b: Fraction, power: int) -> Fraction:
 def _origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
     """Where coefficients below the leading ones vanish, as many as can be made to; 0 if unknown.
 
-    Those of equations that contradict earlier ones are left out: the simplest come first.
+    A translation of the equations translates it, but along directions that change none of them: to
+    sort the equations, to count votes and terms does not depend on where the origin is. Variables
+    with a coefficient that vanishes already stay.
     """
     origin = [Fraction(0)] * n
-    directions = [{i: 1} for i in range(n)]
+    directions = [{i: 1} for i in _misplaced_variables(polynomials, n)]
+    if directions:
+        polynomials = sorted(polynomials, key=_simplicity)
     for level in range(1, max(f.degree for f in polynomials) + 1):
         if not directions:
             break
         if sum(_terms_of_shift(f, origin) for f in polynomials) > MOST_TERMS:
             return (Fraction(0),) * n
-        moved = (shift_polynomial(f, origin) for f in polynomials)
-        step, directions = _solve_rows(
-            (row for f in moved for row in _conditions(f, level)), directions
-        )
+        moved = [shift_polynomial(f, origin) for f in polynomials]
+        rows = [_conditions(f, level) for f in moved]
+        step, directions = _solve_rows(rows, directions, moved)
         for i, b in step.items():
             origin[i] += b
     return tuple(origin)
 
 
+def _misplaced_variables(polynomials: Sequence[Polynomial], n: int) -> list[int]:
+    """The variables whose origin may be another one.
+
+    Where ``x^e`` is a leading term and ``x^(e - 1_i)`` has no other one for a neighbour, and is no
+    term, variable i was not translated; nor where all other such neighbours' variables were not.
+    """
+    rows: list[list[int]] = []
+    for f in polynomials:
+        below: dict[Exponents, list[int]] = {}
+        top, terms = f.degree, f.terms
+        for e in terms:
+            if sum(e) == top:
+                for i, k in enumerate(e):
+                    if k:
+                        key = (*e[:i], k - 1, *e[i + 1 :])
+                        if key not in terms:
+                            below.setdefault(key, []).append(i)
+        rows += below.values()
+    left = set(range(n))
+    while settled := {places[0] for places in rows if len(places) == 1}:
+        left -= settled
+        rows = [[i for i in places if i in left] for places in rows]
+    return sorted(left)
+
+
 def _simplicity(f: Polynomial) -> tuple[int, int]:
-    return len(f.support), len(f.terms)
+    """Numbers of variables and of leading terms, which are the same about any origin."""
+    return len(f.support), sum(sum(e) == f.degree for e in f.terms)
 
 
 def _terms_of_shift(f: Polynomial, origin: Sequence[Fraction]) -> int:
@@ -337,13 +390,20 @@ def _conditions(f: Polynomial, level: int) -> list[tuple[Row, int]]:
 
 
 def _solve_rows(
-    rows: Iterable[tuple[Row, int]], directions: Sequence[Row]
+    rows: Iterable[Sequence[tuple[Row, int]]],
+    directions: Sequence[Row],
+    polynomials: Sequence[Polynomial],
 ) -> tuple[dict[int, Fraction], list[Row]]:
-    """A combination of directions that satisfies the first independent rows, and those left free.
+    """A combination of directions that satisfies many rows, and the directions left free.
 
-    Rows that depend on others before them are left out, whether they agree with them or not. All
-    is done in integers, which take a tenth of the time of fractions: rows and directions count up
-    to factors.
+    Each row is a plane of combinations. The plane that most equations have comes first, then the
+    one that most have within it, and so on. Of as many votes, those come first that ask for fewest
+    directions, and of those that ask for one only, that about which the polynomials have the
+    fewest terms. All is done in integers, which take a tenth of the time of fractions: rows and
+    directions count up to factors.
+
+    Args:
+        rows: those of each equation.
     """
     along: dict[int, list[tuple[int, int]]] = {}
     for k, way in enumerate(directions):
@@ -351,35 +411,31 @@ def _solve_rows(
             along.setdefault(i, []).append((k, c))
     # The right side stands in the place of the number of directions.
     right = len(directions)
-    pivots: dict[int, Row] = {}
-    for row, value in rows:
-        own: Row = {}
-        for i, c in row.items():
-            for k, d in along.get(i, ()):
-                own[k] = own.get(k, 0) + c * d
-        own = {k: c for k, c in own.items() if c}
-        if not own:
-            continue
-        if value:
+    votes: dict[Plane, int] = {}
+    for of_equation in rows:
+        planes: dict[Plane, int] = {}
+        for row, value in of_equation:
+            own: Row = {}
+            for i, c in row.items():
+                for k, d in along.get(i, ()):
+                    own[k] = own.get(k, 0) + c * d
             own[right] = value
-        while known := own.keys() & pivots.keys():
-            _eliminate(own, pivots[min(known)], min(known))
-        column = min(own, default=right)
-        if column < right:
-            pivots[column] = own
-            if len(pivots) == right:
-                break
-    # Backwards: each pivot's row is freed of the later ones.
-    for column in sorted(pivots, reverse=True):
-        for other, row in pivots.items():
-            if other != column and column in row:
-                _eliminate(row, pivots[column], column)
-    step: dict[int, Fraction] = {}
-    for column, row in pivots.items():
-        if right in row:
-            value = Fraction(row[right], row[column])
-            for i, c in directions[column].items():
-                step[i] = step.get(i, Fraction(0)) + c * value
+            _add_votes(planes, own, 1, right)
+        for plane in planes:
+            votes[plane] = votes.get(plane, 0) + 1
+    pivots: dict[int, Row] = {}
+    while votes:
+        pivot = dict(_most_voted(votes, pivots, directions, polynomials))
+        column = min(pivot)
+        for row in pivots.values():
+            if column in row:
+                _eliminate(row, pivot, column)
+        pivots[column] = pivot
+        for plane in [plane for plane in votes if any(k == column for k, _ in plane)]:
+            row, count = dict(plane), votes.pop(plane)
+            _eliminate(row, pivot, column)
+            _add_votes(votes, row, count, right)
+    step = _combine_directions(pivots, directions)
     free = []
     for k, way in enumerate(directions):
         if k not in pivots:
@@ -392,6 +448,67 @@ def _solve_rows(
                 _add(left, directions[j], -c * (common // lead))
             free.append(left)
     return step, free
+
+
+def _add_votes(votes: dict[Plane, int], row: Row, count: int, right: int) -> None:
+    """Add votes for the plane that a row is; a row with nothing but a right side is none."""
+    items = sorted((k, c) for k, c in row.items() if c)
+    if not items or items[0][0] == right:
+        return
+    unit = gcd(*(c for _, c in items))
+    if items[0][1] < 0:
+        unit = -unit
+    plane = tuple((k, c // unit) for k, c in items)
+    votes[plane] = votes.get(plane, 0) + count
+
+
+def _combine_directions(pivots: dict[int, Row], directions: Sequence[Row]) -> dict[int, Fraction]:
+    """The combination of directions that rows, each alone in its column, ask for."""
+    step: dict[int, Fraction] = {}
+    right = len(directions)
+    for column, row in pivots.items():
+        if right in row:
+            value = Fraction(row[right], row[column])
+            for i, c in directions[column].items():
+                step[i] = step.get(i, Fraction(0)) + c * value
+    return step
+
+
+def _most_voted(
+    votes: dict[Plane, int],
+    pivots: dict[int, Row],
+    directions: Sequence[Row],
+    polynomials: Sequence[Polynomial],
+) -> Plane:
+    """The plane of most votes, the first of several; see `_solve_rows` for parallel ones."""
+    most, right = max(votes.values()), len(directions)
+    tied = [plane for plane, count in votes.items() if count == most]
+    tied.sort(key=lambda plane: sum(k < right for k, _ in plane))
+    (column, _), *others = tied[0]
+    if any(k < right for k, _ in others):
+        return tied[0]
+    parallel = [plane for plane in tied if [k for k, _ in plane if k < right] == [column]]
+    if len(parallel) == 1:
+        return tied[0]
+    steps = []
+    for plane in parallel:
+        within = {column: dict(plane)}
+        for k, pivot in pivots.items():
+            row = dict(pivot)
+            if column in row:
+                _eliminate(row, within[column], column)
+            within[k] = row
+        step = _combine_directions(within, directions)
+        steps.append([step.get(i, Fraction(0)) for i in range(polynomials[0].n)])
+    if sum(_terms_of_shift(f, step) for step in steps for f in polynomials) > MOST_COMPARED:
+        return tied[0]
+    counts = [_count_terms(polynomials, step) for step in steps]
+    return parallel[counts.index(min(counts))]
+
+
+def _count_terms(polynomials: Sequence[Polynomial], origin: Sequence[Fraction]) -> int:
+    """Terms of the polynomials about another origin."""
+    return sum(sum(map(bool, _shift_terms(f, origin)[0].values())) for f in polynomials)
 
 
 def _eliminate(row: Row, other: Row, column: int) -> None:
