@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 
 import jsonschema
@@ -15,6 +16,7 @@ import nag
 from nag.cli import main
 from nag.decomposition import components_through
 from nag.files.json_values import schema
+from nag.mechanism import mobility_at
 from nag.mechanism.graph import Joint, Mechanism
 from nag.numerics.local_dimension import NoSolution
 
@@ -226,3 +228,41 @@ def test_bad_input_is_one_line(tmp_path, capsys) -> None:
     ):
         assert main(["mobility", *arguments]) == 2
         assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.fixture
+def lost_paths(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Decompositions lose paths, as those of arms and linkages in full doubles may."""
+    whole = mobility_at._decomposed
+    monkeypatch.setattr(
+        mobility_at,
+        "_decomposed",
+        lambda *given: replace(whole(*given), complete=False, notes=("3 paths failed",)),
+    )
+
+
+def test_the_component_through_a_smooth_point_is_reached_from_there(lost_paths: None) -> None:
+    for name, degree in (("Bennett", 2), ("spherical", 4), ("five axes", 1)):
+        report = nag.mobility(REPORTS[name][0])
+        assert report.components == ((report.local_dimension, degree),) and not report.open
+
+
+def test_what_is_certain_of_a_smooth_point_is_said_where_the_degree_is_not(
+    lost_paths: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    through = mobility_at.components_through_points
+    monkeypatch.setattr(
+        mobility_at,
+        "components_through_points",
+        lambda *given, **options: replace(through(*given, **options), complete=False),
+    )
+    report = nag.mobility(REPORTS["Bennett"][0])
+    assert report.components is None and report.status == "overconstrained"
+    assert (
+        "1 through the configuration: dimension 1, reduced, as it is a smooth point; not known: "
+        "its degree, 2 at least; the decomposition is incomplete: 3 paths failed"
+    ) in str(report)
+    # Two components cross there, whatever is known of them.
+    crossing = nag.mobility(REPORTS["flat parallelogram"][0])
+    assert "not known: the decomposition is incomplete: 3 paths failed" in str(crossing)
+    assert "smooth" not in str(crossing)

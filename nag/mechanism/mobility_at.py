@@ -13,6 +13,7 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.decomposition.curve_genus import GenusError, genus
+from nag.decomposition.given_points import components_through_points
 from nag.decomposition.through import through_points, zero_at
 from nag.errors import MechanismError, NagError
 from nag.mechanism.assembly import AssemblyModel
@@ -31,7 +32,7 @@ from nag.mechanism.model import Model, model
 from nag.mechanism.parts_decomposition import decompose_parts
 from nag.mechanism.pins import PinModel
 from nag.mechanism.real_assemblies import real_doubt
-from nag.numerics.local_dimension import local_dimension_near
+from nag.numerics.local_dimension import LocalDimension, local_dimension_near
 from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -190,7 +191,9 @@ def _report(
     found = local_dimension_near(subject.system, at, seed=options["seed"])
     free, tangent = subject.freedoms, found.tangent_dimension
     at = zero_at(subject.system, at, found)
-    through, doubt = (None, "") if detail == "local" else _components(subject, at, **options)
+    through, doubt = None, ""
+    if detail != "local":
+        through, doubt = _components(subject, at, found, **options)
     motions = []
     if detail == "curves" and through is not None:
         motions = [_curve(subject, c, **options) for c in through if c.dimension == 1]
@@ -246,10 +249,17 @@ def _without_loops(mechanism: Mechanism) -> MobilityReport:
 
 
 def _components(
-    subject: Subject, at: Sequence[Number], seed: int, threads: int, settings: str
+    subject: Subject,
+    at: Sequence[Number],
+    local: LocalDimension,
+    seed: int,
+    threads: int,
+    settings: str,
 ) -> tuple[list[WitnessSet] | None, str]:
     """The components through a point, or why they are not known."""
     found = _decomposed(subject, seed, threads, settings)
+    if not found.complete and local.smooth:
+        return _only_component(subject, local, _incomplete(found), seed, threads, settings)
     if not found.complete:
         return None, _incomplete(found)
     through = through_points(found, [("the configuration", tuple(at))], threads)[0]
@@ -257,6 +267,28 @@ def _components(
         return None, through.doubt or "the configuration is a rounded one"
     everything = expanded(found).components
     return [everything[i] for i in through.components], ""
+
+
+def _only_component(
+    subject: Subject,
+    local: LocalDimension,
+    doubt: str,
+    seed: int,
+    threads: int,
+    settings: str,
+) -> tuple[list[WitnessSet] | None, str]:
+    """The component through a smooth point, reached from there by loops; or what is not known.
+
+    Exactly one passes through a smooth point, of the local dimension, and it is reduced: where it
+    is found, nothing else matters of what a decomposition left open.
+    """
+    options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
+    found = components_through_points(subject.system, [(local.lower, local.point)], **options)
+    if found.complete and len(found.components) == 1:
+        return list(found.components), ""
+    degrees = [c.degree for c in found.components]
+    least = f", {degrees[0]} at least" if len(degrees) == 1 else ""
+    return None, f"its degree{least}; {doubt}"
 
 
 def _decomposed(subject: Subject, seed: int, threads: int, settings: str) -> Decomposition:

@@ -212,7 +212,12 @@ def _local_text(report: MobilityReport) -> str:
 
 def _components_text(report: MobilityReport) -> str:
     if report.components is None:
-        return f"not known: {report.open}" if report.open else "not looked for"
+        if not report.open:
+            return "not looked for"
+        if report.local is not None and report.local.smooth:
+            kind = f"dimension {report.local_dimension}, reduced, as it is a smooth point"
+            return f"1 through the configuration: {kind}; not known: {report.open}"
+        return f"not known: {report.open}"
     if not report.components:
         return "none through the configuration"
     if report.general is not None:

@@ -88,6 +88,11 @@ class LocalDimension:
         return self.lower if self.decided else None
 
     @property
+    def smooth(self) -> bool:
+        """Whether one component passes through the point, which is reduced, and smooth there."""
+        return self.decided and self.tangent_dimension == self.lower
+
+    @property
     def isolated(self) -> bool | None:
         """Whether the point is isolated; None if that is not decided."""
         return True if self.upper == 0 else False if self.lower > 0 else None
