@@ -95,6 +95,19 @@ def test_well_placed_variables_stay(name: str) -> None:
     assert natural_coordinates(system.polynomials, system.n).origin == (0,) * system.n
 
 
+def test_systems_in_natural_coordinates_are_told_without_linear_algebra(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    system = read_case(CASES / "rhombus-chain-3.toml").system
+
+    def refuse(*args: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(np.linalg, "solve", refuse)
+    monkeypatch.setattr("nag.numerics.natural_coordinates._solve_rows", refuse)
+    assert natural_coordinates(system.polynomials, system.n).is_identity
+
+
 def test_sparse_equations_are_not_made_denser() -> None:
     x, y = Polynomial.variables(2)
     far = Fraction(1000)

@@ -182,7 +182,10 @@ def natural_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoo
     curved = [f for f in polynomials if f.degree > 1]
     if not curved or not all(f.exact for f in polynomials):
         return nothing
-    origin, moved, powers = _accepted_origin(curved, n)
+    origin = _origin(curved, n)
+    if not any(origin) and all(map(_is_even, curved)):
+        return nothing
+    origin, moved, powers = _accepted_origin(curved, origin)
     if np.abs(powers).max(initial=0) < log2(LEAST_SCALE):
         return nothing if not any(origin) else replace(nothing, origin=origin)
     return NaturalCoordinates(_scales(moved, powers), origin)
@@ -250,13 +253,14 @@ def _shift_terms(f: Polynomial, origin: Sequence[Fraction]) -> tuple[dict[Expone
 
 
 def _accepted_origin(
-    polynomials: Sequence[Polynomial], n: int
+    polynomials: Sequence[Polynomial], origin: tuple[Fraction, ...]
 ) -> tuple[tuple[Fraction, ...], Sequence[Polynomial], np.ndarray]:
-    """The origin where it is far away for how close the zeros lie together around it; 0 else.
+    """An origin where it is far away for how close the zeros lie together around it; 0 else.
 
     Also the polynomials about that origin, and their `variable_scales`.
     """
-    origin, before = _origin(polynomials, n), variable_scales(polynomials, n)
+    n = len(origin)
+    before = variable_scales(polynomials, n)
     nothing = (Fraction(0),) * n, polynomials, before
     if not any(origin):
         return nothing
@@ -287,6 +291,12 @@ def _accepted_origin(
         return origin, moved, after
     moved = [shift_polynomial(f, accepted) for f in polynomials]
     return accepted, moved, variable_scales(moved, n)
+
+
+def _is_even(f: Polynomial) -> bool:
+    """Whether no coefficients differ by the scales that are worth it."""
+    sizes = [abs(c) for c in f.whole[0].values()]
+    return max(sizes) <= LEAST_SCALE * min(sizes)
 
 
 def _unevenness(polynomials: Sequence[Polynomial], powers: np.ndarray) -> float:

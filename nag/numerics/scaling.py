@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import accumulate
 from math import floor, log2
 from operator import mul
 
@@ -53,32 +54,29 @@ def variable_scales(
         return np.full(n, near).astype(np.int64)
     exponents = np.array([e for terms in several for e in terms], dtype=float)
     sizes = np.array([magnitude(c) for terms in several for c in terms.values()])
-    counts = np.array([len(terms) for terms in several])
-    first = np.append(0, np.cumsum(counts)[:-1])
-    means = np.add.reduceat(exponents, first) / counts[:, None]
-    mean_sizes = np.add.reduceat(sizes, first) / counts
-    matrix = np.vstack([exponents - np.repeat(means, counts, axis=0), INERTIA * np.eye(n)])
-    right = np.append(np.repeat(mean_sizes, counts) - sizes, INERTIA * np.full(n, near))
-    solution, *_ = np.linalg.lstsq(matrix, right, rcond=None)
+    counts = [len(terms) for terms in several]
+    first = [0, *accumulate(counts[:-1])]
     of_equation = np.repeat(np.arange(len(several)), counts)
-    for _ in range(SWEEPS):
+    weights = np.ones(len(sizes))
+    for _ in range(SWEEPS + 1):
+        # The normal equations, with the size of each equation at its best for these weights:
+        # exponents are small whole numbers, and inertia keeps them regular.
+        total = np.add.reduceat(weights, first)
+        weighted = weights[:, None] * exponents
+        sums, size_sums = np.add.reduceat(weighted, first), np.add.reduceat(weights * sizes, first)
+        matrix = weighted.T @ exponents - (sums.T / total) @ sums
+        matrix.flat[:: n + 1] += INERTIA**2
+        right = (size_sums / total) @ sums - sizes @ weighted + INERTIA**2 * near
+        solution = np.linalg.solve(matrix, right)
         off = sizes + exponents @ solution
         if (np.maximum.reduceat(off, first) - np.minimum.reduceat(off, first)).max() <= ODD:
             break
-        # With the size of each equation at its best for these weights.
         off = np.abs(off - _medians(off, first, counts)[of_equation])
         weights = 1 / np.maximum(off, 1.0)
-        total = np.add.reduceat(weights, first)
-        means = np.add.reduceat(weights[:, None] * exponents, first) / total[:, None]
-        mean_sizes = np.add.reduceat(weights * sizes, first) / total
-        root = np.sqrt(weights)
-        matrix[: len(sizes)] = root[:, None] * (exponents - means[of_equation])
-        right[: len(sizes)] = root * (mean_sizes[of_equation] - sizes)
-        solution, *_ = np.linalg.lstsq(matrix, right, rcond=None)
     return np.clip(np.rint(solution), -LARGEST, LARGEST).astype(np.int64)
 
 
-def _medians(values: np.ndarray, first: np.ndarray, counts: np.ndarray) -> np.ndarray:
+def _medians(values: np.ndarray, first: Sequence[int], counts: Sequence[int]) -> np.ndarray:
     """The median of each equation's values."""
     return np.array([np.median(values[a : a + k]) for a, k in zip(first, counts, strict=True)])
 
