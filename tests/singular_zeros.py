@@ -44,11 +44,11 @@ class Zero:
         """The same zero in other coordinates, of combined equations; all of it exact."""
         n, m = len(self.point), len(self.polynomials)
         mix, combine = _regular(rng, n, 9), _regular(rng, m, 5)
-        equations = _combined(self.polynomials, mix, combine)
+        equations = _mix_equations(self.polynomials, mix, combine)
         return Zero(equations, np.linalg.solve(mix / 4, self.point), self.multiplicity)
 
 
-def _combined(
+def _mix_equations(
     polynomials: Sequence[Polynomial], mix: np.ndarray, combine: np.ndarray
 ) -> list[Polynomial]:
     """Combinations of polynomials with combinations of variables, over 4, put in."""

@@ -165,7 +165,7 @@ def _names(
             raise ExpressionError(
                 "variables: a nag.Polynomial has no names in it; give one for each variable"
             )
-        found = {name for f, place in equations for name in _occurring(f, place, values)}
+        found = {name for f, place in equations for name in _list_names(f, place, values)}
         names = tuple(sorted(found - values.keys(), key=_natural))
     else:
         given = re.split(r"[\s,]+", variables.strip()) if isinstance(variables, str) else variables
@@ -185,7 +185,7 @@ def _names(
     return names
 
 
-def _occurring(equation: Any, place: str, values: Mapping[str, Any]) -> Iterable[str]:
+def _list_names(equation: Any, place: str, values: Mapping[str, Any]) -> Iterable[str]:
     """The names in an equation; sympy's symbols are variables whatever they are called."""
     if not is_sympy(equation):
         names = names_in(equation) if isinstance(equation, str) else frozenset()

@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.text.table import labelled, printable
 
     found, title, lost = _read(options.export)
-    proved = certified(found, options.paths, lost)
+    proved = certify_result(found, options.paths, lost)
     if options.json is not None:
         with writing_json():
             write_certificate(proved.certificate, options.json, proved.claims, proved.paths)
@@ -72,7 +72,7 @@ class Certified:
     claims: tuple[Claim, ...]
 
 
-def certified(
+def certify_result(
     found: SolveResult | Decomposition, paths: bool = False, lost: Sequence[Claim] = ()
 ) -> Certified:
     """The certificate of a result, with ``paths`` also of the paths that lead to it.

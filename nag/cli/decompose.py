@@ -15,7 +15,7 @@ from nag.cli.arguments import (
     read_problem,
     whole,
 )
-from nag.cli.certify import certified
+from nag.cli.certify import certify_result
 from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds, writing_json
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
@@ -119,7 +119,7 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
             write_decomposition(decomposition, arguments.json, origin(case, model))
     if not (arguments.certify or arguments.certify_paths):
         return lines, decomposition.complete
-    proved = certified(decomposition, arguments.certify_paths)
+    proved = certify_result(decomposition, arguments.certify_paths)
     return [*lines, "", *labelled(proved.rows)], decomposition.complete and proved.all_proved
 
 

@@ -7,7 +7,7 @@ import os
 import sys
 
 from nag.cli.arguments import UsageError, add_case, add_certify, add_running, read_problem
-from nag.cli.certify import certified
+from nag.cli.certify import certify_result
 from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds, writing_json
 
 STARTS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy", "parameter")
@@ -60,5 +60,5 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     lines = solution_lines(result, case, model, seconds(options))
     if not (options.certify or options.certify_paths):
         return lines, result.complete
-    proved = certified(result, options.certify_paths)
+    proved = certify_result(result, options.certify_paths)
     return [*lines, "", *labelled(proved.rows)], result.complete and proved.all_proved

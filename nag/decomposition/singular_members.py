@@ -180,7 +180,7 @@ def singular_parameters(
 def _in_original_coordinates(known: ParameterSet, natural: NaturalCoordinates) -> ParameterSet:
     """A set of parameters where equations are those of the parameters that were given."""
     equations = [_primitive(natural.inverse.polynomial(f)) for f in known.equations]
-    return replace(known, equations=tuple(sorted(equations, key=_written)))
+    return replace(known, equations=tuple(sorted(equations, key=_make_sort_key)))
 
 
 def _variables(system: PolynomialSystem, count: int) -> int:
@@ -300,7 +300,7 @@ def _parameter_sets(
                 notes.append(_left_open(dimension, reason))
             except InterpolationError:
                 conjugate.append(image)
-        for together in _united(conjugate):
+        for together in _group_by_kind(conjugate):
             try:
                 new = _sets_together(family, together)
             except (_OpenError, InterpolationError, SourceError, ProjectionError) as reason:
@@ -396,14 +396,14 @@ def _small_set(family: _Family, cloud: Cloud, dimension: int, degree: int) -> Pa
     known, _ = equations_of_image(cloud, family.coordinates, dimension)
     if common_zeros(known) != (dimension, degree):
         raise _OpenError(f"the equations up to degree {known.degree} may have further zeros")
-    equations = tuple(sorted(map(_primitive, known.generators), key=_written))
+    equations = tuple(sorted(map(_primitive, known.generators), key=_make_sort_key))
     proofs = {_proof(family, cloud, f, known.digits) for f in equations}
     return ParameterSet(
         equations, dimension, degree, "points" if "points" in proofs else "reduction"
     )
 
 
-def _united(images: Sequence[_Image]) -> list[list[_Image]]:
+def _group_by_kind(images: Sequence[_Image]) -> list[list[_Image]]:
     """Images that may be conjugate: of components of one dimension and degree."""
     kinds: dict[tuple[int, int], list[_Image]] = {}
     for image in images:
@@ -436,7 +436,7 @@ def _sets_together(family: _Family, images: Sequence[_Image]) -> list[ParameterS
     return found
 
 
-def _written(f: Polynomial) -> tuple[int, tuple[int, ...]]:
+def _make_sort_key(f: Polynomial) -> tuple[int, tuple[int, ...]]:
     """The order in which polynomials are written: by their degree and their first term."""
     return f.degree, min(tuple(-k for k in e) for e in f.terms if sum(e) == f.degree)
 
@@ -444,4 +444,4 @@ def _written(f: Polynomial) -> tuple[int, tuple[int, ...]]:
 def _primitive(f: Polynomial) -> Polynomial:
     """The multiple with coprime whole coefficients, the one that is written first positive."""
     g = primitive(f)
-    return g if g.terms[tuple(-k for k in _written(g)[1])] > 0 else -g
+    return g if g.terms[tuple(-k for k in _make_sort_key(g)[1])] > 0 else -g

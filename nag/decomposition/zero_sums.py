@@ -36,7 +36,7 @@ def smallest_zero_sums(
     count = len(vectors)
     if not count:
         return []
-    projected, unit = _projected(vectors, error, weights)
+    projected, unit = _project(vectors, error, weights)
     # Coefficients are multiplied by what makes roundings of entries small.
     spread = 1 << count.bit_length()
     entries = (2 * spread * projected + unit) // (2 * unit)
@@ -58,19 +58,19 @@ def _longest(count: int, columns: int) -> float:
     return count + 1.5**2 * columns
 
 
-def _projected(vectors: np.ndarray, error: int, weights: np.ndarray) -> tuple[np.ndarray, int]:
+def _project(vectors: np.ndarray, error: int, weights: np.ndarray) -> tuple[np.ndarray, int]:
     """As many columns of the projected vectors as may decide, and the errors of their sums."""
     count, most = len(vectors), weights.shape[1]
     unit = max(1, error) * int(np.abs(weights).sum(axis=0).max())
     first = vectors @ weights[:, :1].astype(object)
     bits = max(1, (int(np.abs(first).max()) // unit).bit_length())
     columns = 1
-    while columns < most and bits * columns < _wanted(count, columns):
+    while columns < most and bits * columns < _count_bits_needed(count, columns):
         columns += 1
     return vectors @ weights[:, :columns].astype(object), unit
 
 
-def _wanted(count: int, columns: int) -> float:
+def _count_bits_needed(count: int, columns: int) -> float:
     """Bits of all columns together that let relations be told from other vectors."""
     return count * (np.log2(_longest(count, columns)) / 2 + SPARE)
 

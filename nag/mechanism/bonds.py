@@ -91,15 +91,6 @@ class Bonds:
     def __post_init__(self) -> None:
         object.__setattr__(self, "degrees", fixed_mapping(self.degrees))
 
-    @property
-    def consistent(self) -> bool:
-        """Whether the orders at each kept joint add up to its degree."""
-        found: Counter[str] = Counter()
-        for bond in self.bonds:
-            for name, order in zip(bond.joints, bond.orders, strict=True):
-                found[name] += order * bond.count
-        return all(found[joint] == degree for joint, degree in self.degrees.items())
-
     def __str__(self) -> str:
         return ", ".join(map(str, self.bonds)) or "none"
 
@@ -201,7 +192,23 @@ def bonds(
         if others or count.denominator > 1:
             raise BondError(f"the ends of joints {', '.join(names)} do not fit together")
         pairs.append(Bond(names, orders, int(count)))
+    _check_orders(pairs, degrees)
     return Bonds(order, tuple(pairs), degrees)
+
+
+def _check_orders(found: Sequence[Bond], degrees: Mapping[str, int]) -> None:
+    """Make sure that the orders at each kept joint add up to its degree.
+
+    Raises:
+        BondError: if they do not.
+    """
+    totals: Counter[str] = Counter()
+    for bond in found:
+        for name, order in zip(bond.joints, bond.orders, strict=True):
+            totals[name] += order * bond.count
+    wrong = [joint for joint, degree in degrees.items() if totals[joint] != degree]
+    if wrong:
+        raise BondError(f"the orders at joints {', '.join(wrong)} do not add up to their degrees")
 
 
 class _Ends:

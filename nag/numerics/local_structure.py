@@ -152,7 +152,7 @@ def _at_zero(
         reason = "the equations vanish along a smooth set that was followed"
         end = _end(system, found, Place.ON_COMPONENT, 0, reason, found.free)
         other = point_beside(system, found) if found.corank == found.free else None
-        return end if other is None else replace(end, beside=_written(system, other))
+        return end if other is None else replace(end, beside=_write_decimals(system, other))
     if not system.most_zeros:
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
@@ -314,7 +314,7 @@ def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]
     )
 
 
-def _written(system: ExactSystem, y: Sequence[flint.acb]) -> tuple[tuple[str, str], ...]:
+def _write_decimals(system: ExactSystem, y: Sequence[flint.acb]) -> tuple[tuple[str, str], ...]:
     return tuple((decimal(c.real), decimal(c.imag)) for c in _unscaled(system, y))
 
 
@@ -331,7 +331,7 @@ def _end(
     dimension: int = 0,
 ) -> SingularEnd:
     x = _unscaled(system, found.point)
-    digits = _written(system, found.point)
+    digits = _write_decimals(system, found.point)
     exact = rational_point(x, DIGITS) if system.rational and not found.free else None
     condition = 10.0 ** max(found.inverse, 0.0)
     rounded = doubles(x)

@@ -231,7 +231,7 @@ def _part(
     # All equations say later which of them are left out.
     solutions = (*result.solutions, *result.excluded_solutions)
     found = tuple(_Found(lifted_solution(s, elimination), branch, None, s) for s in solutions)
-    larger = result.larger.mapped(elimination.lift)
+    larger = result.larger.map_points(elimination.lift)
     return _Part(branch.system, found, result, larger, elimination.lift(result.undecided))
 
 

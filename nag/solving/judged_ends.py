@@ -153,7 +153,7 @@ def judged_ends(
     original = problem.target.original
     return JudgedEnds(
         *_solutions(problem, isolated),
-        LargerSets.of(n, sets).mapped(original),
+        LargerSets.of(n, sets).map_points(original),
         original(np.array(undecided).reshape(-1, n)),
         tuple(unclear),
         np.array(sorted(close), dtype=np.int64),

@@ -47,7 +47,7 @@ class LargerSets:
         every = [cls.of(n), *parts]
         return cls(*(np.vstack([getattr(p, f.name) for p in every]) for f in fields(cls)))
 
-    def mapped(self, image: Callable[[np.ndarray], np.ndarray]) -> LargerSets:
+    def map_points(self, image: Callable[[np.ndarray], np.ndarray]) -> LargerSets:
         """The points in other coordinates."""
         return LargerSets(image(self.counting), image(self.excluded), image(self.doubtful))
 

@@ -139,7 +139,7 @@ def certify_decomposition(decomposition: Decomposition) -> DecompositionCertific
     apart: dict[tuple[int, Signature], dict[bytes, list[CertifiedPoints]]] = {}
     for component in decomposition.components:
         target = common[component.dimension]
-        certificates.append(_certified(system, component, target))
+        certificates.append(_certify_component(system, component, target))
         last = certificates[-1]
         here = last.points if last.moved is None else last.moved
         place = component.slice if last.moved is None else target
@@ -174,7 +174,7 @@ def _common_slices(decomposition: Decomposition) -> dict[int, Slice]:
     }
 
 
-def _certified(
+def _certify_component(
     system: PolynomialSystem, component: WitnessSet, target: Slice
 ) -> ComponentCertificate:
     """What is proved of a component, on its slice and on that of its dimension."""

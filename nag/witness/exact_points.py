@@ -328,19 +328,6 @@ def in_order(points: np.ndarray) -> np.ndarray:
     return np.lexsort((points.imag[:, 0], points.real[:, 0]))
 
 
-def error_radii(fibre: Fibre, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Error radii and digits of regular points on the slice ``rows``, as they are.
-
-    Returns:
-        Radii, shape ``(P, n)``, inf where Newton's method does not converge, and digits, shape
-        ``(P,)``.
-    """
-    exact = _exact(fibre, rows)
-    radii, digits = _radii(fibre, exact)
-    radii[~np.isfinite(exact.radii)] = np.inf
-    return radii, digits
-
-
 def _exact(fibre: Fibre, rows: np.ndarray, known: ExactPoints | None = None) -> ExactPoints:
     """The points in digits that leave hardly an error beside rounding, where that is to be had."""
     found = exact_points(fibre, rows, FEWEST) if known is None else known

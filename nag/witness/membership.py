@@ -86,7 +86,7 @@ def find_members(
     paths are tracked together, so that two that end at one point are known to have gone astray.
     """
     counts, bounded = PathCounts(), given is not None
-    together = _united(sets)
+    together = _join_by_cut(sets)
     answers = [{Membership.FOREIGN} for _ in sets]
     if not together:
         return [Membership.FOREIGN for _ in sets], counts
@@ -106,7 +106,7 @@ def find_members(
     return [next(word for word in order if word in found) for found in answers], counts
 
 
-def _united(sets: Sequence[Sequence[Fibre]]) -> list[tuple[Fibre, np.ndarray]]:
+def _join_by_cut(sets: Sequence[Sequence[Fibre]]) -> list[tuple[Fibre, np.ndarray]]:
     """The fibres of all sets, those of one cut as one, with the set that each point is of."""
     parts: dict[tuple[object, ...], list[tuple[int, Fibre]]] = {}
     for k, fibres in enumerate(sets):

@@ -84,7 +84,7 @@ def changed(system: PolynomialSystem, rng: np.random.Generator) -> PolynomialSys
     for i, j in _pairs(n, MIXED, rng):
         forms[i] = forms[i] + small(rng) * forms[j]
     moved = _in_forms(system, forms)
-    polynomials = combined(moved.polynomials, MIXED, rng)
+    polynomials = mix_equations(moved.polynomials, MIXED, rng)
     scaled = tuple(power(rng, DECADES) * f for f in polynomials)
     return replace(moved, polynomials=scaled)
 
@@ -116,7 +116,7 @@ def sparsely_changed(
     if kind == "scaled":
         polynomials = [power(rng, 1) * f for f in polynomials]
     if kind == "equations":
-        polynomials = combined(polynomials, 1, rng)
+        polynomials = mix_equations(polynomials, 1, rng)
     # Forms of several variables do not keep a partition of these.
     return replace(moved, polynomials=tuple(polynomials), groups=())
 
@@ -164,7 +164,7 @@ def _in_forms(system: PolynomialSystem, forms: list[Polynomial]) -> PolynomialSy
     return replace(system, polynomials=polynomials, nonzero=nonzero)
 
 
-def combined(
+def mix_equations(
     equations: Sequence[Polynomial], count: int, rng: np.random.Generator
 ) -> list[Polynomial]:
     """The equations, multiples of some added to others of at least their degree."""

@@ -20,7 +20,7 @@ from nag.algebra.family import Family
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_map import MapGroup, RationalMap
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
-from nag.bench.atlas.changes import combined, power, small
+from nag.bench.atlas.changes import mix_equations, power, small
 from nag.numerics.coincidence import overlapping
 from nag.solving.kantorovich import Confirmation
 from nag.solving.solutions import SolveResult
@@ -179,7 +179,7 @@ def _changed(
     for old, new, factor in zip((unknowns[i] for i in order), pairs, factors, strict=True):
         for i, k in zip(old, new, strict=True):
             forms[i], names[k] = factor * x[k], family.variables[i]
-    equations = combined([f.compose(forms) for f in family.polynomials], MIXED, rng)
+    equations = mix_equations([f.compose(forms) for f in family.polynomials], MIXED, rng)
     mixed = [power(rng, 1) * equations[i] for i in rng.permutation(n)]
     maps = [_in_order(g, order, factors) for g in symmetric.group.generators]
     changed = Family(tuple(names), family.parameters, tuple(mixed))
