@@ -9,9 +9,11 @@ from systems import system
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition import decompose
-from nag.decomposition.components import independent_variables
+from nag.decomposition.components import METHODS
+from nag.decomposition.independent_parts import independent_variables
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model
+from nag.report.answer import METHODS as METHODS_IN_WORDS
 
 
 def kinds(answer) -> Counter:
@@ -68,3 +70,24 @@ def test_loops_that_hang_together_in_the_ground_move_independently(formulation, 
     answer = decompose(m.system, symmetries=m.symmetries)
     assert answer.complete
     assert kinds(answer) == expected
+
+
+@pytest.mark.parametrize(
+    ("equations", "method"),
+    [
+        (("x^2 + y^2 - 1", "z^2 - x^2 - 2", "u^2 + v^2 - 3"), "by_variables"),
+        (("(x - y)*(x^2 + y^2 - z)",), "by_branches"),
+        (("x^2 + y^2 - z^2 - 1", "u - x - y"), "one_equation"),
+        (("y - x^2", "z - x^3"), "rational_curve"),
+        (("x^2 + y*z - 1", "y^2 + x*z - 2", "z^2 + x*y - x - 3"), "all_at_once"),
+        (("x^2 + y^2 + z^2 - 1", "x*y + z - u^2"), "one_by_one"),
+    ],
+)
+def test_answers_name_the_method_that_made_them(equations, method):
+    names = "xyzuv" if "v" in "".join(equations) else "xyzu" if "u" in "".join(equations) else "xyz"
+    answer = decompose(system(" ".join(names), *equations))
+    assert answer.complete and answer.method == method
+
+
+def test_every_method_is_told_in_words():
+    assert list(METHODS_IN_WORDS) == [each.__name__ for each in METHODS]

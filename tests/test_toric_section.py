@@ -88,9 +88,11 @@ def test_random_linkages_decompose_as_equation_by_equation(
 ) -> None:
     system = linkage_model(random_linkage(loops, seed)).system
     assert at_once(system, 0)[0] is not None
-    answer = kinds(decompose(system))
+    at_once_answer = decompose(system)
+    assert at_once_answer.method == "section_at_once"
     monkeypatch.setattr(several_equations, "section_at_once", lambda *_: (None, PathCounts()))
-    assert kinds(decompose(system)) == answer
+    other = decompose(system)
+    assert other.method == "one_by_one" and kinds(other) == kinds(at_once_answer)
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
@@ -17,6 +17,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.final_checks import judged
+from nag.decomposition.method import Others, Task
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.branch_union import (
     Branch,
@@ -40,8 +41,6 @@ from nag.witness.moving import witness_at
 from nag.witness.multiplicity import ACCURACY
 from nag.witness.slices import padded, random_rows, to_slice
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
-
-Whole = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,22 +144,17 @@ class _Part:
     answer: Decomposition | None
 
 
-def decompose_apart(
-    system: PolynomialSystem,
-    whole: Whole,
-    symmetries: Sequence[SignedPermutation],
-    seed: int,
-    threads: int,
-    settings: str,
-) -> Decomposition | None:
+def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     """The components of a system that falls apart, or has zeros that are known exactly.
 
     Args:
-        whole: decomposes a system as it is, with its symmetries.
+        others: decomposes a branch.
 
     Returns:
         None if the system neither falls apart nor comes down to one variable.
     """
+    system, symmetries, seed = task.system, task.symmetries, task.seed
+    settings, threads = task.tracker.settings, task.tracker.threads
     if system.n == 0:
         return None
     apart = branches(system)
@@ -174,7 +168,7 @@ def decompose_apart(
     else:
         systems = [b.system(system) for b in apart]
         used = symmetries if len(systems) == 1 and _keep(symmetries, systems[0]) else ()
-        parts = [_part(each, whole, used, rng) for each in systems]
+        parts = [_part(task.of_part(each, used), others, rng) for each in systems]
     joined, notes, counts = _join(parts, rng, Tracker(settings, threads))
     components = [c.witness for c in joined]
     if apart is not None:
@@ -200,13 +194,9 @@ def _keep(symmetries: Sequence[SignedPermutation], system: PolynomialSystem) -> 
     return True
 
 
-def _part(
-    system: PolynomialSystem,
-    whole: Whole,
-    symmetries: Sequence[SignedPermutation],
-    rng: np.random.Generator,
-) -> _Part:
-    zeros = None if symmetries else algebraic_zeros(system)
+def _part(task: Task, others: Others, rng: np.random.Generator) -> _Part:
+    system = task.system
+    zeros = None if task.symmetries else algebraic_zeros(system)
     if zeros is not None:
         return _algebraic(system, zeros)
     branch = BranchEquations(system, graphs=False)
@@ -214,7 +204,7 @@ def _part(
         return _Part(system, (), None)
     if branch.kind is not BranchKind.SYSTEM and not system.groups:
         return _Part(system, (_linear_space(branch, rng),), None)
-    answer = whole(system, symmetries)
+    answer = others(task)
     return _Part(system, tuple(BranchComponent(c, branch) for c in answer.components), answer)
 
 

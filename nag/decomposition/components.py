@@ -1,35 +1,27 @@
-"""Numerical irreducible decomposition of the zero set of a polynomial system.
+"""Numerical irreducible decomposition of the zero set of a polynomial system: the methods, in turn.
 
-Where equations share no variables, components are products: one of irreducible sets is irreducible
-over the complex numbers, of the sum of the dimensions and the product of the degrees. Mechanisms
-whose loops hang together in single bodies are such.
+Each of `METHODS` is asked in its turn and answers, or leaves the system to the next ones. The first
+two take a system apart and ask the next ones for its parts.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from itertools import product
-from math import prod
 
 import numpy as np
 
 from nag.algebra.given import check_listed, check_running
-from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_components import decompose_apart
+from nag.decomposition.independent_parts import decompose_parts
+from nag.decomposition.method import Attempt, Others, Task, decompose_by
 from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.rational_curve import decompose_rational_curve
-from nag.decomposition.reduction import Reduction
 from nag.witness.fibres import Progress, Tracker
 from nag.witness.given_component import check_system
-from nag.witness.witness import Decomposition, PathCounts
-
-# Products beyond this number, or with more witness points, are not worked out one by one.
-MOST_PRODUCTS = 64
-MOST_POINTS = 1000
-Decompose = Callable[[PolynomialSystem, Sequence[SignedPermutation]], Decomposition]
+from nag.witness.witness import Decomposition
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -81,127 +73,61 @@ def decompose(
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
     tracker = Tracker(settings, threads, progress)
-
-    def whole(part: PolynomialSystem, kept: Sequence[SignedPermutation]) -> Decomposition:
-        # A branch is not the scheme that was given; its multiplicities are of no interest.
-        return _decompose_whole(part, seed, tracker, kept, part is system)
-
-    def undivided(part: PolynomialSystem, kept: Sequence[SignedPermutation]) -> Decomposition:
-        apart = decompose_apart(part, whole, kept, seed, threads, settings)
-        return whole(part, kept) if apart is None else apart
-
-    parts = decompose_parts(system, undivided, symmetries, seed, threads, settings)
-    return undivided(system, symmetries) if parts is None else parts
+    return decompose_by(METHODS, Task(system, tuple(symmetries), seed, tracker))
 
 
-def _decompose_whole(
-    system: PolynomialSystem,
-    seed: int,
-    tracker: Tracker,
-    symmetries: Sequence[SignedPermutation],
-    scheme: bool,
-) -> Decomposition:
-    """The components of a system as it is."""
-    reduction = Reduction.of(system, scaled=True)
-    rng = np.random.default_rng([seed, 3])
-    moving = any(not g.is_identity for g in symmetries)
-    exact = decompose_one_equation(reduction, rng, tracker, scheme, one=moving)
-    exact = exact or decompose_rational_curve(reduction, rng, tracker, scheme)
-    if exact is not None:
-        return replace(exact, seed=seed)
-    # Paths take longer to load than most of what needs none takes altogether.
+def by_variables(task: Task, others: Others) -> Attempt:
+    """The products of the components of equations that share no variables."""
+    return decompose_parts(task, others)
+
+
+def by_branches(task: Task, others: Others) -> Attempt:
+    """The components of the branches that the factors of the equations leave, without repeats."""
+    return Attempt(decompose_apart(task, others))
+
+
+def one_equation(task: Task, _: Others) -> Attempt:
+    """The factors over the complex numbers of the one equation that linear algebra leaves."""
+    moving = any(not g.is_identity for g in task.symmetries)
+    answer = decompose_one_equation(task.reduction, task.rng, task.tracker, task.scheme, one=moving)
+    return Attempt(answer and replace(answer, seed=task.seed))
+
+
+def rational_curve(task: Task, _: Others) -> Attempt:
+    """A curve that polynomials in one variable give, exactly."""
+    answer = decompose_rational_curve(task.reduction, task.rng, task.tracker, task.scheme)
+    return Attempt(answer and replace(answer, seed=task.seed))
+
+
+# Paths take longer to load than most of what needs none takes altogether.
+def section_at_once(task: Task, _: Others) -> Attempt:
+    """The components of turns in loops, cut by a slice at once, if these are all zeros there."""
+    from nag.decomposition.several_equations import decompose_section
+
+    return decompose_section(task)
+
+
+def all_at_once(task: Task, _: Others) -> Attempt:
+    """The points of a set that is seen to be finite."""
+    from nag.decomposition.several_equations import decompose_finite
+
+    return decompose_finite(task)
+
+
+def one_by_one(task: Task, _: Others) -> Attempt:
+    """Equations intersected one after the other; all at once where only points are in doubt."""
     from nag.decomposition.several_equations import decompose_several
 
-    return decompose_several(reduction, seed, rng, tracker, symmetries, scheme)
+    return Attempt(decompose_several(task))
 
 
-def decompose_parts(
-    system: PolynomialSystem,
-    whole: Decompose,
-    symmetries: Sequence[SignedPermutation],
-    seed: int,
-    threads: int,
-    settings: str,
-) -> Decomposition | None:
-    """The components of a system that falls apart by its variables; None if it does not.
-
-    None as well where there are too many products, or a symmetry exchanges parts.
-
-    Args:
-        whole: decomposes a part.
-    """
-    parts = independent_variables(system)
-    if len(parts) < 2 or not all(_stays(g, parts) for g in symmetries):
-        return None
-    answers = [whole(_part(system, part), _restricted(symmetries, part)) for part in parts]
-    if not all(a.complete for a in answers):
-        return None
-    choices = list(product(*(a.components for a in answers)))
-    points = [prod(c.degree for c in chosen) for chosen in choices]
-    if len(choices) > MOST_PRODUCTS or max(points, default=0) > MOST_POINTS:
-        return None
-    from nag.decomposition.given_points import components_through_points
-
-    starts = []
-    for chosen in choices:
-        x = np.zeros(system.n, dtype=complex)
-        for part, component in zip(parts, chosen, strict=True):
-            x[list(part)] = component.points[0]
-        starts.append((sum(c.dimension for c in chosen), x))
-    answer = components_through_points(
-        system, starts, seed=seed, threads=threads, settings=settings, symmetries=symmetries
-    )
-    wanted = [
-        (sum(c.dimension for c in chosen), k) for chosen, k in zip(choices, points, strict=False)
-    ]
-    if sorted(wanted) != sorted((c.dimension, c.degree) for c in answer.components):
-        return None
-    return replace(answer, paths=sum((a.paths for a in answers), PathCounts()) + answer.paths)
-
-
-def independent_variables(system: PolynomialSystem) -> list[tuple[int, ...]]:
-    """The variables, those that occur together in a polynomial together."""
-    label = list(range(system.n))
-    for f in (*system.polynomials, *system.nonzero):
-        support = sorted(f.support)
-        names = {label[i] for i in support}
-        label = [min(names) if k in names else k for k in label]
-    return [tuple(i for i, k in enumerate(label) if k == name) for name in sorted(set(label))]
-
-
-def _part(system: PolynomialSystem, part: Sequence[int]) -> PolynomialSystem:
-    position = {i: k for k, i in enumerate(part)}
-
-    def own(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
-        return tuple(
-            Polynomial(len(part), {tuple(e[i] for i in part): c for e, c in f.terms.items()})
-            for f in polynomials
-            if f.support and f.support <= position.keys()
-        )
-
-    groups = [tuple(position[i] for i in g if i in position) for g in system.groups]
-    return PolynomialSystem(
-        tuple(system.variables[i] for i in part),
-        own(system.polynomials),
-        own(system.nonzero),
-        tuple(g for g in groups if g),
-    )
-
-
-def _stays(g: SignedPermutation, parts: Sequence[tuple[int, ...]]) -> bool:
-    """Whether a symmetry moves the variables of one part only, among themselves."""
-    moved = {i for i, (k, s) in enumerate(zip(g.sources, g.signs, strict=True)) if k != i or s < 0}
-    return any(moved <= set(part) for part in parts)
-
-
-def _restricted(
-    symmetries: Sequence[SignedPermutation], part: Sequence[int]
-) -> list[SignedPermutation]:
-    position = {i: k for k, i in enumerate(part)}
-    found = [
-        SignedPermutation(
-            tuple(position[g.sources[i]] for i in part), tuple(g.signs[i] for i in part)
-        )
-        for g in symmetries
-    ]
-    return [g for g in dict.fromkeys(found) if not g.is_identity]
+# In the order in which they are asked; `Decomposition.method` names the one that answered.
+METHODS = (
+    by_variables,
+    by_branches,
+    one_equation,
+    rational_curve,
+    section_at_once,
+    all_at_once,
+    one_by_one,
+)

@@ -1,4 +1,4 @@
-"""The components of several equations by paths: intersected one by one, or solved all at once."""
+"""The components of several equations by paths: cut or solved at once, or one by one."""
 
 from __future__ import annotations
 
@@ -7,98 +7,91 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.final_checks import judged
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once, with_points
+from nag.decomposition.method import Attempt, Task
 from nag.decomposition.orbits import Action
-from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Ambient, Superset, intersection_order, witness_superset
 from nag.decomposition.toric_section import section_at_once
-from nag.witness.fibres import Tracker
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
-from nag.witness.witness import Decomposition
+from nag.witness.witness import Decomposition, PathCounts
 
 
-def decompose_several(
-    reduction: Reduction,
-    seed: int,
-    rng: np.random.Generator,
-    tracker: Tracker,
-    symmetries: Sequence[SignedPermutation],
-    scheme: bool,
-) -> Decomposition:
-    """The components of a system whose linear equations are solved, by paths.
-
-    Args:
-        seed: of the intersections; ``rng`` serves what comes before and instead of them.
-        scheme: whether multiplicities are of interest.
-    """
-    system = reduction.system
-    intersecting = np.random.default_rng(seed)
-    flag = random_rows(intersecting, reduction.n, reduction.n, NEARER)
-    whole, spent = section_at_once(reduction, flag, np.random.default_rng([seed, 23]), tracker)
-    if whole is None:
-        finite, asked = is_finite(reduction.reduced, rng, tracker)
-        spent = spent + asked
-        points = solved_at_once(system, rng, tracker, symmetries, finite=True) if finite else None
-        if points is not None:
-            return replace(points, seed=seed, settings=tracker.settings, paths=points.paths + spent)
-
-    order = [] if whole else intersection_order(reduction.reduced.polynomials)
-    superset = whole or _one_by_one(reduction, order, flag, intersecting, tracker)
-    superset = replace(superset, counts=superset.counts + spent)
-    known = Known(
-        actions=[Action.of(g, reduction.frame) for g in symmetries if not g.is_identity],
-        scheme=scheme,
-    )
-    answer, only_points = _put_together(reduction, superset, intersecting, tracker, known)
-    answer = replace(answer, order=tuple(order))
-    if not answer.complete and answer.dimension > 0 and only_points:
-        answer = with_points(answer, rng, tracker, symmetries) or answer
-    if not answer.complete and answer.dimension <= 0:
-        points = solved_at_once(system, rng, tracker, symmetries)
-        if points is not None and contains(points, answer):
-            tracked = answer.paths.tracked + points.paths.tracked
-            answer = replace(points, paths=replace(points.paths, tracked=tracked))
-    # Zeros of a section that is whole were counted before.
-    if whole is None or not answer.complete:
-        answer = counted(answer, scheme)
-    return replace(answer, seed=seed, settings=tracker.settings)
+def decompose_section(task: Task) -> Attempt:
+    """The components of a set of turns by all its points on a slice, see `section_at_once`."""
+    flag, rng = _random_flag(task)
+    own = np.random.default_rng([task.seed, 23])
+    superset, spent = section_at_once(task.reduction, flag, own, task.tracker)
+    if superset is None:
+        return Attempt(None, spent)
+    answer = _settle(task, superset, rng)
+    # Zeros of a section that is whole are counted already.
+    return Attempt(answer if answer.complete else counted(answer, task.scheme), spent)
 
 
-def _one_by_one(
-    reduction: Reduction,
-    order: Sequence[int],
-    flag: np.ndarray,
-    rng: np.random.Generator,
-    tracker: Tracker,
-) -> Superset:
-    """Witness points by intersecting with one equation after the other."""
-    reduced = reduction.reduced
+def decompose_finite(task: Task) -> Attempt:
+    """The points of a system of as many equations as variables, if they are seen to be all."""
+    finite, spent = is_finite(task.reduction.reduced, task.rng, task.tracker)
+    points = None
+    if finite:
+        given = task.system, task.rng, task.tracker, task.symmetries
+        points = solved_at_once(*given, finite=True)
+    if points is not None:
+        points = replace(points, seed=task.seed, settings=task.tracker.settings)
+    return Attempt(points, spent)
+
+
+def decompose_several(task: Task) -> Decomposition:
+    """The components by witness points of every dimension, one equation after the other."""
+    flag, rng = _random_flag(task)
+    reduced = task.reduction.reduced
+    order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
-    return witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, tracker)
+    superset = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, task.tracker)
+    answer = _settle(task, superset, rng, order)
+    return counted(answer, task.scheme)
 
 
-def _put_together(
-    reduction: Reduction,
-    superset: Superset,
-    rng: np.random.Generator,
-    tracker: Tracker,
-    known: Known,
-) -> tuple[Decomposition, bool]:
-    """The components of witness points of all dimensions.
+def _random_flag(task: Task) -> tuple[np.ndarray, np.random.Generator]:
+    """Rows of generic slices, and the random numbers of what begins with them."""
+    rng, n = np.random.default_rng(task.seed), task.reduction.n
+    return random_rows(rng, n, n, NEARER), rng
 
-    Also whether all doubts of that are about isolated points.
-    """
+
+def _settle(
+    task: Task, superset: Superset, rng: np.random.Generator, order: Sequence[int] = ()
+) -> Decomposition:
+    """The components of witness points of all dimensions; points are solved for where in doubt."""
     notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
     points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
-    found = assembled(points, reduction, rng, tracker, known)
-    notes += found.notes
-    paths = superset.counts + found.counts
-    answer = judged(reduction.system, found.components, paths, tracker.settings, notes)
-    return answer, superset.only_points and not found.notes
+    moving = [g for g in task.symmetries if not g.is_identity]
+    known = Known(actions=[Action.of(g, task.reduction.frame) for g in moving], scheme=task.scheme)
+    found = assembled(points, task.reduction, rng, task.tracker, known)
+    answer = judged(
+        task.system,
+        found.components,
+        superset.counts + found.counts,
+        task.tracker.settings,
+        [*notes, *found.notes],
+        order,
+        task.seed,
+    )
+    # Whether all doubts are about isolated points.
+    only_points = superset.only_points and not found.notes
+    if not answer.complete and answer.dimension > 0 and only_points:
+        answer = with_points(answer, task.rng, task.tracker, task.symmetries) or answer
+    if not answer.complete and answer.dimension <= 0:
+        isolated = solved_at_once(task.system, task.rng, task.tracker, task.symmetries)
+        if isolated is not None and contains(isolated, answer):
+            answer = replace(isolated, paths=_add_tracked(isolated.paths, answer.paths))
+    return replace(answer, seed=task.seed, settings=task.tracker.settings)
+
+
+def _add_tracked(paths: PathCounts, earlier: PathCounts) -> PathCounts:
+    """The counts of paths with those tracked before, whatever became of these."""
+    return replace(paths, tracked=earlier.tracked + paths.tracked)

@@ -161,6 +161,7 @@ def document(decomposition: Decomposition, origin: Origin | None = None) -> dict
             "failed": decomposition.paths.failed,
             "at_infinity": decomposition.paths.at_infinity,
         },
+        "method": decomposition.method,
         "order": [int(i) for i in decomposition.order],
         "system": system_document(system),
         "equations": [_equations_document(cut, system.variables) for cut in cuts],
@@ -363,6 +364,7 @@ def export_of(value: Any) -> Export:
         order=tuple(order),
         complete=get("complete", as_flag),
         notes=tuple(get("notes", as_texts)),
+        method=as_text(table.get("method", ""), "method"),
     )
     if table.get("case") is None:
         return Export(decomposition)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
-from nag.algebra.system import PolynomialSystem, system_line
+from nag.algebra.system import system_line
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
@@ -43,17 +43,30 @@ def _model_rows(model: Model) -> list[tuple[str, str]]:
     return rows
 
 
-def _exact_rows(system: PolynomialSystem, tracked: int | None = None) -> list[tuple[str, str]]:
-    """That one equation is left; whether paths were needed to part it is known afterwards."""
-    if not is_one_equation(Reduction.of(system, scaled=True)):
+ONE_EQUATION = (
+    "exact linear algebra leaves one equation: its factors over the complex numbers are the "
+    "components"
+)
+# What each of `nag.decomposition.components.METHODS` does.
+METHODS = {
+    "by_variables": "equations that share no variables are decomposed apart; the components are "
+    "products",
+    "by_branches": "the equations have factors, or few zeros: what they leave is decomposed apart",
+    "one_equation": ONE_EQUATION,
+    "rational_curve": "a curve that polynomials in one variable give, exactly",
+    "section_at_once": "cut by a slice all at once, which has as many points as its mixed volume",
+    "all_at_once": "a finite set, solved all at once",
+    "one_by_one": "the equations are intersected one by one",
+}
+
+
+def _method_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
+    if decomposition.method not in METHODS:
         return []
-    text = (
-        "exact linear algebra leaves one equation: its factors over the complex numbers are the "
-        "components"
-    )
-    if tracked == 0:
-        text += ", by algebra alone, without paths"
-    return [("exact", text)]
+    text = METHODS[decomposition.method]
+    if not decomposition.paths.tracked:
+        text += "; by algebra alone, without paths"
+    return [("method", text)]
 
 
 def _mobility_rows(
@@ -100,7 +113,7 @@ def answer_lines(
 ) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
-    head[1:1] = _exact_rows(decomposition.system, decomposition.paths.tracked)
+    head[1:1] = _method_rows(decomposition)
     if model is not None:
         head = _model_rows(model) + head
     if case.assembly is not None:
@@ -124,7 +137,9 @@ def answer_lines(
 def model_lines(case: Case, model: Model | None) -> list[str]:
     """The polynomial system of a case, line by line."""
     system = system_of(case, model)
-    head = [("system", system_line(system)), *_exact_rows(system)]
+    head = [("system", system_line(system))]
+    if is_one_equation(Reduction.of(system, scaled=True)):
+        head.append(("exact", ONE_EQUATION))
     if model is not None:
         head = _model_rows(model) + body_rows(model) + head
     if case.assembly is not None:

@@ -34,7 +34,17 @@ ONE_COMPONENT = "that its points lie on one irreducible component"
 ALL_POINTS = "that it has no more points on its slice"
 # What an export says of how the components came about, and what doubles made of the points:
 # nothing that is proved rests on it.
-OF_THE_RUN = ("case", "formulation", "reason", "seed", "settings", "paths", "order", "notes")
+OF_THE_RUN = (
+    "case",
+    "formulation",
+    "reason",
+    "seed",
+    "settings",
+    "paths",
+    "method",
+    "order",
+    "notes",
+)
 OF_ARITHMETIC = ("residual", "precision", "digits")
 
 

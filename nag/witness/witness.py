@@ -357,6 +357,8 @@ class Decomposition:
             where branches of the system were decomposed apart.
         complete: whether every component is confirmed and no path was left undecided.
         notes: what a reader must know of an incomplete answer.
+        method: the name of the one of `nag.decomposition.components.METHODS` that answered; empty
+            where another operation gave the components, or it is not known.
     """
 
     system: PolynomialSystem
@@ -367,6 +369,7 @@ class Decomposition:
     order: tuple[int, ...]
     complete: bool
     notes: tuple[str, ...] = field(default=())
+    method: str = field(default="", compare=False)
 
     def __post_init__(self) -> None:
         check_type(self.system, PolynomialSystem, "system", "a nag.PolynomialSystem")

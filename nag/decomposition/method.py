@@ -1,0 +1,78 @@
+"""Methods of decomposition: each is asked a task, and answers or leaves it to the next one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from nag.algebra.symmetry import SignedPermutation
+from nag.algebra.system import PolynomialSystem
+from nag.decomposition.reduction import Reduction
+from nag.witness.fibres import Tracker
+from nag.witness.witness import Decomposition, PathCounts
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """A system to decompose, and how.
+
+    Attributes:
+        symmetries: signed permutations of the variables that keep the equations.
+        seed: of all random numbers.
+        scheme: whether multiplicities are of interest: a branch is not the scheme that was given.
+    """
+
+    system: PolynomialSystem
+    symmetries: tuple[SignedPermutation, ...]
+    seed: int
+    tracker: Tracker
+    scheme: bool = True
+
+    def of_part(self, system: PolynomialSystem, symmetries: Sequence[SignedPermutation]) -> Task:
+        """The same for a part of the system, as a set."""
+        scheme = self.scheme and system is self.system
+        return Task(system, tuple(symmetries), self.seed, self.tracker, scheme)
+
+    @cached_property
+    def reduction(self) -> Reduction:
+        """The system in fewer variables, in natural coordinates."""
+        return Reduction.of(self.system, scaled=True)
+
+    @cached_property
+    def rng(self) -> np.random.Generator:
+        """The random numbers of what is tried before equations are intersected one by one."""
+        return np.random.default_rng([self.seed, 3])
+
+
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """What became of a task.
+
+    Attributes:
+        answer: None where the method does not apply, or found that another must be asked.
+        spent: paths that were tracked without their being counted in the answer.
+    """
+
+    answer: Decomposition | None = None
+    spent: PathCounts = field(default=PathCounts())
+
+
+# Answers a part of a task by the methods after the one that asks.
+Others = Callable[[Task], Decomposition]
+Method = Callable[[Task, Others], Attempt]
+
+
+def decompose_by(methods: Sequence[Method], task: Task) -> Decomposition:
+    """The answer of the first method that has one, by its name; the last one has always one."""
+    spent = PathCounts()
+    for k, method in enumerate(methods):
+        others = methods[k + 1 :]
+        attempt = method(task, lambda part, others=others: decompose_by(others, part))  # type: ignore[misc]
+        spent += attempt.spent
+        if attempt.answer is not None:
+            answer, name = attempt.answer, method.__name__
+            return replace(answer, paths=answer.paths + spent, method=answer.method or name)
+    raise AssertionError("the last method answers whatever it is asked")
