@@ -13,7 +13,7 @@ from nag.bench.atlas.curves import close_skew_lines
 from nag.decomposition import decompose, witness_at
 from nag.files.export import read_decomposition, write_decomposition
 from nag.tracking.paths import Ball
-from nag.witness.close_points import Fine, distance, in_words, rated
+from nag.witness.close_points import Fine, distance, in_words, rated, zero_from
 from nag.witness.fibres import _words
 from nag.witness.membership import UndecidedError
 from nag.witness.slices import random_rows, to_slice
@@ -195,19 +195,33 @@ def test_ends_in_more_words_than_are_compared_keep_the_leading_ones() -> None:
 
 
 @pytest.mark.parametrize(
-    ("equations", "degree"),
+    "equations",
     [
-        (["(x^2 + y^2 - 1)^2 - 2/10^80"], 4),
-        (["(x + y + z)^3 - 2/10^90"], 3),
-        (["(x^2 + y^2 - 1)^2 - 2/10^80", "z^2 - x*y - 1"], 8),
-        (["(x^2 + y^2 - 1)^3 - 2/10^90", "z^2 - x"], 12),
+        ["(x^2 + y^2 - 1)^2 - 2/10^140"],
+        ["(x^2 + y*z - 1)^3 - 2/10^210"],
+        ["(x^2 + y^2 - 1)^2 - 2/10^140", "z^2 - x*y - 1"],
+        ["(x^2 + y^2 - 1)^3 - 2/10^210", "z^2 - x"],
     ],
 )
-def test_sheets_too_close_to_be_told_apart_are_left_open(equations: list[str], degree: int) -> None:
-    answer = nag.decompose(equations)
-    found = sum(c.degree * c.multiplicity for c in answer.components)
-    # All points may be found, and yet be too close for paths to say what belongs together.
-    assert not answer.complete or found == degree
+def test_sheets_too_close_to_be_told_apart_are_left_open(equations: list[str]) -> None:
+    assert not nag.decompose(equations).complete
+
+
+def test_sheets_that_only_the_last_arithmetic_tells_apart_are_two() -> None:
+    answer = nag.decompose("(x + 2*y - 1)^2 - 2/10^80")
+    assert answer.complete
+    assert [(c.dimension, c.degree) for c in answer.components] == [(1, 1)] * 2
+
+
+@pytest.mark.parametrize(("e", "power"), [(25, 2), (25, 3), (20, 6)])
+def test_close_zeros_are_known_to_as_many_digits_as_are_asked_for(e: int, power: int) -> None:
+    """Their equations' values are much smaller than the zeros' distances."""
+    (f,) = nag.system(f"x^{power} - 2/10^{e * power}", "x").polynomials
+    with flint.ctx.workdps(400):
+        exact = flint.arb(2) ** flint.fmpq(1, power) / flint.arb(10) ** e
+        start = in_words([flint.acb(exact)], 10.0**e)
+        found = zero_from([f], np.zeros((0, 2), dtype=complex), start, 150)
+        assert found is not None and abs(found[0][0] - exact) < flint.arb(10) ** -150
 
 
 @pytest.mark.parametrize("k", [6, 9, 12, 20, 25])
@@ -251,7 +265,7 @@ MULTIPLE = {
     [
         *(("two double ones", k) for k in (3, 8, 15)),
         *(("two conjugate double ones", k) for k in (6, 15)),
-        *(("a double and a simple one", k) for k in (6, 10, 15)),
+        *(("a double and a simple one", k) for k in (6, 10, 15, 20)),
         ("conjugate double cubics, slanting", 6),
     ],
 )

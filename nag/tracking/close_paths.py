@@ -2,7 +2,7 @@
 
 Newton's method converges to one of two zeros only from within a small part of their distance. What
 doubles round, or a predictor misses, must be less than that on the whole way, so such paths are
-followed in double-double or quad-double from their starts on, in steps that their distance allows.
+followed in two, four or eight words from their starts on, in steps that their distance allows.
 """
 
 from __future__ import annotations
@@ -91,12 +91,29 @@ def track_close(
         The paths, whose regular ends are balls.
     """
     chosen, curvature = named(settings), np.array(curvature, dtype=float)
-    words = min(DIGITS) if (curvature < STEEP).all() else WORDS
-    paths = follow_whole(homotopy, starts[..., :words], curvature, chosen, threads)
-    failed = paths.where(PathStatus.FAILED)
-    if words < WORDS and len(failed):
-        again = follow_whole(homotopy, starts[failed], curvature[failed], chosen, threads)
-        paths = merged(paths, again, failed)
-    if not endgame:
-        paths = without(paths, paths.where(PathStatus.SINGULAR))
+    first = min(DIGITS) if (curvature < STEEP).all() else WORDS
+    paths = _follow_in(first, homotopy, starts, curvature, chosen, threads, endgame)
+    for words in (words for words in DIGITS if words > first):
+        failed = paths.where(PathStatus.FAILED)
+        if not len(failed):
+            break
+        own = starts[failed], curvature[failed]
+        paths = merged(paths, _follow_in(words, homotopy, *own, chosen, threads, endgame), failed)
     return without(paths, collisions(homotopy, paths))
+
+
+def _follow_in(
+    words: int,
+    homotopy: Homotopy,
+    starts: np.ndarray,
+    curvature: np.ndarray,
+    settings: Settings,
+    threads: int,
+    endgame: bool,
+) -> Paths:
+    """The paths in one arithmetic; words that starts lack are Newton's method's to find."""
+    own = np.zeros((*starts.shape[:-1], words))
+    known = min(words, starts.shape[-1])
+    own[..., :known] = starts[..., :known]
+    paths = follow_whole(homotopy, own, curvature, settings, threads)
+    return paths if endgame else without(paths, paths.where(PathStatus.SINGULAR))

@@ -15,11 +15,13 @@ import flint
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
+from nag.numerics.digits import log_norm, log_size
 from nag.numerics.read_only import fixed_array
 from nag.witness.slices import padded
 
 if TYPE_CHECKING:
     from nag.algebra.polynomial import Polynomial
+    from nag.numerics.ball_polynomials import BallPolynomials
 
 # Points are close whose distance, relative to their size, is less than this: corrections that need
 # not contract any more may be as large as a hundredth of it.
@@ -30,8 +32,11 @@ WORDS, DIGITS = 4, 62
 # that it may move a point by.
 STEPS, BASIN = 14, 0.1
 # Digits behind the point to which Newton's constant is probed: beyond all distances of points that
-# can be tracked, before what is left of their digits.
-OFF = 32
+# can be tracked, before what is left of their digits. And digits that are computed with: twice as
+# many, and as many as rounding may take of a point.
+OFF, PROBED = 56, 4 * DIGITS
+# Digits more than are asked of a zero, for the rounding errors of Newton's method.
+SPARE = 10
 # Newton's constant where no more is known than that the next point is near; more asks for no more
 # digits.
 STEEPEST = 1e100
@@ -123,7 +128,7 @@ def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> F
 
     exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
     size, most = 1 + float(np.linalg.norm(point.rounded)), 1.0
-    with flint.ctx.workdps(3 * DIGITS):
+    with flint.ctx.workdps(PROBED):
         centre, off = point.balls(), flint.arb(10) ** -OFF * size
         for turn in (1, 2):
             way = np.exp(1j * np.arange(1, len(centre) + 1) ** 2 * turn)
@@ -157,7 +162,8 @@ def zero_from(
 ) -> tuple[list[Any], float] | None:
     """The zero of a square system on a slice near a point, by Newton's method in many digits.
 
-    The caller sets the working precision to some more than ``digits``.
+    It is computed in as many more digits as rounding takes of it: where equations fall to ``e^m``
+    times their terms between zeros at a distance e, these are about m times those of e.
 
     Returns:
         The coordinates in ``acb`` without radii, and an estimate of their errors, to be below
@@ -167,7 +173,36 @@ def zero_from(
     from nag.numerics.ball_polynomials import BallPolynomials
 
     exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(start.words)))
-    x = [_middle(z) for z in start.balls()]
+    with flint.ctx.workdps(PROBED):
+        x = [_middle(z) for z in start.balls()]
+        lost = _digits_lost(exact, x)
+    if lost is None:
+        return None
+    with flint.ctx.workdps(digits + lost + SPARE):
+        return _converged(exact, x, start.curvature, digits)
+
+
+def _digits_lost(exact: BallPolynomials, x: list[Any]) -> int | None:
+    """How many digits a zero near ``x`` has less than its equations; None if all are lost.
+
+    The working precision, which the answer does not depend on, must exceed it.
+    """
+    try:
+        inverse = exact.jacobian(x).mid().inv().tolist()
+    except ZeroDivisionError:
+        return None
+    # Few digits have exact products: coordinates are as rounded as those that they lead to.
+    unit = flint.arb(1, flint.arb(10) ** -flint.ctx.dps)
+    radii = [log_size(flint.acb(z.rad())) for z in exact([z * unit for z in x]).entries()]
+    errors = [log_size(z) + r for row in inverse for z, r in zip(row, radii, strict=True)]
+    lost = flint.ctx.dps + max(errors, default=-np.inf) - log_norm([flint.acb(1), *x])
+    return max(0, int(lost)) if lost < flint.ctx.dps else None
+
+
+def _converged(
+    exact: BallPolynomials, x: list[Any], curvature: float, digits: int
+) -> tuple[list[Any], float] | None:
+    """Newton's method for `zero_from`."""
     size = 1 + max((float(abs(z)) for z in x), default=0.0)
     moved, last = 0.0, None
     for _ in range(STEPS):
@@ -180,7 +215,7 @@ def zero_from(
         moved += float(length)
         done = length < flint.arb(10) ** -digits * size
         contracts = last is None or length < last / 4
-        if not moved * start.curvature <= BASIN * size or not (contracts or done):
+        if not moved * curvature <= BASIN * size or not (contracts or done):
             return None
         if done and last is not None:
             return x, float(length)

@@ -109,9 +109,8 @@ def zero_in_digits(
     if fine is None:
         return sharp_zero(cut.polynomials, padded(rows, 1 + len(z)), cut.evaluator.jacobian(z), z)
     more = int(2 * np.log10(max(fine.curvature, 1.0)))
-    with flint.ctx.workdps(DIGITS + 10 + 2 * more):
-        found = zero_from(cut.polynomials, rows, fine, DIGITS + more)
-        return None if found is None else found[0]
+    found = zero_from(cut.polynomials, rows, fine, DIGITS + more)
+    return None if found is None else found[0]
 
 
 def _at_zero(

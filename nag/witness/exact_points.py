@@ -189,10 +189,10 @@ def _from_fine(
 ) -> tuple[np.ndarray, float]:
     """A point that is close to others, from the digits that it has."""
     lost = int(np.log10(max(fine.curvature, 1.0)))
-    with flint.ctx.workdps(digits + SPARE + 2 * lost):
-        found = zero_from(cut.polynomials, rows, fine, digits + lost)
-        if found is None:
-            return np.zeros(2 * cut.n, dtype=object), np.inf
+    found = zero_from(cut.polynomials, rows, fine, digits + lost)
+    if found is None:
+        return np.zeros(2 * cut.n, dtype=object), np.inf
+    with flint.ctx.workdps(digits + SPARE + lost):
         return _whole(found[0][: cut.n], bits), found[1] + 2.0**-bits
 
 

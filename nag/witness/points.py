@@ -92,10 +92,12 @@ class Points:
     def _in_digits(self, i: int, apart: float) -> Fine | None:
         """More digits of a point in doubles that is so far from the next one."""
         steep = STEEPER * self._size(i) / max(apart, 1e-300)
+        cut, start = self.cuts[self.which[i]], Fine.of_doubles(self.z[i], steep)
+        found = zero_from(cut.polynomials, self.rows, start, DIGITS)
+        if found is None:
+            return None
         with flint.ctx.workdps(2 * DIGITS):
-            cut = self.cuts[self.which[i]]
-            found = zero_from(cut.polynomials, self.rows, Fine.of_doubles(self.z[i], steep), DIGITS)
-            return None if found is None else in_words(found[0], steep)
+            return in_words(found[0], steep)
 
     def __len__(self) -> int:
         return len(self.z)

@@ -238,7 +238,7 @@ def _follow_in(
 
     if states.where.shape[-1] < words:
         states.lengthen(words)
-    if words == max(DIGITS):
+    if words == max(DIGITS) and not states.close:
         states.most[pending] = states.steps[pending] + LAST_STEPS
     terms, fine = Terms(homotopy), Terms(homotopy)
     limits = Limits(terms, words, states.orders[words])
