@@ -20,7 +20,7 @@ from nag.tracking.known import Known
 from nag.tracking.newton import refine
 from nag.tracking.paths import PathStatus, Reason
 from nag.tracking.projective import aligned_difference
-from nag.tracking.settings import Settings
+from nag.tracking.settings import Settings, named
 from nag.tracking.track import run_in_doubles, track
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -233,6 +233,15 @@ def test_results_do_not_depend_on_the_other_paths_nor_on_threads():
     for name in set(whole.__dataclass_fields__) - {"balls", "branches"}:
         assert np.array_equal(getattr(whole, name), getattr(threaded, name)), name
         assert np.array_equal(getattr(whole, name)[some], getattr(part, name)), name
+
+
+def test_a_step_that_was_rejected_is_not_tried_again():
+    # A line that touches a circle at a zero of both: rounding errors let no path get closer.
+    x, y = Polynomial.variables(2)
+    for seed in (17, 47, 48):
+        homotopy, starts = total_degree([x**2 + y**2 - 1, (y - 1) * (x + y - 3)], seed)
+        raw = run_in_doubles(homotopy, homotopy.normalized(starts), named("fast"), 1, False)
+        assert raw.steps.max() < 200
 
 
 def test_paths_with_many_branch_points_before_their_ends_reach_them_in_doubles():

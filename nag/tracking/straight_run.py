@@ -41,8 +41,9 @@ from nag.tracking.taylor import (
 
 # What a lane does: nothing; predict and correct; correct at its first point; correct once more.
 EMPTY, STEPPING, STARTING, CORRECTING = -1, 0, 1, 2
-# What became of a step.
-REJECTED, UNFINISHED, ACCEPTED = 0, 1, 2
+# What became of a step: rejected, because it is too long for the series at its end or for another
+# reason; to be corrected once more; accepted.
+OVERSTEPPED, REJECTED, UNFINISHED, ACCEPTED = range(4)
 # Why a path ended before t = 0, see `nag.tracking.paths.Reason`.
 ARRIVED, STEP_SIZE, STEPS, START, NOT_FINITE = 0, 1, 2, 3, 5
 # Rows of the lanes' counters.
@@ -274,7 +275,7 @@ def _judged(w, lane, b):
             return REJECTED
     f[8 * LAST + lane] = second
     if state != STARTING and _too_long(w, lane, b):
-        return REJECTED
+        return OVERSTEPPED
     if state == STEPPING and first > b.tolerance:
         return REJECTED
     # The Taylor coefficients' Jacobian is that before the correction.
@@ -304,7 +305,7 @@ def _accepted(w, lane, b):
     c[8 * FAILURES + lane] = 0
 
 
-def _failed(w, lane, b):
+def _failed(w, lane, b, verdict):
     """Try a shorter step; the reason why there is none, or 0."""
     f, c = w.scalars, w.counters
     first = math.sqrt(w.norms[lane])
@@ -315,7 +316,8 @@ def _failed(w, lane, b):
     if finite and c[8 * STATE + lane] == STEPPING and first > b.tolerance:
         shrink = (b.safety * b.tolerance / first) ** (1.0 / (b.order + 1))
         shrink = min(max(shrink, 0.1), 0.6)
-    elif w.tr[lane] == f[8 * SEEN_T + lane]:
+    elif verdict == OVERSTEPPED:
+        # By as much as the radius at its end asks for.
         shrink = 1.0
     f[8 * LAST + lane] = FARTHEST
     c[8 * FAILURES + lane] += 1
@@ -368,13 +370,13 @@ def _advance(s, w, b):
         if verdict == ACCEPTED:
             w.accepted[lane] = 1.0
             _accepted(w, lane, b)
-        elif verdict == REJECTED:
-            reason = _failed(w, lane, b)
+        elif verdict <= REJECTED:
+            reason = _failed(w, lane, b, verdict)
         elif c[8 * STATE + lane] == STEPPING:
             c[8 * STATE + lane] = CORRECTING
         if f[8 * GOAL + lane] == 0.0 and b.radius > 0.0:
             c[8 * STRAIGHT + lane] += 1
-            if c[8 * STRAIGHT + lane] > PATIENCE and verdict == REJECTED:
+            if c[8 * STRAIGHT + lane] > PATIENCE and verdict <= REJECTED:
                 reason = STEPS
         if c[8 * TAKEN + lane] >= b.max_steps and f[8 * T + lane] > 0.0:
             reason = STEPS
