@@ -210,3 +210,12 @@ def test_symmetries_add_what_was_not_met_and_join_what_was() -> None:
         met = set(kinds(expanded(answer)))
         assert met <= {(1, 1, 1), (1, 2, 1)}
     assert kinds(expanded(answer)) == {(1, 1, 1): 2, (1, 2, 1): 2}
+
+
+def test_points_that_doubles_do_not_see_as_regular_are_drawn_all_the_same() -> None:
+    # A double point and one beside it, in units of 1e-9.
+    answer = decompose(system("x y", "(x^2 - 2/10^30)*(x - 1)", "y^3 - x*y - 1/10^20"))
+    for component in answer.components:
+        found = sample(answer.system, component, 4, seed=1)
+        assert len(found.points) == 4
+        assert {p.tobytes() for p in found.points} <= {p.tobytes() for p in component.points}

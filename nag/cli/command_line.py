@@ -17,6 +17,7 @@ from importlib import import_module
 import nag
 from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
 from nag.cli.running import begin
+from nag.errors import ComponentError, NagError
 
 FROM_COMPONENTS = (
     "The components are those of an export of `nag decompose --json`, or of a case, which is "
@@ -179,6 +180,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         return COMPLETE if complete else INCOMPLETE
     except UsageError as error:
         _print(error.answer)
+        _complain(str(error))
+        return BAD_INPUT
+    except ComponentError as error:
+        _complain(str(error))
+        return INCOMPLETE
+    except NagError as error:
         _complain(str(error))
         return BAD_INPUT
     except KeyboardInterrupt:

@@ -13,7 +13,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.high_precision import DIGITS, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.errors import NagError
+from nag.errors import ComponentError
 from nag.numerics.digits import number
 from nag.numerics.natural_coordinates import scale_coordinates
 from nag.numerics.zero_values import ON
@@ -30,13 +30,13 @@ def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fi
     They are found anew from the system where the component does not hold them.
 
     Raises:
-        ValueError: if the points are not regular zeros of the system or of a deflation of it.
+        ComponentError: if the points are not regular zeros of the system or of a deflation of it.
     """
     if component.fibres:
         return list(component.fibres)
     _, fibres = _cut(system, component, branches(system) or ())
     if fibres is None:
-        raise NagError("the witness points are no regular zeros of the system")
+        raise ComponentError("the witness points are no regular zeros of the system")
     return fibres
 
 

@@ -108,6 +108,12 @@ def sample(
     check_component(system, component, seed, threads, settings)
     check_whole(count, "count")
     rng = np.random.default_rng([seed, 3])
+    if not component.dimension:
+        drawn = rng.integers(len(component.points), size=count)
+        at, evaluator = component.points[drawn], Evaluator.of(system.polynomials, system.n)
+        residual = float(evaluator.residuals(at).max(initial=0.0))
+        errors = relative_errors(at, component.radii[drawn])
+        return Samples(at, residual, float(errors.max(initial=EPS)))
     natural = coordinates_of(system)
     system = natural.system(system)
     component = carry_component(component, natural, system)
