@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import flint
 import numpy as np
@@ -26,6 +27,9 @@ from nag.witness.fibres import Fibre
 from nag.witness.points import Points, with_fine
 from nag.witness.slices import to_slice
 from nag.witness.witness import Decomposition, Slice, WitnessSet
+
+# Cuts whose images are kept.
+KEPT = 64
 
 
 def coordinates_of(system: PolynomialSystem) -> NaturalCoordinates:
@@ -120,9 +124,7 @@ def carry_fibres(
 
 def _carry_fibre(fibre: Fibre, natural: NaturalCoordinates, rows: np.ndarray) -> Fibre:
     """A fibre, its close points on the slice ``rows`` of ``y``."""
-    n, aux = fibre.cut.n, fibre.cut.aux
-    cut = Cut(n, aux, tuple(natural.polynomial(f) for f in fibre.cut.polynomials))
-    points = natural.points(fibre.points)
+    cut, points = _carry_cut(fibre.cut, natural), natural.points(fibre.points)
     fine = {i: _carry_fine(each, natural) for i, each in fibre.fine.items()}
     if not natural.is_exact_in_doubles:
         fine = {i: follow_slice(cut.polynomials, rows, each) for i, each in fine.items()}
@@ -130,6 +132,13 @@ def _carry_fibre(fibre: Fibre, natural: NaturalCoordinates, rows: np.ndarray) ->
             points[i] = each.rounded
         fine = {i: each for i, each in fine.items() if each.curvature * CLOSE > 1}
     return Fibre(cut, fibre.dimension, points, fine)
+
+
+@lru_cache(maxsize=KEPT)
+def _carry_cut(cut: Cut, natural: NaturalCoordinates) -> Cut:
+    """The equations of ``y``; components and operations share them, ready to be evaluated."""
+    polynomials = tuple(natural.polynomial(f) for f in cut.polynomials)
+    return Cut(cut.n, cut.aux, polynomials)
 
 
 def _carry_fine(point: Fine, natural: NaturalCoordinates) -> Fine:
