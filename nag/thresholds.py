@@ -267,6 +267,9 @@ witness.cutting_in_digits.PROBED            1e-6    Part of its size that a poin
 witness.close_points.CLOSE                  1e-4    Relative distance of points that are tracked in
                                                     more digits: corrections that need not contract
                                                     any more may be as large as a hundredth of it.
+witness.close_points.CLOSE_AFAR             1e-9    The same far from the origin that suits the
+                                                    equations, where nothing is tracked: of doubles
+                                                    about that one so many digits are left.
 witness.close_points.BASIN                  0.1     Part of the distance to the next point that
                                                     Newton's method may move one by.
 witness.confirm.CERTAIN *                   1e-14   Values that are rounding where coefficients have

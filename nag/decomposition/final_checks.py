@@ -13,7 +13,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.numerics.zero_values import ON, SINGULAR
-from nag.witness.close_points import close_pairs, follow_slice
+from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
 from nag.witness.confirm import confirmed, zero_in_digits
 from nag.witness.cutting import Equations, numerical_corank
 from nag.witness.exact_points import Sharp, framed, in_order, sharpened
@@ -167,13 +167,16 @@ class Examined:
         """
         frame = reduction.frame
         cut, parts = frame.slice(points.rows), []
+        close = CLOSE if frame.exact else CLOSE_AFAR
         if not frame.is_plain:
-            points = points.with_digits(close_pairs(frame.points(points.x)))
+            far = frame.points(points.x)
+            near = reduction.natural.unscaled.points(far)
+            points = points.with_digits([*close_pairs(near), *close_pairs(far, close)])
         by_cuts = points.fibres(np.concatenate([each.indices for each in classes]))
         inner = [sharpened(fibre, points.rows, points.exact.only(own)) for fibre, own in by_cuts]
         lifted = [_lifted(sharp.fibre, reduction) for sharp in inner]
         if not frame.is_plain:
-            lifted = with_fine(lifted, cut.rows)
+            lifted = with_fine(lifted, cut.rows, close)
         for (_, own), sharp, fibre in zip(by_cuts, inner, lifted, strict=True):
             if not frame.exact:
                 fibre = _on_slice(fibre, cut.rows)

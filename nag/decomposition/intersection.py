@@ -161,7 +161,9 @@ def _carry_back(
     return replace(
         result,
         system=system,
-        components=tuple(carry_component(c, natural.inverse, system) for c in components),
+        components=tuple(
+            carry_component(c, natural.inverse, system, back=True) for c in components
+        ),
         complete=result.complete and not any(c.note for c in components),
         seed=seed,
     )

@@ -20,7 +20,15 @@ import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
-from nag.witness.close_points import CLOSE, DIGITS, Fine, close_pairs, follow_slice, in_words
+from nag.witness.close_points import (
+    CLOSE,
+    CLOSE_AFAR,
+    DIGITS,
+    Fine,
+    close_pairs,
+    follow_slice,
+    in_words,
+)
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import EPS, sharpened
 from nag.witness.fibres import Fibre
@@ -42,12 +50,14 @@ def carry_component(
     natural: NaturalCoordinates,
     system: PolynomialSystem | None,
     cut: Slice | None = None,
+    back: bool = False,
 ) -> WitnessSet:
     """A component in ``x`` as one in ``y``.
 
     Args:
         system: what it is a component of, in ``y``.
         cut: its slice in ``y``, where it is known better than by that in ``x``.
+        back: whether ``y`` are the coordinates that were given, where nothing is tracked.
     """
     if natural.is_identity:
         same = component.system is system and cut is None
@@ -56,7 +66,7 @@ def carry_component(
     rows = natural.rows(component.slice.rows) if cut is None else cut.rows
     points, radii = carry_points(component.points, component.radii, natural)
     digits = component.digits
-    fibres = carry_fibres(component.fibres, component.slice.rows, natural, rows)
+    fibres = carry_fibres(component.fibres, component.slice.rows, natural, rows, back)
     if not natural.is_exact_in_doubles and fibres:
         sharp = [sharpened(fibre, rows) for fibre in fibres]
         known = np.vstack([each.radii for each in sharp])
@@ -100,6 +110,7 @@ def carry_fibres(
     rows: np.ndarray,
     natural: NaturalCoordinates,
     there: np.ndarray | None = None,
+    back: bool = False,
 ) -> list[Fibre]:
     """Fibres on the slice ``rows`` of ``x`` as ones of ``y``.
 
@@ -108,18 +119,24 @@ def carry_fibres(
 
     Args:
         there: the slice in ``y``; the image of ``rows`` if none is given.
+        back: whether ``y`` are the coordinates that were given, where nothing is tracked.
     """
     if natural.is_identity:
         return list(fibres)
     target = natural.rows(rows) if there is None else there
     if natural.is_exact_in_doubles:
         return [_carry_fibre(fibre, natural, target) for fibre in fibres]
-    points = Points.of(fibres, rows)
+    before, after = (CLOSE, CLOSE_AFAR) if back else (CLOSE_AFAR, CLOSE)
+    points = Points.of(fibres, rows, before)
     if not len(points):
         return []
-    points = points.with_digits(close_pairs(natural.points(points.x)))
+    moved = natural.points(points.x)
+    if back:
+        # Where points are asked about: in the units that are given.
+        points = points.with_digits(close_pairs(natural.inverse.unscaled.points(moved)))
+    points = points.with_digits(close_pairs(moved, after))
     own = [fibre for fibre, _ in points.fibres(range(len(points)))]
-    return with_fine([_carry_fibre(fibre, natural, target) for fibre in own], target)
+    return with_fine([_carry_fibre(fibre, natural, target) for fibre in own], target, after)
 
 
 def _carry_fibre(fibre: Fibre, natural: NaturalCoordinates, rows: np.ndarray) -> Fibre:

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 # Points are close whose distance, relative to their size, is less than this: corrections that need
 # not contract any more may be as large as a hundredth of it.
 CLOSE = 1e-4
+# Far from the origin that suits the equations nothing is tracked, and points are close only where
+# Newton's method about that origin might be led to another one by what doubles round there.
+CLOSE_AFAR = 1e-9
 # Sums of so many doubles, and the digits that they hold.
 WORDS, DIGITS = 4, 62
 # Newton's method for close points: corrections, and the part of the distance to the next point
@@ -250,11 +253,11 @@ def _middle(z: Any) -> Any:
     return flint.acb(z.real.mid(), z.imag.mid())
 
 
-def close_pairs(x: np.ndarray) -> list[tuple[int, int]]:
-    """Pairs of points, shape ``(P, n)``, that are close."""
+def close_pairs(x: np.ndarray, close: float = CLOSE) -> list[tuple[int, int]]:
+    """Pairs of points, shape ``(P, n)``, that are close: no further apart than this, relatively."""
     if len(x) < 2 or not x.shape[1]:
         return []
-    widths = CLOSE * (1 + np.linalg.norm(x, axis=1))
+    widths = close * (1 + np.linalg.norm(x, axis=1))
     weights = np.exp(1j * np.arange(1, x.shape[1] + 1) ** 2)
     found = []
     for i, j in neighbours((x @ weights).real, np.sqrt(x.shape[1]) * widths):

@@ -21,6 +21,7 @@ from nag.witness.change_of_coordinates import carry_component, carry_fibres, coo
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
 from nag.witness.fibres import Fibre, cut_fibres
+from nag.witness.points import with_fine
 from nag.witness.witness import WitnessSet
 
 
@@ -33,7 +34,7 @@ def component_fibres(system: PolynomialSystem, component: WitnessSet) -> list[Fi
         ComponentError: if the points are not regular zeros of the system or of a deflation of it.
     """
     if component.fibres:
-        return list(component.fibres)
+        return with_fine(component.fibres, component.slice.rows)
     _, fibres = _cut(system, component, branches(system) or ())
     if fibres is None:
         raise ComponentError("the witness points are no regular zeros of the system")
@@ -123,4 +124,4 @@ def find_fibres(
     )
     if fibres is None:
         return None
-    return carry_fibres(fibres, here.slice.rows, natural.inverse, component.slice.rows)
+    return carry_fibres(fibres, here.slice.rows, natural.inverse, component.slice.rows, back=True)

@@ -172,4 +172,5 @@ def witness_at(
         digits=np.concatenate([each.digits for each in found]),
         fibres=tuple(each.fibre for each in found),
     )
-    return carry_component(moved, natural.inverse, component.system, to_slice(goal))
+    cut = to_slice(goal)
+    return carry_component(moved, natural.inverse, component.system, cut, back=True)

@@ -10,6 +10,7 @@ import flint
 import numpy as np
 
 from nag.witness.close_points import (
+    CLOSE,
     DIGITS,
     Fine,
     chosen,
@@ -45,8 +46,8 @@ class Points:
     known: ExactPoints | None = None
 
     @classmethod
-    def of(cls, fibres: Sequence[Fibre], rows: np.ndarray) -> Points:
-        """The points of fibres, in their order."""
+    def of(cls, fibres: Sequence[Fibre], rows: np.ndarray, close: float = CLOSE) -> Points:
+        """The points of fibres, in their order; those that are ``close`` in many digits."""
         which = [k for k, fibre in enumerate(fibres) for _ in range(len(fibre))]
         z = [z for fibre in fibres for z in fibre.points]
         fine, first = {}, 0
@@ -54,11 +55,11 @@ class Points:
             fine |= {first + i: each for i, each in fibre.fine.items()}
             first += len(fibre)
         points = cls(rows, tuple(fibre.cut for fibre in fibres), tuple(which), tuple(z), fine)
-        return points._with_fine()
+        return points._with_fine(close)
 
-    def _with_fine(self) -> Points:
+    def _with_fine(self, close: float) -> Points:
         """With more digits of all points that are close to others, where they can be found."""
-        pairs = close_pairs(self.x)
+        pairs = close_pairs(self.x, close)
         fine = dict(self.with_digits(pairs).fine)
         steepest = {i: each.curvature for i, each in fine.items()}
         for pair in pairs:
@@ -156,11 +157,11 @@ class Points:
         return Points(self.rows, cuts, (*self.which, cuts.index(cut)), (*self.z, z), known)
 
 
-def with_fine(fibres: Sequence[Fibre], rows: np.ndarray) -> list[Fibre]:
+def with_fine(fibres: Sequence[Fibre], rows: np.ndarray, close: float = CLOSE) -> list[Fibre]:
     """Fibres on a common slice with more digits of all points that are close to others."""
-    if not close_pairs(np.vstack([fibre.x for fibre in fibres])):
+    if not close_pairs(np.vstack([fibre.x for fibre in fibres]), close):
         return list(fibres)
-    points = Points.of(fibres, rows)
+    points = Points.of(fibres, rows, close)
     return [fibre for fibre, _ in points.fibres(range(len(points)))]
 
 

@@ -20,6 +20,7 @@ from nag.errors import NagError
 from nag.numerics.coincidence import coincident
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import LEAST, ON
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, Tracker
 from nag.witness.gauss_newton import descend, polish
@@ -116,6 +117,10 @@ def real_points_near(
     check_whole(starts, "starts", 1)
     near = _real_vector(near, system.n)
     rng, tracker = np.random.default_rng([seed, 8]), Tracker(settings, threads)
+    # Distances are those in the units that are given.
+    natural = coordinates_of(system).unscaled
+    system, near = natural.system(system), natural.points(near)
+    component = carry_component(component, natural, system)
     fibres = component_fibres(system, component)
     everything = Evaluator.of(system.polynomials, system.n)
     known = np.zeros((0, system.n))
@@ -136,7 +141,8 @@ def real_points_near(
     order, arrived = np.argsort(distances, kind="stable"), np.array(pulls, dtype=float) < ALMOST
     reason = "" if len(known) else _why_none(zeros, starts)
     known, distances, arrived = known[order], distances[order], arrived[order]
-    return RealPoints(known, distances, arrived, residual, undecided, reason)
+    points = natural.inverse.points(known)
+    return RealPoints(points, distances, arrived, residual, undecided, reason)
 
 
 def _why_none(zeros: int, starts: int) -> str:
