@@ -19,12 +19,18 @@ from nag.tracking.ends.terms import BITS, Factors, Terms, number
 
 # Most that the radii of the box are, in rounding errors of the coordinates, and in Newton's steps.
 WIDER, STEPS = 64.0, 16.0
-# Least part of the first that is taken.
+# Least part of the first that is taken; of a zero in twice the digits, its square.
 TINY = 1e-12
+# Newton's steps to such a zero.
+FINER_STEPS = 2
 
 
 def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray | None:
     """Radii of a box about a point that holds one zero only, a regular one; None if none is proved.
+
+    Slopes over a box do not see that errors in the coordinates of a badly conditioned zero go
+    together: where they are too wide over a box of the size of these, the box is laid about the
+    zero that they lead to in twice as many digits.
 
     Args:
         terms: the homotopy's.
@@ -34,43 +40,64 @@ def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray |
     Returns:
         Half sides, some rounding errors of the coordinates or less, shape ``(N,)``.
     """
-    before = flint.ctx.prec
-    try:
-        flint.ctx.prec = BITS[centre.shape[-1]]
-        return _proved(flint, terms, centre, errors)
-    finally:
-        flint.ctx.prec = before
-
-
-def _proved(flint: Any, terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray | None:
-    N = terms.homotopy.N
+    bits = BITS[centre.shape[-1]]
     if not np.isfinite(centre).all() or not np.isfinite(errors).all():
         return None
-    x = [number(c) for c in centre]
     sizes = np.hypot(*centre[:, :, 0].T)
     # A coordinate that vanishes has no size of its own; of one that does not, the box must not be
     # larger than it.
     sizes = np.where(sizes > 0, sizes, sizes.max(initial=0.0))
-    floor = sizes * 2.0 ** -(BITS[centre.shape[-1]] // 2 + 40)
-    radii = (WIDER * errors + floor).tolist()
-    if not all(radii):
+    most = WIDER * errors + sizes * 2.0 ** -(bits // 2 + 40)
+    if not most.all():
         # Boxes as small leave the range of doubles.
         return None
+    with flint.ctx.workprec(bits):
+        x = [number(c) for c in centre]
+        radii = _radii_of_box(terms, x, most, TINY)
+    if radii is not None:
+        return radii
+    with flint.ctx.workprec(2 * bits):
+        zero = x
+        for _ in range(FINER_STEPS):
+            correction = _linearize(terms.finer, zero)
+            if correction is None:
+                return None
+            zero = [(z - step).mid() for z, step in zip(zero, correction[1].entries(), strict=True)]
+            away = np.array([float((z - c).abs_upper()) for z, c in zip(zero, x, strict=True)])
+            if not (away < most).all():
+                return None
+        radii = _radii_of_box(terms.finer, zero, most, TINY**2)
+    return None if radii is None else away + radii
+
+
+def _linearize(terms: Terms, x: list[Any]) -> tuple[flint.acb_mat, flint.acb_mat, Any] | None:
+    """A matrix near the inverse Jacobian at a point, Newton's step there, and the patches."""
     patches = patches_through(flint, terms, x)
     values, jacobian = system_at(flint, terms, patches, x)
     try:
-        Y = jacobian.mid().inv().mid()
+        inverse = jacobian.mid().inv().mid()
     except ZeroDivisionError:
         return None
-    newton = Y * values
-    # Slopes over a box do not see that errors in the coordinates of a badly conditioned zero go
-    # together: it must not be larger than Newton's step asks for.
-    steps = [float(newton[j, 0].abs_upper()) / r for j, r in enumerate(radii)]
-    part = min(1.0, STEPS * max(steps, default=0.0) + TINY)
-    radii = [part * r for r in radii]
+    return inverse, inverse * values, patches
+
+
+def _radii_of_box(terms: Terms, x: list[Any], most: np.ndarray, least: float) -> np.ndarray | None:
+    """Half sides of a box about ``x`` that Krawczyk's operator maps into itself.
+
+    Args:
+        most: the largest that they may be, shape ``(N,)``; least: the least part of these.
+    """
+    N, linear = terms.homotopy.N, _linearize(terms, x)
+    if linear is None:
+        return None
+    inverse, newton, patches = linear
+    # The box must not be larger than Newton's step asks for.
+    steps = [float(newton[j, 0].abs_upper()) / r for j, r in enumerate(most.tolist())]
+    part = min(1.0, STEPS * max(steps, default=0.0) + least)
+    radii = [part * r for r in most.tolist()]
     box = [z + flint.acb(flint.arb(0, r), flint.arb(0, r)) for z, r in zip(x, radii, strict=True)]
     _, slopes = system_at(flint, terms, patches, box)
-    rest = flint.acb_mat(N, N, [int(i == j) for i in range(N) for j in range(N)]) - Y * slopes
+    rest = flint.acb_mat(N, N, [int(i == j) for i in range(N) for j in range(N)]) - inverse * slopes
     moved = flint.acb_mat(N, 1, [b - z for b, z in zip(box, x, strict=True)])
     image = rest * moved - newton
     inside = all(bool(image[j, 0].abs_upper() < flint.arb(r)) for j, r in enumerate(radii))

@@ -26,6 +26,11 @@ class Terms:
     homotopy: Homotopy
 
     @cached_property
+    def finer(self) -> Terms:
+        """The same, to be asked for in another precision."""
+        return Terms(self.homotopy)
+
+    @cached_property
     def rows(self) -> list[list[Term]]:
         """For each row its terms."""
         h = self.homotopy
