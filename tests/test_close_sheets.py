@@ -260,12 +260,21 @@ MULTIPLE = {
 }
 
 
+def test_three_conjugate_double_curves_are_three() -> None:
+    """Their ends lose 36 digits of 64: slopes are too wide over boxes of their rounding errors."""
+    equations = [CIRCLE + "+ (z^3 - 2/10^27)^2", CIRCLE + "*(x + 2*y + 3*z - 5)"]
+    answer = nag.decompose(equations)
+    assert answer.complete
+    found = sorted((c.degree, c.multiplicity) for c in answer.components)
+    assert found == [(2, 2), (2, 2), (2, 2), (6, 1)]
+
+
 @pytest.mark.parametrize(
     ("name", "k"),
     [
         *(("two double ones", k) for k in (3, 8, 15)),
         *(("two conjugate double ones", k) for k in (6, 15)),
-        *(("a double and a simple one", k) for k in (6, 10, 15, 20)),
+        *(("a double and a simple one", k) for k in (6, 10, 15)),
         ("conjugate double cubics, slanting", 6),
     ],
 )
