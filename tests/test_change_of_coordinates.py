@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import flint
 import numpy as np
 import pytest
 
@@ -18,8 +19,11 @@ from nag.decomposition import (
     witness_at,
 )
 from nag.decomposition.trace import linear_traces
+from nag.interpolation.precise_samples import samples, source_of_component
+from nag.numerics.digits import number
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
+from nag.witness.fibres import Tracker
 from nag.witness.witness import Decomposition
 
 SYSTEMS = {
@@ -115,3 +119,21 @@ def test_components_are_moved_and_projected_far_from_the_origin() -> None:
         assert np.abs(there.points[:, :2] - target.b).max() < 1e-9
         image = project(whole.system, component, ["x", "y"], seed=1)
         assert (image.dimension, image.degree, image.fibre_degree) == (2, 1, 2)
+
+
+def test_points_far_from_the_origin_are_sampled_to_many_digits() -> None:
+    plain = nag.system(["(x^2 + y^2 + z^2 - 4)*(x - 1)", "x^2 + y^2 - 2*x"], "x y z")
+    origin = tuple(-b * 10**6 for b in ORIGIN)
+    system = NaturalCoordinates((Fraction(1),) * 3, origin).system(plain)
+    whole = nag.decompose(system, seed=1)
+    assert [(c.dimension, c.degree) for c in whole.components] == [(1, 1), (1, 1), (1, 4)]
+    for component in whole.components:
+        source = source_of_component(system, component)
+        for found in samples(source, 3, np.random.default_rng(1), Tracker()):
+            with flint.ctx.workdps(150):
+                point = found.balls(60)
+                values = [f(point, number) for f in system.polynomials]
+                sizes = [float(abs(z).upper()) for z in values]
+            assert all(z.contains(0) for z in values)
+            assert max(sizes) < 1e-40
+            assert np.abs(found.x - [complex(z) for z in point]).max() < 1e-9

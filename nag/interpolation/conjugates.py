@@ -66,7 +66,7 @@ class RationalSlice:
     ) -> RationalSlice:
         """One that is generic where coordinates have the sizes that they have on a component.
 
-        The form of a single variable is this variable.
+        It is one in the source's coordinates. The form of a single variable is this variable.
         """
         sizes = source.fibres[0].sizes[[0, *(1 + i for i in coordinates)]]
         rows = rng.integers(1, LARGEST + 1, (dimension, len(sizes))) / sizes
@@ -91,7 +91,7 @@ class RationalSlice:
         for fibre in there.fibres:
             total = fibre.cut.n + fibre.cut.aux
             functions = BallPolynomials.of(fibre.cut.polynomials, np.zeros((0, 1 + total)))
-            found += [Sample(fibre.cut, target, z, functions) for z in fibre.points]
+            found += [Sample(source.natural, fibre.cut, target, z, functions) for z in fibre.points]
         return found
 
     def value(self, sample: Sample, digits: int) -> flint.acb:

@@ -19,11 +19,14 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.natural_coordinates import scale_coordinates
+from nag.numerics.digits import number
+from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.zero_values import ON
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut, Equations, find_cut
 from nag.witness.fibres import Fibre, Tracker
+from nag.witness.given_component import rounded
 from nag.witness.sampling import at_random
 from nag.witness.slices import padded, rows_through
 from nag.witness.witness import WitnessSet
@@ -46,12 +49,14 @@ class Source:
 
     Attributes:
         system: the equations of the component and perhaps of others.
-        rows: the slice that the points lie on.
+        natural: the coordinates in which the points are, in the units of the system's own.
+        rows: the slice that the points lie on, in these.
         fibres: the points.
         exact: the one point that was given exactly; None for witness points.
     """
 
     system: PolynomialSystem
+    natural: NaturalCoordinates
     rows: np.ndarray
     fibres: tuple[Fibre, ...]
     exact: tuple[Fraction, ...] | None = None
@@ -70,11 +75,14 @@ def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Sour
             deflation does not mend.
     """
     _check_rational(system)
+    natural = coordinates_of(system).unscaled
+    own = natural.system(system)
+    component = carry_component(component, natural, own)
     try:
-        fibres = component_fibres(system, component)
+        fibres = component_fibres(own, component)
     except ValueError as error:
         raise SourceError(str(error)) from None
-    return Source(system, component.slice.rows, tuple(fibres))
+    return Source(system, natural, component.slice.rows, tuple(fibres))
 
 
 def source_at(
@@ -94,15 +102,16 @@ def source_at(
     dimension = system.n - jacobian_rank(system.polynomials, point)
     if dimension == 0:
         raise SourceError("the point is isolated; there is nothing to eliminate from")
-    x = np.array([complex(float(c)) for c in point])
-    sizes = scale_coordinates(system.polynomials, system.n).sizes
+    natural = coordinates_of(system).unscaled
+    own, x = natural.system(system), rounded(natural.numbers(point))
+    sizes = scale_coordinates(own.polynomials, own.n).sizes
     rows = rows_through(rng, dimension, x, np.concatenate([[1.0], sizes]))
-    found = find_cut(Equations(system.polynomials, system.n), rows, x, ROUNDED, rng, False)
+    found = find_cut(Equations(own.polynomials, own.n), rows, x, ROUNDED, rng, False)
     if found is None:
         raise SourceError("the point is too near to a singular one")
     cut, z = found
     fibre = Fibre(cut, dimension, z[None])
-    return Source(system, rows, (fibre,), tuple(Fraction(c) for c in point))
+    return Source(system, natural, rows, (fibre,), tuple(Fraction(c) for c in point))
 
 
 def _check_rational(system: PolynomialSystem) -> None:
@@ -117,10 +126,12 @@ class Sample:
     """A point, in doubles, and what defines it: equations and a slice of doubles.
 
     Attributes:
+        natural: the coordinates of all this.
         z: affine, with the unknowns that deflation added.
         functions: the equations in balls; samples of one source share them.
     """
 
+    natural: NaturalCoordinates
     cut: Cut
     rows: np.ndarray
     z: np.ndarray
@@ -128,10 +139,11 @@ class Sample:
 
     @property
     def x(self) -> np.ndarray:
-        return self.z[: self.cut.n]
+        """The point in the system's variables."""
+        return self.natural.inverse.points(self.z[: self.cut.n])
 
     def balls(self, digits: int) -> list[flint.acb]:
-        """The coordinates as balls of radius ``10^-digits``, relative above one.
+        """`x` as balls of radius ``10^-digits``, relative above one.
 
         Raises:
             SourceError: if Newton's method does not converge.
@@ -158,7 +170,8 @@ class Sample:
             else:
                 raise SourceError("Newton's method does not converge at a sampled point")
             radius = flint.arb(10) ** -digits
-            return [_widened(x, radius * (1 + abs(x).mid())) for x in point[: self.cut.n]]
+            x = [z + number(b) for z, b in zip(point, self.natural.origin, strict=False)]
+            return [_widened(z, radius * (1 + abs(z).mid())) for z in x]
 
 
 def _solution(
@@ -187,7 +200,7 @@ def samples(source: Source, count: int, rng: np.random.Generator, tracker: Track
         SourceError: if a path fails, or ends where the equations do not hold.
     """
     n = source.system.n
-    evaluator = Evaluator.of(source.system.polynomials, n)
+    evaluator = Evaluator.of(source.natural.system(source.system).polynomials, n)
     found: list[Sample] = []
     in_balls: dict[Cut, BallPolynomials] = {}
     while len(found) < count:
@@ -204,5 +217,5 @@ def samples(source: Source, count: int, rng: np.random.Generator, tracker: Track
         if cut not in in_balls:
             total = cut.n + cut.aux
             in_balls[cut] = BallPolynomials.of(cut.polynomials, np.zeros((0, 1 + total)))
-        found.append(Sample(cut, target, fibre.points[0], in_balls[cut]))
+        found.append(Sample(source.natural, cut, target, fibre.points[0], in_balls[cut]))
     return found
