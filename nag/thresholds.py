@@ -373,8 +373,9 @@ numerics.digits: LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_RO
 ROUNDING, FIRST, LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function:
 ROUNDING; numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
 REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
-numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR; numerics.scaling: INERTIA,
-NEARLY_ORTHOGONAL; numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP;
+numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR, SEVERAL_SIZES;
+numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
+numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP;
 numerics.zero_values: LEAST; numerics.series_zeros: RANK, ASTRAY, ARRIVED; tracking.certified_paths:
 ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST;
 tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch:

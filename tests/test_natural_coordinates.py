@@ -150,6 +150,16 @@ def test_translated_random_systems_are_as_sparse_as_the_plain_ones_about_their_o
     assert len(denser) <= 1
 
 
+def test_little_translations_are_far_for_zeros_of_several_sizes() -> None:
+    x, y = Polynomial.variables(2)
+    even = [x**3 + y**2 - x * 3, x**2 * y - y * 2 + 1]
+    several = [x**3 + y**2 - x * Fraction(3, 10**9), x**2 * y - y * 2 + 1]
+    little = (Fraction(1, 3), Fraction(0))
+    for plain, origin in ((even, (0, 0)), (several, little)):
+        moved = [shift_polynomial(f, [-b for b in little]) for f in plain]
+        assert natural_coordinates(moved, 2).origin == origin
+
+
 @pytest.mark.parametrize("number", range(8))
 def test_translations_of_equations_translate_their_origin(number: int) -> None:
     plain, rng = small_system(7, number).system, np.random.default_rng(number)

@@ -28,6 +28,9 @@ from nag.numerics.scaling import magnitude, scaled_terms, variable_scales
 
 # Least distance from 0, in radii of where the zeros lie, that makes a new origin worth its digits.
 FAR = 8.0
+# Binary orders between coefficients of one equation, at their best scales, from which on there are
+# zeros of several sizes: what was translated little is far from some of them.
+SEVERAL_SIZES = 8.0
 # Scales below this bring nothing.
 LEAST_SCALE = 8
 # An origin may leave a variable this many binary orders larger than it was: roundings of scales.
@@ -278,7 +281,8 @@ def _accepted_origin(
     after = variable_scales(moved, n, near=0.0 if sum(vanishing) > 0 else before)
     kept = translated | (after <= before + LARGER) | (sizes <= before)
     gain = (sizes - after)[kept].max(initial=-np.inf)
-    if gain <= log2(FAR):
+    several = translated and _largest_spread(moved, after) > SEVERAL_SIZES
+    if gain <= log2(FAR) and not several:
         return nothing
     # What is gained in distance must not be lost in coefficients that no scales make comparable.
     if not translated and gain <= _unevenness(moved, after) - _unevenness(polynomials, before):
@@ -299,12 +303,22 @@ def _is_even(f: Polynomial) -> bool:
     return max(sizes) <= LEAST_SCALE * min(sizes)
 
 
+def _largest_spread(polynomials: Sequence[Polynomial], powers: np.ndarray) -> float:
+    """Most binary orders between two coefficients of an equation, at scales."""
+    return max(float(np.ptp(_sizes(f, powers))) for f in polynomials)
+
+
+def _sizes(f: Polynomial, powers: np.ndarray) -> np.ndarray:
+    """Binary logarithms of the coefficients of an equation, at scales."""
+    sizes = np.array([magnitude(c) for c in f.terms.values()])
+    return sizes + np.array(list(f.terms)) @ powers
+
+
 def _unevenness(polynomials: Sequence[Polynomial], powers: np.ndarray) -> float:
     """Binary orders between a coefficient and the median one of its equation: the median of all."""
     off = []
     for f in polynomials:
-        sizes = np.array([magnitude(c) for c in f.terms.values()])
-        sizes += np.array(list(f.terms)) @ powers
+        sizes = _sizes(f, powers)
         off.append(np.abs(sizes - np.median(sizes)))
     return float(np.median(np.concatenate(off)))
 
