@@ -30,8 +30,8 @@ def read_dh(top: Table, number: ReadNumber) -> DHModel | Mechanism:
         return dh_model(loop) if loop.open else assembled(loop)
     except DHError as error:
         if error.joint is None:
-            top.fail("joint", str(error))
-        tables[error.joint].fail(error.key, str(error))
+            top.fail("joint", error.message)
+        tables[error.joint].fail(error.key, error.message)
 
 
 def in_formulation(case: Case, formulation: str) -> Case:

@@ -31,7 +31,7 @@ def read_framework(top: Table, number: ReadNumber) -> FrameworkModel:
             framework = Framework(dimension, tuple(names), tuple(bars), tuple(squared))
         return framework_model(framework)
     except FrameworkError as error:
-        top.fail(error.key, str(error))
+        top.fail(error.key, error.message)
 
 
 def _read_names(names: list[str], top: Table) -> list[str]:

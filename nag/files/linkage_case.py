@@ -24,8 +24,8 @@ def read_linkage(top: Table, number: ReadNumber) -> LinkageModel:
         # The last table of a name, as a repeated name is the fault of the later one.
         for name, table in reversed(tables):
             if name == error.link:
-                table.called(name).fail(error.key, str(error))
-        top.fail(error.key, str(error))
+                table.called(name).fail(error.key, error.message)
+        top.fail(error.key, error.message)
 
 
 def _read_link(name: str, table: Table, number: ReadNumber) -> Link:
