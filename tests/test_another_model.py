@@ -13,11 +13,10 @@ from solved import components_of
 
 import nag
 from nag.cli import main
-from nag.mechanism.another_model import another_model
 from nag.mechanism.framework import placed_framework
 from nag.mechanism.framework_model import framework_model
-from nag.mechanism.linkage import Link, Linkage, LinkageModel, linkage_model
-from nag.mechanism.pins import pin_model
+from nag.mechanism.linkage import Link, Linkage, LinkageModel, linkage_model, pin_model
+from nag.mechanism.parts_coordinates import another_model
 
 F = Fraction
 

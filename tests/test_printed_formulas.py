@@ -14,7 +14,7 @@ from nag.mechanism.axes import cross, dot
 from nag.mechanism.configuration import arithmetic_of, configuration
 from nag.mechanism.model import model
 from nag.mechanism.quaternion import conjugate, multiply, norm_squared, rotate
-from nag.symbolic import bennett, bennett_geometry, bennett_special, bricard, revolute
+from nag.symbolic import bennett, bennett_geometry, bricard, revolute
 
 OWN = exact("7/4", "5/6", "1/3")
 laws = settings(max_examples=20)
@@ -174,10 +174,10 @@ def test_the_case_q5_equal_to_zero():
         lifted = h.lift([x + 0j, -rest / (equation([x + 0j, 1 + 0j]) - rest)])
         a, b, c = (np.array(lifted.euler[body]) for body in ("B1", "B2", "B3"))
         essential = a[0], a[3], c[0], c[2]
-        assert max(abs(z) for z in bennett_special.variety(outer, *essential)) < 1e-12
-        assert max(abs(z) for z in bennett_special.variety(outer, *essential, printed=True)) > 1e-3
+        assert max(abs(z) for z in bennett.variety_q5_zero(outer, *essential)) < 1e-12
+        assert max(abs(z) for z in bennett.variety_q5_zero(outer, *essential, printed=True)) > 1e-3
         for printed in (False, True):
-            image = bennett_special.essential_to_all(outer, *essential, printed=printed)
+            image = bennett.essential_to_all_q5_zero(outer, *essential, printed=printed)
             off = [min(abs(np.array(image[1]) - s * b).max() for s in (1, -1))]
             off += [abs(np.array(p) - q).max() for p, q in zip(image[::2], (a, c), strict=True)]
             assert (max(off) < 1e-10) is not printed

@@ -14,7 +14,7 @@ from nag.check.statement import Kind, Verdict, decided, fails, statement
 from nag.mechanism.axes import difference
 from nag.mechanism.quaternion import norm_squared, rotate
 from nag.symbolic import bennett, bennett_geometry
-from nag.symbolic.bennett_constraints import constraints, frames
+from nag.symbolic.bennett import constraints, frames
 
 M = "m0 m1 m2"
 OWN = (Fraction(7, 4), Fraction(5, 6), Fraction(1, 3))

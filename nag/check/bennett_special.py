@@ -9,7 +9,7 @@ from nag.check.identities import Residuals, labelled, surviving
 from nag.check.loops import bennett_equations
 from nag.check.statement import Kind, Verdict, decided, fails, statement
 from nag.mechanism.axes import difference
-from nag.symbolic import bennett, bennett_geometry, bennett_special
+from nag.symbolic import bennett, bennett_geometry
 
 ROOTS = (
     ("root6", lambda cos, m0, m2: _under_the_root(m0, m2, cos)),
@@ -18,30 +18,30 @@ ROOTS = (
 
 
 def _under_the_root(m0: Any, m2: Any, cos: Any) -> Any:
-    m1 = bennett_special.first_parameter(m0)
+    m1 = bennett.first_parameter_q5_zero(m0)
     return (m1**2 + m2**2) * (m2**2 * (1 - cos**2) + cos**2)
 
 
 def _at_the_point(formula: Any) -> list[str]:
     def residuals(cos: Any, m0: Any, m2: Any, root6: Any, sin: Any) -> Residuals:
         m = (m0, m2)
-        return formula(m, *bennett_special.parametrisation(m, cos, sin, root6))
+        return formula(m, *bennett.parametrisation_q5_zero(m, cos, sin, root6))
 
     return surviving("cos m0 m2", residuals, ROOTS)
 
 
 def _variety(printed: bool) -> Any:
     def formula(m: Any, *x: Any) -> Residuals:
-        return labelled("equation", bennett_special.variety(m, *x, printed=printed))
+        return labelled("equation", bennett.variety_q5_zero(m, *x, printed=printed))
 
     return formula
 
 
 def _mechanism(printed: bool) -> Any:
     def formula(m: Any, *x: Any) -> Residuals:
-        bodies = bennett_special.essential_to_all(m, *x, printed=printed)
+        bodies = bennett.essential_to_all_q5_zero(m, *x, printed=printed)
         m0, m2 = m
-        parameters = (m0, bennett_special.first_parameter(m0), m2)
+        parameters = (m0, bennett.first_parameter_q5_zero(m0), m2)
         return labelled("equation", bennett_equations(parameters, bodies))
 
     return formula
@@ -50,7 +50,7 @@ def _mechanism(printed: bool) -> Any:
 @statement("T25 section 6, case q_5 = 0", "q_5 = 0 is m_1 = 2 m_0/(m_0^2 - 1); then a_2 = 0")
 def parameter() -> Verdict:
     def formula(m0: Any, m2: Any) -> Residuals:
-        m = (m0, bennett_special.first_parameter(m0), m2)
+        m = (m0, bennett.first_parameter_q5_zero(m0), m2)
         return {
             "q_5": bennett_geometry.abbreviations(m)["q5"],
             "a_2": bennett.orientations(m)[0][2],
@@ -68,10 +68,10 @@ def parameter() -> Verdict:
 def equations() -> Verdict:
     """At (7/4, 1/3) the initial configuration is exact."""
     m0, m2 = Fraction(7, 4), Fraction(1, 3)
-    m = (m0, bennett_special.first_parameter(m0), m2)
+    m = (m0, bennett.first_parameter_q5_zero(m0), m2)
     a, _, c = bennett.orientations(m)
-    values = bennett_special.variety((m0, m2), a[0], a[3], c[0], c[2], printed=True)
-    true = bennett_special.variety((m0, m2), a[0], a[3], c[0], c[2])
+    values = bennett.variety_q5_zero((m0, m2), a[0], a[3], c[0], c[2], printed=True)
+    true = bennett.variety_q5_zero((m0, m2), a[0], a[3], c[0], c[2])
     if any(true) or _at_the_point(_variety(False)):
         return Verdict(Kind.OPEN, "the equations that were thought to be true fail")
     if not any(values):
@@ -101,11 +101,11 @@ def linear_equations() -> Verdict:
 )
 def last_entries() -> Verdict:
     m0, m2 = Fraction(7, 4), Fraction(1, 3)
-    m = (m0, bennett_special.first_parameter(m0), m2)
+    m = (m0, bennett.first_parameter_q5_zero(m0), m2)
     a, b, c = bennett.orientations(m)
     essential = a[0], a[3], c[0], c[2]
-    printed = bennett_special.essential_to_all((m0, m2), *essential, printed=True)[1]
-    true = bennett_special.essential_to_all((m0, m2), *essential)[1]
+    printed = bennett.essential_to_all_q5_zero((m0, m2), *essential, printed=True)[1]
+    true = bennett.essential_to_all_q5_zero((m0, m2), *essential)[1]
     off = [difference(printed, [s * x for x in b]) for s in (1, -1)]
     on = [difference(true, [s * x for x in b]) for s in (1, -1)]
     if _at_the_point(_mechanism(False)) or not any(not any(d) for d in on):

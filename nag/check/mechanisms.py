@@ -32,7 +32,7 @@ from nag.check.statement import Kind, Statement, Verdict, decided
 from nag.mechanism.axes import difference, dot
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import Model, model
-from nag.symbolic import bennett, bennett_geometry, bennett_special, bricard
+from nag.symbolic import bennett, bennett_geometry, bricard
 from nag.witness.witness import Decomposition, Status
 
 Bodies = Sequence[Sequence[Any]]
@@ -84,16 +84,16 @@ def known_bennett(m: Sequence[Fraction]) -> KnownMechanism:
         return bennett.essential_to_all(m, *essential)
 
     def point_without_q5(cos: Any, root6: Any, sin: Any) -> Bodies:
-        essential = bennett_special.parametrisation(outer, cos, sin, root6)
-        return bennett_special.essential_to_all(outer, *essential)
+        essential = bennett.parametrisation_q5_zero(outer, cos, sin, root6)
+        return bennett.essential_to_all_q5_zero(outer, *essential)
 
     def generators(bodies: Bodies) -> list[Any]:
         a, b, c = bodies
         if special:
             essential = a[0], a[3], c[0], c[2]
             ideal_, image = (
-                bennett_special.variety(outer, *essential),
-                bennett_special.essential_to_all(outer, *essential),
+                bennett.variety_q5_zero(outer, *essential),
+                bennett.essential_to_all_q5_zero(outer, *essential),
             )
         else:
             essential = a[0], a[2], c[0], c[2]

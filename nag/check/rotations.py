@@ -22,7 +22,7 @@ from nag.mechanism.quaternion import (
     norm_squared,
     scale,
 )
-from nag.symbolic import revolute, rotation
+from nag.symbolic import joints, revolute
 
 ONE = "a0 a1 a2 a3"
 TWO = "a0 a1 a2 a3 b0 b1 b2 b3"
@@ -41,8 +41,8 @@ def _L(v: Any, y: Any) -> tuple[tuple[Any, ...], ...]:
 @statement("T25 2.1", "R(a) = H~(a) H(a)^T is the matrix printed")
 def matrix_of_rotation() -> Verdict:
     def formula(*a: Any) -> Residuals:
-        ours = matrix("R and ours", rotation.R(a), R(a))
-        return ours | matrix("R", product(H_tilde(a), transpose(H(a))), rotation.R(a))
+        ours = matrix("R and ours", joints.R(a), R(a))
+        return ours | matrix("R", product(H_tilde(a), transpose(H(a))), joints.R(a))
 
     return identity(ONE, formula, SMALL[:4])
 

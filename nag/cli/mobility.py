@@ -138,8 +138,8 @@ def _with_real_coordinates(case: Case) -> Case:
 
 def _has_another(case: Case, made: Model | None, at: tuple[Number, ...] | None) -> bool:
     """Whether the configuration is known in another formulation as well."""
-    from nag.mechanism.another_model import another_model
     from nag.mechanism.dh import DHModel
+    from nag.mechanism.parts_coordinates import another_model
 
     if made is not None:
         return at is None
@@ -187,9 +187,9 @@ def _others(
     options: argparse.Namespace, case: Case, report: MobilityReport, at: tuple[Number, ...] | None
 ) -> Iterator[tuple[str, MobilityReport, Alike]]:
     """What other formulations say, each with its name and what of the components is the same."""
-    from nag.mechanism.another_model import another_model
     from nag.mechanism.formulation_names import FORMULATIONS
     from nag.mechanism.model import ModelError
+    from nag.mechanism.parts_coordinates import another_model
 
     if case.mechanism is None:
         assert case.assembly is not None

@@ -22,9 +22,15 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.tokens import is_name, nearest, quote
-from nag.files.assembly_case import KEYS as ASSEMBLY_KEYS
-from nag.files.assembly_case import read_assembly
-from nag.files.case_table import CaseError, Table, kind_of, read_parameters, read_toml, with_values
+from nag.files.case_table import (
+    CaseError,
+    ReadNumber,
+    Table,
+    kind_of,
+    read_parameters,
+    read_toml,
+    with_values,
+)
 from nag.mechanism.formulation_names import FORMULATIONS
 
 if TYPE_CHECKING:
@@ -50,7 +56,20 @@ _KEYS = {
         "truth",
     ),
     "mechanism": ("title", "kind", "ground", "parameters", "joint", "body", "truth"),
-    **ASSEMBLY_KEYS,
+    "dh": ("title", "kind", "parameters", "joint", "truth"),
+    "framework": (
+        "title",
+        "kind",
+        "parameters",
+        "dimension",
+        "points",
+        "bars",
+        "lengths",
+        "squared_lengths",
+        "point",
+        "truth",
+    ),
+    "linkage": ("title", "kind", "parameters", "ground", "link", "point", "truth"),
 }
 _TRUTH_KEYS = (
     "dimension",
@@ -161,13 +180,8 @@ def read_case(
         truth = truth if changed == parameters else ()
         parameters = changed
     numbers = _Numbers(parameters, budget)
-    if kind == "mechanism":
-        from nag.files.mechanism_case import read_mechanism
-
-        mechanism = read_mechanism(top, numbers.number)
-        return Case(title, "mechanism", path, parameters, mechanism=mechanism, truth=truth)
-    if kind in ASSEMBLY_KEYS:
-        made = read_assembly(kind, top, numbers.number)
+    if kind != "system":
+        made = _read_parts(kind, top, numbers.number)
         case = _assembly_case(made, title=title, kind=kind, path=path, truth=truth, of=parameters)
         return _with_points(case, top, numbers)
     system, family = _read_system(top, numbers)
@@ -182,6 +196,25 @@ def read_case(
         symmetries=_read_symmetries(top, system),
         family=family,
     )
+
+
+def _read_parts(kind: str, top: Table, number: ReadNumber) -> AssemblyModel | Mechanism:
+    """The model of all assemblies, or a mechanism where the case fixes how it is assembled."""
+    if kind == "mechanism":
+        from nag.files.mechanism_case import read_mechanism
+
+        return read_mechanism(top, number)
+    if kind == "dh":
+        from nag.files.dh_case import read_dh
+
+        return read_dh(top, number)
+    if kind == "framework":
+        from nag.files.framework_case import read_framework
+
+        return read_framework(top, number)
+    from nag.files.linkage_case import read_linkage
+
+    return read_linkage(top, number)
 
 
 def _assembly_case(

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from nag.algebra.from_python import exact_vector
-from nag.algebra.given import check_listed, check_type
+from nag.algebra.given import check_listed, check_type, is_a, shown
 from nag.algebra.number import Number, is_zero, number_text
 from nag.errors import MechanismError
 from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS
@@ -368,3 +368,26 @@ def _first_repeated(names: Iterable[str]) -> str | None:
             return name
         seen.add(name)
     return None
+
+
+def check_mechanism(given: Any, others: str = "") -> None:
+    """Make sure that a mechanism is given.
+
+    Args:
+        others: what may be given as well, for the message.
+
+    Raises:
+        MechanismError: if something else is; the message says how to make a mechanism of it.
+    """
+    if isinstance(given, Mechanism):
+        return
+    if is_a(given, "networkx", "Graph"):
+        what = "a networkx graph is given; make it a mechanism first: "
+        what += "nag.Mechanism.from_graph(graph, ground=...)"
+    elif is_a(given, "nag.files.cases", "Case"):
+        what = (
+            f"a nag.Case is given; give its mechanism, case.mechanism{others and ', or '}{others}"
+        )
+    else:
+        what = f"{shown(given)} is given; give a nag.Mechanism{others and ', or '}{others}"
+    raise MechanismError(f"mechanism: {what}")

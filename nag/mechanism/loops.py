@@ -15,8 +15,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from nag.mechanism.axes import space_of
-from nag.mechanism.given_mechanism import check_mechanism
-from nag.mechanism.graph import Body, Joint, Mechanism
+from nag.mechanism.graph import Body, Joint, Mechanism, check_mechanism
 from nag.mechanism.joint_types import JOINT_FREEDOMS, freedoms_in
 
 if TYPE_CHECKING:

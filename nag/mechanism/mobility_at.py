@@ -22,15 +22,13 @@ from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.dh import DHModel
 from nag.mechanism.dh_euler import DHEulerModel
 from nag.mechanism.framework_model import FrameworkModel
-from nag.mechanism.given_mechanism import check_mechanism
-from nag.mechanism.graph import Mechanism
+from nag.mechanism.graph import Mechanism, check_mechanism
 from nag.mechanism.joint_types import freedoms_in
-from nag.mechanism.linkage import LinkageModel
+from nag.mechanism.linkage import LinkageModel, PinModel
 from nag.mechanism.loops import gruebler_kutzbach, loop_structure
 from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model, model
 from nag.mechanism.parts_decomposition import decompose_parts
-from nag.mechanism.pins import PinModel
 from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import LocalDimension, local_dimension_near
 from nag.witness.frame import expanded

@@ -27,8 +27,7 @@ from nag.mechanism.formulations import (
     joints_text,
     smallest,
 )
-from nag.mechanism.given_mechanism import check_mechanism
-from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.graph import Joint, Mechanism, check_mechanism
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
 from nag.mechanism.path_estimates import path_bound

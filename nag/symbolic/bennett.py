@@ -1,11 +1,16 @@
-"""Bennett's mechanisms B_H: orientations and Bennett's variety, T25 section 6."""
+"""Bennett's mechanisms B_H in Euler parameters, T25 section 6.
+
+Orientations, Bennett's variety, the 14 equations, and the mechanisms with q5 = 0, where a_2 = 0.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
+from nag.symbolic import bennett_geometry
 from nag.symbolic.bennett_geometry import Parameters, abbreviations
+from nag.symbolic.joints import inner, rotate, rotate_back
 
 Quaternion = Sequence[Any]
 
@@ -193,3 +198,87 @@ def parametrisation(m: Parameters, cos: Any, sin: Any, root1: Any, root6: Any) -
         m1 * m2 * sin / root6,
         m2 * cos / root6,
     )
+
+
+E1 = (1, 0, 0)
+
+
+def frames(m: Any) -> list[tuple[Any, Any, Any]]:
+    """(eta, xi, chi) of joints 0 to 3 in global coordinates, lemmas 5.3 and 5.4."""
+    chi = bennett_geometry.axes(m)
+    first = tuple(tuple(x + 0 * m[0] for x in e) for e in ((1, 0, 0), (0, 1, 0)))
+    return [(*first, chi[0]), *((*bennett_geometry.across(c), c) for c in chi[1:])]
+
+
+def constraints(m: Any, a: Any, b: Any, c: Any, printed: bool = False) -> list[Any]:
+    """f_0 to f_13; ``printed``: f_11 as printed, with eta in place of xi."""
+    init = orientations(m)
+    r = bennett_geometry.abbreviations(m)["r"]
+    joints = frames(m)
+    columns = [E1, *(rotate(q, E1) for q in (a, b, c))]
+    loop = [columns[0][i] + r * columns[1][i] + columns[2][i] + r * columns[3][i] for i in range(3)]
+
+    def across(k: int, left: Any, left_init: Any, right: Any, right_init: Any) -> list[Any]:
+        eta, xi, chi = joints[k]
+        turned = rotate(right, rotate_back(right_init, chi)) if right is not None else chi
+        vectors = (eta, eta) if printed and k == 3 else (eta, xi)
+        found = []
+        for v in vectors:
+            here = v if left is None else rotate(left, rotate_back(left_init, v))
+            found.append(inner(here, turned))
+        return found
+
+    return [
+        *(q[0] ** 2 + q[1] ** 2 + q[2] ** 2 + q[3] ** 2 - 1 for q in (a, b, c)),
+        *loop,
+        *across(1, None, None, a, init[0]),
+        *across(2, a, init[0], b, init[1]),
+        *across(3, b, init[1], c, init[2]),
+        *across(0, c, init[2], None, None),
+    ]
+
+
+def first_parameter_q5_zero(m0: Any) -> Any:
+    """The m_1 for which q5 = m_1 (m_0^2 - 1) - 2 m_0 vanishes."""
+    return 2 * m0 / (m0**2 - 1)
+
+
+def variety_q5_zero(
+    m: Sequence[Any], a0: Any, a3: Any, c0: Any, c2: Any, printed: bool = False
+) -> list[Any]:
+    """The three equations in the essential variables, for (m_0, m_2).
+
+    ``printed``: with the misprinted denominator of the second one.
+    """
+    m0, m2 = m
+    base = m2 if printed else m0
+    return [
+        (m0**2 + 1) ** 2 / (m0**2 - 1) ** 2 * a0**2 + a3**2 - 1,
+        m2**2 * c0**2
+        + 4 * m0**2 / (m0**2 - 1) ** 2 * c2**2
+        - 4 * m0**2 * m2**2 / ((base**2 - 1) ** 2 * m2**2 + 4 * m0**2),
+        2 * m0 * c2 * a3 + (m0**2 + 1) * c0 * a0,
+    ]
+
+
+def essential_to_all_q5_zero(
+    m: Sequence[Any], a0: Any, a3: Any, c0: Any, c2: Any, printed: bool = False
+) -> list[tuple[Any, ...]]:
+    """All of a, b, c; ``printed``: with the coefficients of a_3 c_0 in b_2 and b_3 exchanged."""
+    m0, m2 = m
+    m1 = first_parameter_q5_zero(m0)
+    t0, t1, t2, t4 = coefficients_without_q5((m0, m1, m2))
+    u2, u3 = -a3 * c0, m2 * (m0**2 - 1) / (2 * m0) * a3 * c0
+    if printed:
+        u2, u3 = u3, u2
+    a = (a0, m1 * a0, 0 * a0, a3)
+    b = (t0 * a0 * c0, t1 * a0 * c0, t2 * a0 * c2 + u2, t4 * a0 * c2 + u3)
+    c = (c0, m2 * (m0**2 - 1) / (2 * m0) * c0, c2, 2 * m0 / (m2 * (m0**2 - 1)) * c2)
+    return [a, b, c]
+
+
+def parametrisation_q5_zero(m: Sequence[Any], cos: Any, sin: Any, root6: Any) -> tuple[Any, ...]:
+    """The one that begins with a_0 = (m_0^2 - 1) cos t/(m_0^2 + 1): a0, a3, c0, c2."""
+    m0, m2 = m
+    m1 = first_parameter_q5_zero(m0)
+    return (m0**2 - 1) / (m0**2 + 1) * cos, sin, -m1 * m2 * sin / root6, m2 * cos / root6

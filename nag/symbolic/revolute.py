@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from nag.symbolic.rotation import inner, turned_frame
+from nag.symbolic.joints import inner, turned_frame
 
 Vector = Sequence[Any]
 
