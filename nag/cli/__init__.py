@@ -1,7 +1,8 @@
 """The command ``nag``: one file a command, read `command_line`, `arguments` and `running` first.
 
-Each command has ``add_arguments(parser)`` and ``run(arguments)``, which returns the lines to print
-and whether the answer is complete. Nothing imports this package.
+Each command has ``add_arguments(parser)`` and ``run(options)``, which turns the options into a call
+and hands back an `Answer`; starting, telling, writing and printing is done by `running`. Nothing
+imports this package.
 
 The way of ``nag decompose cases/bennett.toml`` from the command to the table leads through
 `cli/command_line`, `cli/decompose`, `cli/arguments`; `files/cases`, `files/mechanism_case`;

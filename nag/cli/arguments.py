@@ -1,4 +1,4 @@
-"""What the commands share: bad input, exit status, the options of every run, reading a case."""
+"""What commands are asked: bad input, the options that they share, reading a case."""
 
 from __future__ import annotations
 
@@ -14,23 +14,13 @@ if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.model import Model
 
-COMPLETE, INCOMPLETE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
-
 SETTINGS = ("fast", "default", "careful")
 MOST_THREADS = 256
 LARGEST_SEED = 2**63 - 1
 
 
 class UsageError(NagError):
-    """Bad input; the message is one line for the user.
-
-    Attributes:
-        answer: lines that are printed all the same, when a file could not be written.
-    """
-
-    def __init__(self, message: str, answer: Sequence[str] = ()) -> None:
-        super().__init__(message)
-        self.answer = answer
+    """Bad input; the message is one line for the user."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -144,12 +134,10 @@ def add_certify(parser: argparse.ArgumentParser) -> None:
 
 def read_case_file(path: str, values: Sequence[tuple[str, str]] = ()) -> Case:
     """The case in a file, ``values`` given to its parameters."""
-    from nag.files.cases import CaseError, read_case
+    from nag.files.cases import read_case
 
     try:
         return read_case(path, dict(values))
-    except CaseError as error:
-        raise UsageError(str(error)) from None
     except OSError as error:
         raise UsageError(f"{path}: {error.strerror or error}") from None
 
@@ -157,17 +145,25 @@ def read_case_file(path: str, values: Sequence[tuple[str, str]] = ()) -> Case:
 def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
     """The case, and its model if it is a mechanism."""
     case = read_case_file(arguments.case, getattr(arguments, "set", ()))
-    if case.mechanism is None:
-        if arguments.formulation is None:
-            return case, None
+    if case.mechanism is None and arguments.formulation is not None:
         return _table_in(arguments.formulation, arguments.case, case), None
+    return case, model_of(case, arguments.formulation or "auto")
 
+
+def model_of(case: Case, formulation: str = "auto") -> Model | None:
+    """The model of a case that is a mechanism.
+
+    Raises:
+        UsageError: if it has none in that formulation.
+    """
+    if case.mechanism is None:
+        return None
     from nag.mechanism.model import ModelError, model
 
     try:
-        return case, model(case.mechanism, arguments.formulation or "auto")
+        return model(case.mechanism, formulation)
     except ModelError as error:
-        raise UsageError(f"{arguments.case}: {error}") from None
+        raise UsageError(f"{case.path}: {error}") from None
 
 
 def _table_in(formulation: str, file: str, case: Case) -> Case:

@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 
 from nag.cli import bench_decompose, bench_models
-from nag.cli.arguments import UsageError, whole
-from nag.cli.running import writing_json
+from nag.cli.arguments import UsageError, model_of, read_case_file, whole
+from nag.cli.running import Answer
 
 FOLDER = Path("cases") / "benchmarks"
 # Another program is given up after so many seconds.
@@ -89,12 +89,8 @@ def files(names: list[str] | None, folder: str) -> list[Path]:
     return result
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Run the benchmarks; returns the lines to print and whether all counts are right.
-
-    Raises:
-        UsageError: if a benchmark cannot be read, or the table cannot be written.
-    """
+def run(options: argparse.Namespace) -> Answer:
+    """The benchmarks; complete if all counts are right."""
     if options.what == "models":
         return bench_models.run(options)
     if options.folder is None:
@@ -106,18 +102,12 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     from nag.bench.peers import installed, run_peer
     from nag.bench.table import table
     from nag.errors import StartError
-    from nag.files.cases import CaseError, read_case
     from nag.files.problem import truth_of
-    from nag.files.written_file import write_target
-    from nag.mechanism.model import ModelError, model
 
     cases = []
     for path in files(options.case, options.folder):
-        try:
-            case = read_case(path)
-            made = model(case.mechanism) if case.mechanism is not None else None
-        except (CaseError, ModelError) as error:
-            raise UsageError(str(error)) from None
+        case = read_case_file(path)
+        made = model_of(case)
         known = [t for t in truth_of(case, made) if t.dimension == 0]
         system = made.system if made else case.system
         expected = sum(t.count for t in known) if known else None
@@ -133,10 +123,11 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
         except StartError as error:
             raise UsageError(f"{path}: {error}") from None
         peers[path.stem] = {p: run_peer(p, system, PATIENCE) for p in programs}
-    if options.json is not None:
-        documents = {
-            name: {p: peer.document() for p, peer in found.items()} for name, found in peers.items()
-        }
-        with writing_json():
-            write_target(options.json, as_json(rows, rate, documents))
-    return table(rows, peers, programs, rate), all(row.right for row in rows)
+    documents = {
+        name: {p: peer.document() for p, peer in found.items()} for name, found in peers.items()
+    }
+    return Answer(
+        table(rows, peers, programs, rate),
+        all(row.right for row in rows),
+        lambda: as_json(rows, rate, documents),
+    )

@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import UsageError
-from nag.cli.running import writing_json
+from nag.cli.arguments import UsageError, model_of, read_case_file
+from nag.cli.running import Answer
 
 if TYPE_CHECKING:
     from nag.bench.decomposition import Decomposed, PeerDecomposed
@@ -56,13 +56,9 @@ def _chain(text: str) -> int:
     return int(text)
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Run what is asked for; returns the lines to print and whether all answers are right.
-
-    Raises:
-        UsageError: if a case cannot be read, or a file cannot be written.
-    """
-    from nag.files.written_file import TargetError, check_target, write_target
+def run(options: argparse.Namespace) -> Answer:
+    """Decompositions or their growth; complete if all answers are right."""
+    from nag.files.written_file import TargetError, check_target
 
     if options.chart is not None and options.growth is None:
         raise UsageError("--chart: is drawn with --growth; ask for that as well")
@@ -89,28 +85,20 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     else:
         rows, peers = _cases(options)
         lines = decomposition_table(rows, peers)
-    if options.json is not None:
-        with writing_json():
-            write_target(options.json, as_json(rows, peers))
-    return lines, all(row.right for row in rows)
+    return Answer(lines, all(row.right for row in rows), lambda: as_json(rows, peers))
 
 
 def _cases(options: argparse.Namespace) -> tuple[list[Decomposed], dict[str, PeerDecomposed]]:
     from nag.bench.decomposition import macaulay2, macaulay2_installed, measure_decomposition
-    from nag.files.cases import CaseError, read_case
     from nag.files.problem import formulation_of, system_of, truth_of
-    from nag.mechanism.model import ModelError, model
 
     known = []
     for name in options.case or NAMES:
         path = Path(name) if name.endswith(".toml") else CASES / f"{name}.toml"
         if not path.is_file():
             raise UsageError(f"--case: {name}: there is no {path}; name a case file")
-        try:
-            case = read_case(path)
-            known.append((path, case, model(case.mechanism) if case.mechanism else None))
-        except (CaseError, ModelError) as error:
-            raise UsageError(str(error)) from None
+        case = read_case_file(path)
+        known.append((path, case, model_of(case)))
     rows, peers = [], {}
     for path, case, made in known:
         if not options.quiet:

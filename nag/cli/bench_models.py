@@ -7,8 +7,8 @@ import json
 import sys
 from pathlib import Path
 
-from nag.cli.arguments import UsageError
-from nag.cli.running import writing_json
+from nag.cli.arguments import UsageError, read_case_file
+from nag.cli.running import Answer
 
 FOLDER = Path("cases")
 # A formulation is given up after so many seconds.
@@ -35,24 +35,15 @@ def files(names: list[str] | None, folder: str) -> list[Path]:
     return paths
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Measure; returns the lines to print and whether every answer that came is complete.
-
-    Raises:
-        UsageError: if a case cannot be read, or the table cannot be written.
-    """
+def run(options: argparse.Namespace) -> Answer:
+    """Formulations side by side; complete if every answer that came is."""
     from nag.bench.models import measure_models, measure_parts, measure_table
     from nag.bench.table import models_table
-    from nag.files.cases import CaseError, read_case
-    from nag.files.written_file import write_target
     from nag.mechanism.model import ModelError
 
     rows = []
     for path in files(options.case, str(FOLDER) if options.folder is None else options.folder):
-        try:
-            case = read_case(path)
-        except CaseError as error:
-            raise UsageError(str(error)) from None
+        case = read_case_file(path)
         if case.mechanism is None and case.assembly is None:
             if options.case:
                 raise UsageError(f"{path}: is a polynomial system; name a mechanism")
@@ -68,8 +59,6 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
                 rows += measure_models(path.stem, case.mechanism, options.patience)
         except ModelError as error:
             raise UsageError(f"{path}: {error}") from None
-    if options.json is not None:
-        text = json.dumps({"format": "nag-bench-models", "rows": [r.document() for r in rows]})
-        with writing_json():
-            write_target(options.json, text + "\n")
-    return models_table(rows), all(r.complete for r in rows if r.paths is not None)
+    document = {"format": "nag-bench-models", "rows": [r.document() for r in rows]}
+    complete = all(r.complete for r in rows if r.paths is not None)
+    return Answer(models_table(rows), complete, lambda: json.dumps(document) + "\n")

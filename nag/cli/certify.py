@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 import re
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError
-from nag.cli.running import writing_json
+from nag.cli.running import Answer
 
 if TYPE_CHECKING:
     from nag.numerics.claims import Claim
+    from nag.report.certificate import Rows
     from nag.solving.certificate import SolutionsCertificate
     from nag.solving.certified_paths import ProvedPaths
     from nag.solving.solutions import SolveResult
@@ -36,23 +36,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", metavar="FILE", help="write the boxes to FILE as JSON")
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Certify an export; returns the lines to print and whether all points are proved.
-
-    Raises:
-        UsageError: if the export cannot be read, or the certificate cannot be written.
-    """
+def run(options: argparse.Namespace) -> Answer:
+    """What is proved of an export."""
     from nag.algebra.system import system_line
-    from nag.files.certificate_export import write_certificate
-    from nag.text.table import labelled, printable
+    from nag.files.certificate_export import certificate_document
+    from nag.files.json_values import read_file
+    from nag.text.table import sheet
 
-    found, title, lost = _read(options.export)
+    found, title, lost = read_file(options.export, _converted)
     proved = certify_result(found, options.paths, lost)
-    if options.json is not None:
-        with writing_json():
-            write_certificate(proved.certificate, options.json, proved.claims, proved.paths)
     rows = [("system", system_line(found.system)), *proved.rows]
-    return [printable(title), "", *labelled(rows)], proved.all_proved
+    return Answer(
+        sheet(title, rows),
+        proved.all_proved,
+        lambda: certificate_document(proved.certificate, proved.claims, proved.paths),
+    )
+
+
+def proof_asked_for(
+    options: argparse.Namespace, found: SolveResult | Decomposition
+) -> Callable[[], tuple[Rows, bool]] | None:
+    """What proves a result, if ``--certify`` or ``--certify-paths`` is given."""
+    if not (options.certify or options.certify_paths):
+        return None
+
+    def prove() -> tuple[Rows, bool]:
+        proved = certify_result(found, options.certify_paths)
+        return proved.rows, proved.all_proved
+
+    return prove
 
 
 @dataclass(frozen=True)
@@ -134,16 +146,6 @@ def _loops(certificate: DecompositionCertificate) -> Further:
     claims = claims_of_loops(certificate, connected, linear_traces(found))
     rows = loops_rows(proved, time.perf_counter() - started)
     return proved, rows, all(connected), claims
-
-
-def _read(path: str) -> tuple[SolveResult | Decomposition, str, list[Claim]]:
-    """What an export of either kind holds, the title of its case, and what is lost of the file."""
-    from nag.files.json_values import ExportError, read_file
-
-    try:
-        return read_file(path, _converted)
-    except ExportError as error:
-        raise UsageError(str(error)) from None
 
 
 def _converted(value: Any) -> tuple[SolveResult | Decomposition, str, list[Claim]]:

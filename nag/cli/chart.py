@@ -6,6 +6,7 @@ import argparse
 
 from nag.cli import chart_speed, chart_stability
 from nag.cli.arguments import Parser
+from nag.cli.running import Answer
 
 
 def add_arguments(parser: Parser) -> None:
@@ -17,12 +18,8 @@ def add_arguments(parser: Parser) -> None:
         command.set_defaults(of_chart=module)
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Make the chart; returns the lines to print and whether all answers were right.
-
-    Raises:
-        UsageError: if a case cannot be read, or a file cannot be written.
-    """
+def run(options: argparse.Namespace) -> Answer:
+    """A chart; complete if all answers were right."""
     return options.of_chart.run(options)
 
 

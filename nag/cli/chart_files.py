@@ -7,7 +7,7 @@ import importlib.util
 from collections.abc import Callable
 
 from nag.cli.arguments import UsageError
-from nag.cli.running import writing_json
+from nag.cli.running import write_document
 
 KINDS = (".svg", ".png", ".pdf")
 
@@ -38,11 +38,8 @@ def write_text(path: str | None, text: str) -> None:
     Raises:
         UsageError: if it cannot be written.
     """
-    from nag.files.written_file import write_target
-
     if path is not None:
-        with writing_json():
-            write_target(path, text)
+        write_document(text, path)
 
 
 def write_picture(path: str, draw: Callable[[str], None]) -> None:

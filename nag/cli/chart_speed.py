@@ -8,8 +8,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import UsageError, whole
+from nag.cli.arguments import UsageError, model_of, read_case_file, whole
 from nag.cli.chart_files import check_targets, write_picture, write_text
+from nag.cli.running import Answer
 
 if TYPE_CHECKING:
     from nag.bench.work_precision import Chart, Subject
@@ -58,8 +59,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Measure or read; returns the lines to print and whether default settings found everything.
+def run(options: argparse.Namespace) -> Answer:
+    """Measured or read; complete if default settings found everything.
 
     Raises:
         UsageError: if a case cannot be read or measured, or a file cannot be read or written.
@@ -84,7 +85,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     lines += ["", "ratio: the other program's processor time over ours; in brackets where one of"]
     lines.append(f"the two did not find all solutions to 1e-12; * {SCALED}")
     right = all(p.share == 1 for chart in charts for p in _default(chart))
-    return lines, right
+    return Answer(lines, right)
 
 
 def _default(chart: Chart) -> list:
@@ -95,12 +96,9 @@ def _default(chart: Chart) -> list:
 
 def _read(path: str) -> list[Chart]:
     from nag.bench.work_precision import read_charts
-    from nag.files.json_values import ExportError, read_file
+    from nag.files.json_values import read_file
 
-    try:
-        return read_file(path, read_charts)
-    except ExportError as error:
-        raise UsageError(str(error)) from None
+    return read_file(path, read_charts)
 
 
 def _run(options: argparse.Namespace) -> list[Chart]:
@@ -133,21 +131,14 @@ def _subject(name: str) -> Subject:
         problem = cluster((3, 2, 8), np.random.default_rng(0))
         return Subject(name, problem.system, False, ((0, 1, 16),))
 
-    from nag.files.cases import CaseError, read_case
     from nag.files.problem import truth_of
-    from nag.mechanism.model import ModelError, model
 
     path = Path(name)
     if not name.endswith(".toml"):
         found = [folder / f"{name}.toml" for folder in FOLDERS]
         path = next((p for p in found if p.is_file()), found[0])
-    try:
-        case = read_case(path)
-        made = model(case.mechanism) if case.mechanism is not None else None
-    except (CaseError, ModelError) as error:
-        raise UsageError(str(error)) from None
-    except OSError as error:
-        raise UsageError(f"{path}: {error.strerror or error}") from None
+    case = read_case_file(path)
+    made = model_of(case)
     degrees = tuple((t.dimension, t.degree, t.count) for t in truth_of(case, made))
     system = made.system if made else case.system
     return Subject(path.stem, system, any(d for d, _, _ in degrees), degrees)

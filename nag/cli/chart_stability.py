@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from nag.cli.arguments import SETTINGS, UsageError, whole
 from nag.cli.chart_files import check_targets, write_picture, write_text
+from nag.cli.running import Answer
 
 if TYPE_CHECKING:
     from nag.bench.atlas.stability import Atlas, Row
@@ -51,8 +52,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Run or read the atlas; returns the lines to print and whether no answer was wrong.
+def run(options: argparse.Namespace) -> Answer:
+    """The atlas, run or read; complete if no answer was wrong.
 
     Raises:
         UsageError: if there is no such family, or a file cannot be read or written.
@@ -84,17 +85,14 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     if before is not None and options.data is None:
         told = list(changes(atlas, before))
         lines += ["", *(told or ["nothing changed against the atlas that is kept"])]
-    return lines, atlas.wrong == 0
+    return Answer(lines, atlas.wrong == 0)
 
 
 def _read(path: str) -> Atlas:
     from nag.bench.atlas.stability import read_atlas
-    from nag.files.json_values import ExportError, read_file
+    from nag.files.json_values import read_file
 
-    try:
-        return read_file(path, read_atlas)
-    except ExportError as error:
-        raise UsageError(str(error)) from None
+    return read_file(path, read_atlas)
 
 
 def _run(options: argparse.Namespace) -> Atlas:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_parameters, add_tracking, read_case_file
-from nag.cli.running import Progress, as_chosen, compilation_notice, progress_line, run_row
+from nag.cli.running import Answer, Progress, as_chosen, run_row
 
 if TYPE_CHECKING:
     from nag.check.statement import Statement, Verdict
@@ -23,23 +22,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_tracking(parser)
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Decide the statements; the lines to print, and whether all are decided as expected.
-
-    Raises:
-        UsageError: for bad input, or a case that the papers say nothing of.
-    """
+def run(options: argparse.Namespace) -> Answer:
+    """The papers' statements; complete if all are decided as expected."""
     if options.all == (options.case is not None):
         raise UsageError("give either a case file or --all, and not both")
     if options.all and options.set:
         raise UsageError("--set: is for a case file")
     case = None if options.all else read_case_file(options.case, options.set)
-    with (
-        compilation_notice(sys.stderr, options.quiet),
-        progress_line(sys.stderr, options.quiet) as progress,
-    ):
-        sections = _sections(case, options)
-        decided = [(title, _decided(title, rows, progress)) for title, rows in sections]
+    sections = _sections(case, options)
+    decided = [(title, _decided(title, rows, options.progress)) for title, rows in sections]
 
     from nag.report.statements import section, settled, summary
     from nag.text.table import labelled
@@ -47,7 +38,7 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     lines = [line for title, pairs in decided for line in section(title, pairs)]
     pairs = [pair for _, rows in decided for pair in rows]
     lines += labelled([("answer", summary(pairs)), run_row(options)])
-    return lines, all(settled(*pair) for pair in pairs)
+    return Answer(lines, all(settled(*pair) for pair in pairs))
 
 
 def _sections(case: Any, options: argparse.Namespace) -> list[tuple[str, tuple[Statement, ...]]]:

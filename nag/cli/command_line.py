@@ -15,9 +15,11 @@ from collections.abc import Sequence
 from importlib import import_module
 
 import nag
-from nag.cli.arguments import BAD_INPUT, COMPLETE, INCOMPLETE, INTERRUPTED, Parser, UsageError
-from nag.cli.running import begin
+from nag.cli.arguments import Parser, UsageError
+from nag.cli.running import run_command
 from nag.errors import ComponentError, NagError
+
+COMPLETE, INCOMPLETE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 FROM_COMPONENTS = (
     "The components are those of an export of `nag decompose --json`, or of a case, which is "
@@ -174,14 +176,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         except SystemExit:  # after --help or --version
             _print()
             return COMPLETE
-        begin(arguments)
-        lines, complete = arguments.module.run(arguments)
-        _print(lines)
-        return COMPLETE if complete else INCOMPLETE
-    except UsageError as error:
-        _print(error.answer)
-        _complain(str(error))
-        return BAD_INPUT
+        return COMPLETE if run_command(arguments, _print) else INCOMPLETE
     except ComponentError as error:
         _complain(str(error))
         return INCOMPLETE

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import TYPE_CHECKING
 
 from nag.cli.arguments import (
@@ -15,15 +14,14 @@ from nag.cli.arguments import (
     read_problem,
     whole,
 )
-from nag.cli.certify import certify_result
-from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds, writing_json
+from nag.cli.certify import proof_asked_for
+from nag.cli.running import Answer, as_chosen, run_row
 from nag.cli.sweep import run as run_sweep
 from nag.cli.sweep import sweep_of
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
     from nag.mechanism.model import Model
-    from nag.witness.fibres import Progress
     from nag.witness.witness import Decomposition
 
 MOST_STARTS = 10**6
@@ -79,48 +77,33 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
-    """Decompose and write the export; returns the lines to print and whether all is known.
-
-    Raises:
-        UsageError: for bad input, or an export that cannot be written.
-    """
+def run(arguments: argparse.Namespace) -> Answer:
+    """The irreducible components of a case."""
     if arguments.sweep is not None:
         return run_sweep(arguments)
     if arguments.starts is not None and arguments.method != "sampling":
         raise UsageError("--starts: is for --method sampling")
     case, model = read_problem(arguments)
     model = _in_coordinates(arguments, case, model)
-
-    with (
-        compilation_notice(sys.stderr, arguments.quiet),
-        progress_line(sys.stderr, arguments.quiet) as progress,
-    ):
-        from nag.decomposition.through import accounted, through_points
-        from nag.files.problem import origin, points_of
-        from nag.witness.frame import expanded
-
-        if arguments.modes == "all":
-            return _all_modes(arguments, case, progress)
-        case, model, decomposition = _decomposed(arguments, case, model, progress)
-        if arguments.expand:
-            decomposition = expanded(decomposition)
-        points = through_points(decomposition, points_of(case, model), arguments.threads)
-
+    if arguments.modes == "all":
+        return _all_modes(arguments, case)
+    from nag.decomposition.through import accounted, through_points
+    from nag.files.export import document
+    from nag.files.problem import origin, points_of
     from nag.report.answer import answer_lines
-    from nag.text.table import labelled
+    from nag.witness.frame import expanded
 
+    case, model, decomposition = _decomposed(arguments, case, model)
+    if arguments.expand:
+        decomposition = expanded(decomposition)
+    points = through_points(decomposition, points_of(case, model), arguments.threads)
     decomposition = accounted(decomposition, points)
-    lines = answer_lines(decomposition, case, model, points, seconds(arguments))
-    if arguments.json is not None:
-        from nag.files.export import write_decomposition
-
-        with writing_json(lines):
-            write_decomposition(decomposition, arguments.json, origin(case, model))
-    if not (arguments.certify or arguments.certify_paths):
-        return lines, decomposition.complete
-    proved = certify_result(decomposition, arguments.certify_paths)
-    return [*lines, "", *labelled(proved.rows)], decomposition.complete and proved.all_proved
+    return Answer(
+        answer_lines(decomposition, case, model, points, run_row(arguments)),
+        decomposition.complete,
+        lambda: document(decomposition, origin(case, model)),
+        proof_asked_for(arguments, decomposition),
+    )
 
 
 def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:
@@ -154,12 +137,12 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
 
 
 def _decomposed(
-    arguments: argparse.Namespace, case: Case, model: Model | None, progress: Progress
+    arguments: argparse.Namespace, case: Case, model: Model | None
 ) -> tuple[Case, Model | None, Decomposition]:
     """The components, and the case or the model in whose coordinates they are."""
     from nag.files.problem import decomposed, symmetries_of, system_of
 
-    options = {**as_chosen(arguments), "progress": progress}
+    options = {**as_chosen(arguments), "progress": arguments.progress}
     if arguments.method == "sampling":
         from nag.decomposition.discovery import discover
 
@@ -181,11 +164,9 @@ def _decomposed(
     return case, *euler_decomposition(model, decomposition, threads=arguments.threads)
 
 
-def _all_modes(
-    arguments: argparse.Namespace, case: Case, progress: Progress
-) -> tuple[list[str], bool]:
+def _all_modes(arguments: argparse.Namespace, case: Case) -> Answer:
     """Decompose one combination of modes of each class, as `run` does the one of the reference."""
-    from nag.files.modes_export import write_modes
+    from nag.files.modes_export import document
     from nag.mechanism.mode_decomposition import decompose_modes
     from nag.mechanism.model import ModelError
     from nag.report.modes import modes_lines
@@ -196,12 +177,9 @@ def _all_modes(
             arguments.formulation or "auto",
             arguments.coordinates or ("joint" if arguments.formulation == "H" else "euler"),
             **as_chosen(arguments),
-            progress=progress,
+            progress=arguments.progress,
         )
     except ModelError as error:
         raise UsageError(f"{arguments.case}: {error}") from None
-    lines = modes_lines(answer, case.title, seconds(arguments))
-    if arguments.json is not None:
-        with writing_json(lines):
-            write_modes(answer, arguments.json, case)
-    return lines, answer.complete
+    lines = modes_lines(answer, case.title, run_row(arguments))
+    return Answer(lines, answer.complete, lambda: document(answer, case))

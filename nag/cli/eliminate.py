@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from nag.cli.arguments import UsageError, add_running, read_problem, whole
-from nag.cli.running import compilation_notice, progress_line, seconds
+from nag.cli.arguments import UsageError, add_running, read_case_file, read_problem, whole
+from nag.cli.running import Answer, answer_of, name_case
 from nag.cli.witness_input import (
     add_input,
     component_number,
@@ -17,14 +16,13 @@ from nag.cli.witness_input import (
     doubts,
     given,
     is_export,
+    numbered_row,
     point_at,
-    write_document,
 )
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from nag.interpolation.image_ideal import ImageIdeal
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import Source
     from nag.mechanism.model import Model
@@ -71,38 +69,40 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Eliminate and write the export; returns the lines to print and whether it is whole.
-
-    Raises:
-        UsageError: for bad input, or an export that cannot be written.
-    """
+def run(options: argparse.Namespace) -> Answer:
+    """Equations of a component's image, and maps to the other variables."""
     if options.at is not None and options.component is not None:
         raise UsageError("--at: --component names a component already; give one of the two")
-    with compilation_notice(sys.stderr, options.quiet):
-        from nag.interpolation.image_ideal import image_ideal
-        from nag.interpolation.precise_samples import SourceError
-        from nag.interpolation.vanishing import InterpolationError, NotRationalError
+    from nag.interpolation.image_ideal import image_ideal
+    from nag.interpolation.precise_samples import SourceError
+    from nag.interpolation.vanishing import InterpolationError, NotRationalError
+    from nag.report.elimination import (
+        checked_row,
+        elimination_document,
+        elimination_lines,
+        head_rows,
+    )
 
+    try:
+        case, cloud, top, tail, alike = _cloud(options)
+        onto = _onto(options.onto, cloud.ambient.system.variables)
+        how = options.degree, options.polynomial, options.progress
         try:
-            origin, cloud, top, tail, alike = _cloud(options)
-            onto = _onto(options.onto, cloud.ambient.system.variables)
-            with progress_line(sys.stderr, options.quiet) as progress:
-                how = options.degree, options.polynomial, progress
-                try:
-                    found = image_ideal(cloud, onto, *how)
-                except NotRationalError:
-                    together = _together(cloud, alike, onto)
-                    if len(together) < 2:
-                        raise
-                    found = image_ideal(cloud.with_further(list(together.values())[1:]), onto, *how)
-                    found = replace(found, self_conjugate=None, together=tuple(sorted(together)))
-        except (SourceError, InterpolationError) as error:
-            raise UsageError(f"{options.case}: {error}") from None
+            found = image_ideal(cloud, onto, *how)
+        except NotRationalError:
+            together = _together(cloud, alike, onto)
+            if len(together) < 2:
+                raise
+            found = image_ideal(cloud.with_further(list(together.values())[1:]), onto, *how)
+            found = replace(found, self_conjugate=None, together=tuple(sorted(together)))
+    except (SourceError, InterpolationError) as error:
+        raise UsageError(f"{options.case}: {error}") from None
     complete = not found.note and not tail
-    if options.json is not None:
-        write_document(_document(found, origin, options, complete), options.json)
-    return _lines(found, origin["title"], top, tail, options), complete
+    tail = [*([("open", found.note)] if found.note else []), *tail, checked_row(found)]
+    fields = {"format": FORMAT, **elimination_document(found)}
+    blocks = [*top, *head_rows(found)], elimination_lines(found)
+    said = f"coefficients recognised in {found.digits} digits" if found.digits else ""
+    return answer_of(options, case, blocks, tail, fields, complete, said=said)
 
 
 def _together(
@@ -129,43 +129,6 @@ def _together(
     }
 
 
-def _lines(
-    found: ImageIdeal,
-    title: str,
-    top: list[tuple[str, str]],
-    tail: list[tuple[str, str]],
-    options: argparse.Namespace,
-) -> list[str]:
-    from nag.report.elimination import elimination_lines, essential_text, image_text
-    from nag.text.table import sheet
-
-    head = [*top, ("onto", _onto_text(found))]
-    head += [("image", image_text(found)), ("essential", essential_text(found))]
-    points, worst = found.fresh
-    tail = [
-        *([("open", found.note)] if found.note else []),
-        *tail,
-        (
-            "checked",
-            f"at {points} fresh random points: equations and maps hold to {-worst:.0f} digits"
-            if found.generators or found.maps
-            else "nothing to check",
-        ),
-        (
-            "run",
-            f"seed {options.seed}, settings {options.settings}, "
-            + (f"coefficients recognised in {found.digits} digits, " if found.digits else "")
-            + f"{seconds(options):.1f} s",
-        ),
-    ]
-    return sheet(title, head, elimination_lines(found), tail)
-
-
-def _onto_text(found: ImageIdeal) -> str:
-    names = ", ".join(found.names)
-    return f"{names}, degrees up to {found.degree}" if found.degree else names
-
-
 def _onto(text: str | None, variables: tuple[str, ...]) -> tuple[int, ...] | None:
     """Indices of the variables that ``--onto`` names."""
     from nag.algebra.tokens import nearest, quote
@@ -185,7 +148,7 @@ def _onto(text: str | None, variables: tuple[str, ...]) -> tuple[int, ...] | Non
 
 
 Labelled = list[tuple[str, str]]
-Begun = tuple[dict[str, str], "Cloud", Labelled, Labelled, Mapping[int, "WitnessSet"]]
+Begun = tuple[tuple[str, str], "Cloud", Labelled, Labelled, Mapping[int, "WitnessSet"]]
 
 
 def _cloud(options: argparse.Namespace) -> Begun:
@@ -220,13 +183,12 @@ def _cloud(options: argparse.Namespace) -> Begun:
     ambient = _ambient(model) if model is not None else Ambient.itself(system)
     if component.dimension == 0:
         raise SourceError("the component is a point; there is nothing to eliminate from")
-    kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
-    top = [("component", f"{kind}, {component.status}"), *top]
+    top = [numbered_row(number, component), *top]
     tail = [*doubts(found), *([("open", component.note)] if component.note else [])]
     cloud = Cloud(source_of_component(system, component), ambient, rng, tracker)
     others = enumerate(found.decomposition.components, 1)
     alike = {number: component} | {k: c for k, c in others if _kind(c) == _kind(component)}
-    return {"title": found.title, "file": found.file}, cloud, top, tail, alike
+    return found.case, cloud, top, tail, alike
 
 
 def _kind(component: WitnessSet) -> tuple[int, int, int]:
@@ -235,12 +197,8 @@ def _kind(component: WitnessSet) -> tuple[int, int, int]:
 
 def _euler(options: argparse.Namespace) -> str | None:
     """Euler parameters for a mechanism, in which the papers write; nothing for a system."""
-    from nag.files.cases import CaseError, read_case
-
-    try:
-        return None if read_case(options.case, dict(options.set)).mechanism is None else "E"
-    except (CaseError, OSError):
-        return None
+    case = read_case_file(options.case, options.set)
+    return None if case.mechanism is None else "E"
 
 
 def _through_point(
@@ -251,8 +209,6 @@ def _through_point(
     tracker: Any,
     top: Labelled,
 ) -> Begun:
-    from pathlib import Path
-
     from nag.files.problem import points_of, system_of
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import SourceError, source_at
@@ -275,8 +231,7 @@ def _through_point(
         raise UsageError(f"{options.case}: {what}{error}; or name a --component") from None
     which = "the reference configuration" if name == "reference" else name
     top = [("component", f"through {which}, of dimension {source.dimension}"), *top]
-    origin = {"title": case.title, "file": Path(case.path).name}
-    return origin, Cloud(source, ambient, rng, tracker), top, [], {}
+    return name_case(case), Cloud(source, ambient, rng, tracker), top, [], {}
 
 
 def _ambient(model: Model) -> Ambient:
@@ -288,48 +243,3 @@ def _ambient(model: Model) -> Ambient:
         return Ambient.itself(model.system)
     names, kept = elimination.original_variables, elimination.kept
     return Ambient.of(model.system, names, kept, elimination.images)
-
-
-def _document(
-    found: ImageIdeal, origin: dict[str, str], options: argparse.Namespace, complete: bool
-) -> dict[str, Any]:
-    """The export."""
-    from nag.report.elimination import whole_fraction
-
-    maps = []
-    for m, proof in zip(found.maps, found.map_proofs, strict=True):
-        above, below = (f.text(found.names) for f in whole_fraction(m))
-        variable = found.variables[m.variable]
-        maps.append(
-            {"variable": variable, "numerator": above, "denominator": below, "proof": proof}
-        )
-    return {
-        "format": FORMAT,
-        "version": 1,
-        "case": origin,
-        "seed": options.seed,
-        "settings": options.settings,
-        "complete": complete,
-        "variables": list(found.variables),
-        "onto": list(found.names),
-        "dimension": found.dimension,
-        "component_dimension": found.component_dimension,
-        "degree": found.degree,
-        "equations": [
-            {"polynomial": f.text(found.names), "proof": proof}
-            for f, proof in zip(found.generators, found.generator_proofs, strict=True)
-        ],
-        "maps": maps,
-        "missing": [found.variables[i] for i in found.missing],
-        "zeros": {"dimension": found.zeros[0], "degree": found.zeros[1]},
-        "cuts": found.cuts,
-        "defines": found.defines,
-        "defines_union": found.defines_union,
-        "self_conjugate": found.self_conjugate,
-        "together": list(found.together),
-        "digits": found.digits,
-        "fresh": {"points": found.fresh[0], "digits": max(0, round(-found.fresh[1]))}
-        if found.generators or found.maps
-        else None,
-        "note": found.note,
-    }

@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import argparse
-import sys
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict
 
 from nag.cli.arguments import UsageError, add_running
-from nag.cli.running import as_chosen, compilation_notice, progress_line, run_row
+from nag.cli.running import Answer, answer_of, as_chosen
 from nag.cli.witness_input import (
     add_input,
     component_number,
     component_of,
     given,
-    head,
     like,
-    write_document,
+    numbered_row,
 )
-
-if TYPE_CHECKING:
-    from nag.witness.witness import Decomposition, WitnessSet
 
 FORMAT = "nag-intersection"
 
@@ -39,87 +33,40 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Intersect and write the export; returns the lines to print and whether all is known.
-
-    Raises:
-        UsageError: for bad input, or an export that cannot be written.
-    """
-    with compilation_notice(sys.stderr, options.quiet):
-        from nag.decomposition.intersection import IntersectionError, intersect_components
-
-        found = given(options)
-        pair = [component_of(found, number, "--components") for number in options.components]
-        try:
-            with progress_line(sys.stderr, options.quiet) as progress:
-                result = intersect_components(
-                    found.decomposition.system,
-                    *pair,
-                    **as_chosen(options),
-                    progress=progress,
-                )
-        except IntersectionError as error:
-            raise UsageError(f"{options.case}: {error}") from None
-    complete = result.complete and not any(component.note for component in pair)
-    if options.json is not None:
-        document = head(found, FORMAT, options) | _document(options, pair, result, complete)
-        write_document(document, options.json)
-    from nag.text.table import sheet
-    from nag.witness.shown import component_table
-
-    top, tail = _rows(options, pair, result, complete)
-    return sheet(found.title, top, component_table(result), tail), complete
-
-
-def _document(
-    options: argparse.Namespace,
-    pair: Sequence[WitnessSet],
-    result: Decomposition,
-    complete: bool,
-) -> dict[str, Any]:
+def run(options: argparse.Namespace) -> Answer:
+    """The intersection of two components."""
+    from nag.decomposition.intersection import IntersectionError, intersect_components
     from nag.files.export import component_document
+    from nag.witness.shown import component_table, paths_text, remarks, title_line
 
-    numbered = zip(options.components, pair, strict=True)
-    return {
-        "complete": complete,
+    found = given(options)
+    numbers = options.components
+    pair = [component_of(found, number, "--components") for number in numbers]
+    system = found.decomposition.system
+    try:
+        result = intersect_components(
+            system, *pair, **as_chosen(options), progress=options.progress
+        )
+    except IntersectionError as error:
+        raise UsageError(f"{options.case}: {error}") from None
+    complete = result.complete and not any(component.note for component in pair)
+    numbered = list(zip(numbers, pair, strict=True))
+    variables = result.system.variables
+    fields = {
+        "format": FORMAT,
         "notes": list(result.notes),
         "of": [{"number": n, **like(c)} for n, c in numbered],
-        "paths": {
-            "tracked": result.paths.tracked,
-            "failed": result.paths.failed,
-            "at_infinity": result.paths.at_infinity,
-        },
-        "system": {
-            "variables": list(result.system.variables),
-            "polynomials": result.system.text(),
-        },
-        "components": [component_document(c, result.system.variables) for c in result.components],
+        "paths": asdict(result.paths),
+        "system": {"variables": list(variables), "polynomials": result.system.text()},
+        "components": [component_document(c, variables) for c in result.components],
     }
-
-
-def _rows(
-    options: argparse.Namespace,
-    pair: Sequence[WitnessSet],
-    result: Decomposition,
-    complete: bool,
-) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
-    """What is written above the table, and below it."""
-    from nag.witness.shown import paths_text, remarks, title_line
-
-    top = []
-    for number, component in zip(options.components, pair, strict=True):
-        kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
-        top.append(("component", f"{kind}, {component.status}"))
     # Only a complete answer without components says that there are none.
     nothing = "they do not meet" if complete else "undecided: no common point is certain"
+    top = [numbered_row(*each) for each in numbered]
     top.append(("answer", title_line(result) if result.components else nothing))
     if not complete:
         top.append(("", "INCOMPLETE, see below"))
-    undecided = [n for n, c in zip(options.components, pair, strict=True) if c.note]
     tail = [("open", line) for line in remarks(result)]
-    tail += [("open", f"component {number} is undecided") for number in undecided]
-    tail += [
-        ("paths", paths_text(result.paths)),
-        run_row(options),
-    ]
-    return top, tail
+    tail += [("open", f"component {number} is undecided") for number, c in numbered if c.note]
+    tail.append(("paths", paths_text(result.paths)))
+    return answer_of(options, found.case, (top, component_table(result)), tail, fields, complete)

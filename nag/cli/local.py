@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_case, add_running, read_problem
-from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds
-from nag.cli.witness_input import Points, add_point, named_point, point_at, write_document
+from nag.cli.running import Answer, answer_of, as_chosen, name_case
+from nag.cli.witness_input import Points, add_point, named_point, point_at
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -33,17 +32,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Judge points and write the export; returns the lines to print and whether all is known.
-
-    Raises:
-        UsageError: for bad input, or an export that cannot be written.
-    """
+def run(options: argparse.Namespace) -> Answer:
+    """The local dimension at points."""
     case, model = read_problem(options)
+    from nag.algebra.number import number_text
     from nag.decomposition.through import zero_at
+    from nag.files.answers_at_points import local_document
     from nag.files.problem import system_of
     from nag.numerics.shown import local_rows
-    from nag.text.table import labelled, printable
 
     system = system_of(case, model)
     chosen = chosen_points(options, case, model)
@@ -51,18 +47,25 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
     zeros = {name: zero_at(system, chosen[name], one) for name, one in found.items()}
     through = _through(system, zeros, case, model, options) if options.check else {}
     complete = all(one.decided for one in found.values())
-    lines = [printable(case.title)]
+    blocks = []
     for name, one in found.items():
         rows = [("point", _point_text(name, chosen[name], system)), *local_rows(one)]
         if name in through:
             text, agrees = through[name](one)
             rows.append(("components", text))
             complete &= agrees
-        lines += ["", *labelled([(label, printable(text)) for label, text in rows], 10)]
-    if options.json is not None:
-        write_document(_document(found, chosen, system, case, options, complete), options.json)
-    run_line = ("run", f"seed {options.seed}, {seconds(options):.1f} s")
-    return [*lines, "", *labelled([run_line], 10)], complete
+        blocks.append(rows)
+    fields = {
+        "format": FORMAT,
+        "variables": list(system.variables),
+        "points": [
+            {"name": name, "at": [number_text(x) for x in chosen[name]], **local_document(one)}
+            for name, one in found.items()
+        ],
+    }
+    return answer_of(
+        options, name_case(case), blocks, (), fields, complete, rests_on=["seed"], width=10
+    )
 
 
 def chosen_points(
@@ -120,22 +123,19 @@ def _through(
     options: argparse.Namespace,
 ) -> dict[str, Any]:
     """For each point what the components through it say, beside a local dimension."""
+    from nag.decomposition.components import decompose
+    from nag.decomposition.through import through_points
+    from nag.files.problem import symmetries_of
+    from nag.witness.frame import expanded
 
-    with compilation_notice(sys.stderr, options.quiet):
-        from nag.decomposition.components import decompose
-        from nag.decomposition.through import through_points
-        from nag.files.problem import symmetries_of
-        from nag.witness.frame import expanded
-
-        with progress_line(sys.stderr, options.quiet) as progress:
-            decomposition = decompose(
-                system,
-                **as_chosen(options),
-                progress=progress,
-                symmetries=symmetries_of(case, model),
-            )
-        components = expanded(decomposition).components
-        known = through_points(decomposition, list(chosen.items()), options.threads)
+    decomposition = decompose(
+        system,
+        **as_chosen(options),
+        progress=options.progress,
+        symmetries=symmetries_of(case, model),
+    )
+    components = expanded(decomposition).components
+    known = through_points(decomposition, list(chosen.items()), options.threads)
 
     def compared(name: str) -> Any:
         through = next(one for one in known if one.name == name)
@@ -152,30 +152,3 @@ def _through(
         return text
 
     return {name: compared(name) for name in chosen}
-
-
-def _document(
-    found: Mapping[str, LocalDimension],
-    chosen: Mapping[str, tuple[Number, ...]],
-    system: PolynomialSystem,
-    case: Case,
-    options: argparse.Namespace,
-    complete: bool,
-) -> dict[str, Any]:
-    from pathlib import Path
-
-    from nag.algebra.number import number_text
-    from nag.files.answers_at_points import local_document
-
-    return {
-        "format": FORMAT,
-        "version": 1,
-        "case": {"title": case.title, "file": Path(case.path).name},
-        "seed": options.seed,
-        "complete": complete,
-        "variables": list(system.variables),
-        "points": [
-            {"name": name, "at": [number_text(x) for x in chosen[name]], **local_document(one)}
-            for name, one in found.items()
-        ],
-    }

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
@@ -16,8 +15,8 @@ from nag.cli.arguments import (
     read_case_file,
     read_problem,
 )
-from nag.cli.running import as_chosen, compilation_notice, run_row
-from nag.cli.witness_input import point_at, write_document
+from nag.cli.running import Answer, answer_of, as_chosen, name_case
+from nag.cli.witness_input import point_at
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -58,13 +57,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Work out the mobility and write the export; returns the lines to print and whether all is
-    known.
-
-    Raises:
-        UsageError: for bad input, or an export that cannot be written.
-    """
+def run(options: argparse.Namespace) -> Answer:
+    """How a mechanism moves at a configuration."""
     case, made = _mechanism(options)
     variables = _variables(case, made)
     at = None if options.at is None else point_at(options.at, variables)
@@ -74,25 +68,26 @@ def run(options: argparse.Namespace) -> tuple[list[str], bool]:
             "reference configuration, for tables in half-angles, linkages and frameworks; one in "
             "space needs a second triangle of bars, and no --at"
         )
+    from nag.algebra.number import number_text
+    from nag.files.answers_at_points import mobility_document
     from nag.mechanism.mobility_report import MobilityStatus
-    from nag.text.table import labelled, printable
 
-    with compilation_notice(sys.stderr, options.quiet):
-        report = _report(options, case, made.formulation if made else "auto", at)
-        rows = report.rows()
-        complete = report.status is not MobilityStatus.UNDECIDED and not report.open
-        complete &= not any(curve.note for curve in report.curves)
-        compared: dict[str, Any] | None = None
-        if options.check:
-            text, agree, compared = _compared(options, case, report, at)
-            rows.append(("check", text))
-            complete &= agree
-    if options.json is not None:
-        point = at or _reference(case, made)
-        write_document(_document(case, options, point, report, compared, complete), options.json)
-    rows.append(run_row(options))
-    body = labelled([(label, printable(text)) for label, text in rows])
-    return [printable(case.title), "", *body], complete
+    report = _report(options, case, made.formulation if made else "auto", at)
+    rows = report.rows()
+    complete = report.status is not MobilityStatus.UNDECIDED and not report.open
+    complete &= not any(curve.note for curve in report.curves)
+    compared: dict[str, Any] | None = None
+    if options.check:
+        text, agree, compared = _compared(options, case, report, at)
+        rows.append(("check", text))
+        complete &= agree
+    fields = {
+        "format": FORMAT,
+        "configuration": [number_text(x) for x in at or _reference(case, made)],
+        **mobility_document(report),
+        "check": compared,
+    }
+    return answer_of(options, name_case(case), (), rows, fields, complete)
 
 
 def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
@@ -244,29 +239,3 @@ def _alike_text(other: MobilityReport, alike: Alike) -> str:
         return ""
     what = {"counts": "dimension", "degrees": "dimension and degree"}[alike]
     return f"; components of each {what} were counted"
-
-
-def _document(
-    case: Case,
-    options: argparse.Namespace,
-    point: tuple[Number, ...],
-    report: MobilityReport,
-    compared: dict[str, Any] | None,
-    complete: bool,
-) -> dict[str, Any]:
-    from pathlib import Path
-
-    from nag.algebra.number import number_text
-    from nag.files.answers_at_points import mobility_document
-
-    return {
-        "format": FORMAT,
-        "version": 1,
-        "case": {"title": case.title, "file": Path(case.path).name},
-        "seed": options.seed,
-        "settings": options.settings,
-        "complete": complete,
-        "configuration": [number_text(x) for x in point],
-        **mobility_document(report),
-        "check": compared,
-    }

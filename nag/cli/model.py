@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from nag.cli.arguments import add_case, read_problem
+from nag.cli.running import Answer
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -12,12 +13,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_case(parser)
 
 
-def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
-    """The lines to print; they are always complete.
-
-    Raises:
-        UsageError: for bad input.
-    """
+def run(arguments: argparse.Namespace) -> Answer:
+    """The polynomial system of a case."""
     from nag.report.answer import model_lines
 
-    return model_lines(*read_problem(arguments)), True
+    return Answer(model_lines(*read_problem(arguments)))

@@ -1,15 +1,21 @@
-"""What the runs of all commands share: their start, the file for their answer, their progress."""
+"""One run of a command: it starts, tells how far it is, writes its answer and prints it."""
 
 from __future__ import annotations
 
 import argparse
 import contextlib
 import os
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, TextIO
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TextIO
 
 from nag.cli.arguments import UsageError
+
+if TYPE_CHECKING:
+    from nag.files.cases import Case
+    from nag.text.table import Block, Row
 
 # What NumPy's linear algebra reads, when it is loaded, of how many threads it is to have.
 LINEAR_ALGEBRA_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
@@ -19,6 +25,94 @@ Progress = Callable[[str, int, int], None]
 INTERVAL = 0.1
 
 _ERASE = "\r\x1b[K"
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a command hands back.
+
+    Attributes:
+        lines: what is printed.
+        complete: whether the answer is complete.
+        document: makes what ``--json`` writes: a JSON object, or its text.
+        proof: works out what is printed after that, labelled texts, and whether all is proved.
+    """
+
+    lines: Sequence[str]
+    complete: bool = True
+    document: Callable[[], dict[str, Any] | str] | None = None
+    proof: Callable[[], tuple[Sequence[Row], bool]] | None = None
+
+
+def answer_of(
+    options: argparse.Namespace,
+    case: tuple[str, str],
+    blocks: Sequence[Block],
+    tail: Sequence[Row],
+    fields: dict[str, Any],
+    complete: bool,
+    *,
+    rests_on: Sequence[str] = ("seed", "settings"),
+    said: str = "",
+    width: int = 0,
+) -> Answer:
+    """An answer whose document begins, and whose lines end, as those of all commands do.
+
+    Args:
+        case: its title, and the name of its file without the folder.
+        blocks: what is printed below the title.
+        tail: labelled texts below that, above the line of the run.
+        fields: of the document: its ``format``, and what follows its head.
+        complete: whether the answer is complete.
+        rests_on: options that the answer depends on.
+        said: in the line of the run as well.
+        width: of labels, at least.
+    """
+    from nag.text.table import sheet
+
+    chosen = {name: getattr(options, name) for name in rests_on}
+    head = {"format": fields["format"], "version": 1, "case": {"title": case[0], "file": case[1]}}
+    document = head | chosen | {"complete": complete} | fields
+    lines = sheet(case[0], *blocks, [*tail, run_row(options, rests_on, said)], width=width)
+    return Answer(lines, complete, lambda: document)
+
+
+def name_case(case: Case) -> tuple[str, str]:
+    """Title and file, without its folder, of a case."""
+    return case.title, os.path.basename(case.path)
+
+
+def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], None]) -> bool:
+    """Run a command, write its document and print its answer.
+
+    The answer is printed even if its document cannot be written.
+
+    Args:
+        options: what was parsed, with the command's ``module``.
+        write: prints lines.
+
+    Returns:
+        Whether the answer is complete.
+
+    Raises:
+        UsageError: for a document that cannot be written; before any work if that is seen by then.
+        nag.NagError: as the command does.
+    """
+    begin(options)
+    with telling(options) as options.progress:
+        answer = options.module.run(options)
+    try:
+        if answer.document is not None and options.json is not None:
+            write_document(answer.document(), options.json)
+    finally:
+        write(answer.lines)
+    if answer.proof is None:
+        return answer.complete
+    from nag.text.table import labelled
+
+    rows, proved = answer.proof()
+    write(["", *labelled(rows)])
+    return answer.complete and proved
 
 
 def begin(options: argparse.Namespace) -> None:
@@ -39,38 +133,63 @@ def begin(options: argparse.Namespace) -> None:
         _check_target(target, source if isinstance(source, str) else "")
 
 
+@contextlib.contextmanager
+def telling(options: argparse.Namespace) -> Iterator[ProgressLine | None]:
+    """Tell on standard error what a command that tracks paths does; the progress callback."""
+    if "threads" not in options:
+        yield None
+        return
+    with (
+        compilation_notice(sys.stderr, options.quiet),
+        progress_line(sys.stderr, options.quiet) as progress,
+    ):
+        yield progress
+
+
 def as_chosen(options: argparse.Namespace) -> dict[str, Any]:
     """The keywords of whatever tracks paths: the seed, the threads and the settings chosen."""
     return {name: getattr(options, name) for name in ("seed", "threads", "settings")}
 
 
-def seconds(options: argparse.Namespace) -> float:
-    """Seconds that the command runs."""
-    return time.perf_counter() - options.started
-
-
-def run_row(options: argparse.Namespace) -> tuple[str, str]:
-    """The last line of what a command prints, with its label."""
-    text = f"seed {options.seed}, settings {options.settings}, {seconds(options):.1f} s"
-    return "run", text
+def run_row(
+    options: argparse.Namespace,
+    rests_on: Sequence[str] = ("seed", "settings"),
+    said: str = "",
+    places: int = 1,
+) -> Row:
+    """The line of the run: options that the answer rests on, what is said besides, seconds."""
+    texts = [f"{name} {getattr(options, name)}" for name in rests_on]
+    time_text = f"{time.perf_counter() - options.started:.{places}f} s"
+    return "run", ", ".join([*texts, *filter(None, [said]), time_text])
 
 
 @contextlib.contextmanager
-def writing_json(answer: Sequence[str] = ()) -> Iterator[None]:
+def writing_json() -> Iterator[None]:
     """Write an answer inside the block.
 
-    Args:
-        answer: lines that are printed all the same if the file cannot be written.
-
     Raises:
-        UsageError: if it cannot.
+        UsageError: if it cannot be written.
     """
     from nag.files.written_file import TargetError
 
     try:
         yield
     except TargetError as error:
-        raise UsageError(f"--json: {error}", answer) from None
+        raise UsageError(f"--json: {error}") from None
+
+
+def write_document(document: dict[str, Any] | str, target: str) -> None:
+    """Write a JSON object, or its text.
+
+    Raises:
+        UsageError: if the file cannot be written.
+    """
+    from nag.files.json_values import lay_out
+    from nag.files.written_file import write_target
+
+    text = document if isinstance(document, str) else lay_out(document) + "\n"
+    with writing_json():
+        write_target(target, text)
 
 
 def _check_target(target: str, source: str) -> None:
@@ -112,7 +231,7 @@ class ProgressLine:
 
 
 @contextlib.contextmanager
-def progress_line(stream: TextIO, quiet: bool = False) -> Iterator[Progress | None]:
+def progress_line(stream: TextIO, quiet: bool = False) -> Iterator[ProgressLine | None]:
     """A progress callback for ``stream`` if it is a terminal, else None."""
     if quiet or not stream.isatty():
         yield None

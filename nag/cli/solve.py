@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import os
-import sys
 
 from nag.cli.arguments import UsageError, add_case, add_certify, add_running, read_problem
-from nag.cli.certify import certify_result
-from nag.cli.running import as_chosen, compilation_notice, progress_line, seconds, writing_json
+from nag.cli.certify import proof_asked_for
+from nag.cli.running import Answer, as_chosen, name_case, run_row
 
 STARTS = ("auto", "total", "multihomogeneous", "polyhedral", "monodromy", "parameter")
 
@@ -27,38 +25,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> tuple[list[str], bool]:
-    """Solve a case and write its export; returns the lines to print and whether all is known.
-
-    Raises:
-        UsageError: if the system cannot be solved, or the export cannot be written.
-    """
+def run(options: argparse.Namespace) -> Answer:
+    """All isolated solutions of a case."""
     from nag.errors import StartError
+    from nag.files.solutions_export import document
     from nag.interface.solve import solve
     from nag.report.solutions import solution_lines
-    from nag.text.table import labelled
 
     case, model = read_problem(options)
     try:
-        with (
-            compilation_notice(sys.stderr, options.quiet),
-            progress_line(sys.stderr, options.quiet) as progress,
-        ):
-            result = solve(
-                case if model is None else model,
-                start=options.start,
-                **as_chosen(options),
-                progress=progress,
-            )
+        result = solve(
+            case if model is None else model,
+            start=options.start,
+            **as_chosen(options),
+            progress=options.progress,
+        )
     except StartError as error:
         raise UsageError(f"{options.case}: {error}") from None
-    if options.json is not None:
-        from nag.files.solutions_export import write_solutions
-
-        with writing_json():
-            write_solutions(result, options.json, case.title, os.path.basename(options.case))
-    lines = solution_lines(result, case, model, seconds(options))
-    if not (options.certify or options.certify_paths):
-        return lines, result.complete
-    proved = certify_result(result, options.certify_paths)
-    return [*lines, "", *labelled(proved.rows)], result.complete and proved.all_proved
+    return Answer(
+        solution_lines(result, case, model, run_row(options, places=2)),
+        result.complete,
+        lambda: document(result, *name_case(case)),
+        proof_asked_for(options, result),
+    )

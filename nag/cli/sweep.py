@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import re
-import sys
 from dataclasses import dataclass
 from fractions import Fraction
 
 from nag.cli.arguments import UsageError, read_problem
-from nag.cli.running import as_chosen, compilation_notice, seconds
+from nag.cli.running import Answer, as_chosen, run_row
 
 MOST_VALUES = 1000
 _NUMBER = re.compile(r"[+-]?[0-9]{1,15}(\.[0-9]{1,15}|/[0-9]{1,15})?")
@@ -49,11 +48,11 @@ def sweep_of(text: str) -> Sweep:
     return Sweep(name.strip(), tuple(first + step * k for k in range(count)))
 
 
-def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
-    """The table to print, and whether every line of it is complete.
+def run(arguments: argparse.Namespace) -> Answer:
+    """The table of a sweep, which is complete if every line of it is.
 
     Raises:
-        UsageError: for bad input, or an option that does not go with a sweep.
+        UsageError: for an option that does not go with a sweep.
     """
     for option, given in (
         ("--json", arguments.json is not None),
@@ -76,15 +75,10 @@ def run(arguments: argparse.Namespace) -> tuple[list[str], bool]:
         # One formulation for all values, so that their systems are one family.
         arguments.formulation = model.formulation
 
-    with compilation_notice(sys.stderr, arguments.quiet):
-        from nag.decomposition.sweep import sweep
-        from nag.files.problem import system_of
-        from nag.report.sweep import sweep_lines
+    from nag.decomposition.sweep import sweep
+    from nag.files.problem import system_of
+    from nag.report.sweep import sweep_lines
 
-        swept = sweep(
-            lambda value: system_of(*problem_at(value)),
-            asked.values,
-            **as_chosen(arguments),
-        )
-    complete = all(each.decomposition.complete for each in swept)
-    return sweep_lines(case.title, asked.name, swept, seconds(arguments)), complete
+    swept = sweep(lambda value: system_of(*problem_at(value)), asked.values, **as_chosen(arguments))
+    lines = sweep_lines(case.title, asked.name, swept, run_row(arguments, ()))
+    return Answer(lines, all(each.decomposition.complete for each in swept))

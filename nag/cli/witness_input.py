@@ -6,14 +6,13 @@ Components are numbered from 1 in the order of the export; of an orbit, each one
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import UsageError, add_formulation, add_parameters, read_problem
-from nag.cli.running import as_chosen, progress_line, writing_json
+from nag.cli.running import as_chosen
 
 if TYPE_CHECKING:
     from nag.algebra.number import Number
@@ -42,6 +41,11 @@ class Given:
     points: Points
     export: str = ""
 
+    @property
+    def case(self) -> tuple[str, str]:
+        """Title and file."""
+        return self.title, self.file
+
 
 def add_input(parser: argparse.ArgumentParser) -> None:
     """The argument for the export or case, which ``arguments.case`` holds."""
@@ -68,9 +72,8 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
         check: called with the variables and the named points before a case is decomposed.
 
     Raises:
-        UsageError: if the export cannot be read.
+        nag.errors.InputError: if the file cannot be read.
     """
-    from nag.files.json_values import ExportError
     from nag.witness.frame import expanded
 
     if is_export(options.case):
@@ -80,10 +83,7 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
             raise UsageError(f"{options.case}: is an export; --formulation is for cases")
         if options.set:
             raise UsageError(f"{options.case}: is an export; --set is for cases")
-        try:
-            export = read_export(options.case)
-        except ExportError as error:
-            raise UsageError(str(error)) from None
+        export = read_export(options.case)
         if check is not None:
             check(export.decomposition.system.variables, {})
         origin = export.origin
@@ -99,8 +99,9 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
         points = {"reference": tuple(model.reference)}
     if check is not None:
         check(system_of(case, model).variables, points)
-    with progress_line(sys.stderr, options.quiet) as progress:
-        decomposition = decomposed(case, model, **as_chosen(options), progress=progress)
+    decomposition = decomposed(case, model, **as_chosen(options), progress=options.progress)
+    if options.progress is not None:
+        options.progress.erase()
     return Given(expanded(decomposition), case.title, Path(case.path).name, points)
 
 
@@ -231,6 +232,12 @@ def point_at(text: str, variables: Sequence[str]) -> tuple[Number, ...]:
     return tuple(values[name] for name in variables)
 
 
+def numbered_row(number: int, component: WitnessSet) -> tuple[str, str]:
+    """The line that says which component is meant."""
+    kind = f"{number}: dimension {component.dimension}, degree {component.degree}"
+    return "component", f"{kind}, {component.status}"
+
+
 def like(component: WitnessSet) -> dict[str, Any]:
     """What a document says of a component that it refers to."""
     return {
@@ -239,30 +246,6 @@ def like(component: WitnessSet) -> dict[str, Any]:
         "multiplicity": component.multiplicity,
         "status": str(component.status),
     }
-
-
-def head(found: Given, kind: str, options: argparse.Namespace) -> dict[str, Any]:
-    """The first keys of every document."""
-    return {
-        "format": kind,
-        "version": 1,
-        "case": {"title": found.title, "file": found.file},
-        "seed": options.seed,
-        "settings": options.settings,
-    }
-
-
-def write_document(document: dict[str, Any], target: str) -> None:
-    """Write a document as JSON.
-
-    Raises:
-        UsageError: if the file cannot be written.
-    """
-    from nag.files.json_values import lay_out
-    from nag.files.written_file import write_target
-
-    with writing_json():
-        write_target(target, lay_out(document) + "\n")
 
 
 def doubts(found: Given) -> list[tuple[str, str]]:

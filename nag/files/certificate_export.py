@@ -5,14 +5,12 @@ The format is ``nag-certificate``, version 1; its JSON Schema is in ``schema/`` 
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from typing import Any
 
 import flint
 
-from nag.files.json_values import lay_out, pairs, real_or_null, system_document
-from nag.files.written_file import write_target
+from nag.files.json_values import pairs, real_or_null, system_document
 from nag.numerics.certified_points import CertifiedPoints
 from nag.numerics.claims import Claim, nothing_against
 from nag.numerics.krawczyk import BITS, FineBox
@@ -67,7 +65,7 @@ def _reality(certificate: SolutionsCertificate) -> list[bool | None]:
     ]
 
 
-def solutions_document(certificate: SolutionsCertificate) -> dict[str, Any]:
+def _solutions_document(certificate: SolutionsCertificate) -> dict[str, Any]:
     """The certificate of solutions as a JSON object."""
     return {
         "format": FORMAT,
@@ -86,7 +84,7 @@ def solutions_document(certificate: SolutionsCertificate) -> dict[str, Any]:
     }
 
 
-def decomposition_document(certificate: DecompositionCertificate) -> dict[str, Any]:
+def _decomposition_document(certificate: DecompositionCertificate) -> dict[str, Any]:
     """The certificate of a decomposition as a JSON object."""
     components = [
         {
@@ -133,23 +131,19 @@ def _loops(proved: ProvedMonodromy) -> dict[str, Any]:
     }
 
 
-def write_certificate(
+def certificate_document(
     certificate: SolutionsCertificate | DecompositionCertificate,
-    path: str | os.PathLike[str],
     claims: Sequence[Claim] | None = None,
     paths: ProvedPaths | Sequence[ProvedMonodromy] | None = None,
-) -> None:
-    """Write the certificate to ``path`` in one step.
+) -> dict[str, Any]:
+    """The certificate as a JSON object.
 
     Args:
         claims: how the statements of an export stand, if paths say more than the certificate.
         paths: what is proved of the paths to solutions, or of loops, one for each component.
-
-    Raises:
-        nag.files.written_file.TargetError: if the file cannot be written.
     """
     solved = isinstance(certificate, SolutionsCertificate)
-    document = (solutions_document if solved else decomposition_document)(certificate)
+    document = (_solutions_document if solved else _decomposition_document)(certificate)
     if isinstance(paths, ProvedPaths):
         document["paths"] = _paths(paths)
     elif paths is not None:
@@ -160,4 +154,4 @@ def write_certificate(
         {"field": c.field, "of": c.subject, "says": c.text, "standing": str(c.standing)}
         for c in (certificate.claims if claims is None else claims)
     ]
-    write_target(path, lay_out(document) + "\n")
+    return document

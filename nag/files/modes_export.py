@@ -6,13 +6,10 @@ The format is ``nag-modes``, version 1: for each class of modes its combinations
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING, Any
 
 from nag.files.export import document as decomposition_document
-from nag.files.json_values import lay_out
 from nag.files.problem import origin
-from nag.files.written_file import write_target
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -42,12 +39,3 @@ def document(answer: ModesAnswer, case: Case) -> dict[str, Any]:
         "meetings": [list(meeting) for meeting in answer.meetings],
         "classes": classes,
     }
-
-
-def write_modes(answer: ModesAnswer, path: str | os.PathLike[str], case: Case) -> None:
-    """Write the export to ``path`` in one step.
-
-    Raises:
-        nag.files.written_file.TargetError: if the file cannot be written.
-    """
-    write_target(path, lay_out(document(answer, case)) + "\n")

@@ -22,7 +22,7 @@ from nag.report.model import (
     rank_rows,
     table_lines,
 )
-from nag.text.table import labelled, printable, sheet
+from nag.text.table import Row, printable, sheet
 from nag.witness.frame import expanded
 from nag.witness.shown import component_table, in_words, kinds, paths_text, remarks, title_line
 from nag.witness.witness import Decomposition, Status
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 def _model_rows(model: Model) -> list[tuple[str, str]]:
-    rows = [("model", printable(f"formulation {model.formulation}: {model.reason}"))]
+    rows = [("model", f"formulation {model.formulation}: {model.reason}")]
     if model.sign_group > 1:
         text = f"{model.sign_group} sign changes of Euler parameters keep the equations; "
         rows.append(("signs", text + "components that they exchange are counted one by one"))
@@ -92,7 +92,7 @@ def _mobility_rows(
                     text += f", and {count} by {whose}"
             if any(c.status is not Status.IRREDUCIBLE for c in components):
                 text += ", not all of them decided"
-        rows.append((label, printable(text)))
+        rows.append((label, text))
     return rows
 
 
@@ -109,7 +109,7 @@ def answer_lines(
     case: Case,
     model: Model | None,
     points: Sequence[Through],
-    seconds: float,
+    run: Row,
 ) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
@@ -117,7 +117,7 @@ def answer_lines(
     if model is not None:
         head = _model_rows(model) + head
     if case.assembly is not None:
-        head = [(label, printable(text)) for label, text in parts_rows(case.assembly)] + head
+        head = parts_rows(case.assembly) + head
     if not decomposition.complete:
         head.append(("", "INCOMPLETE, see below"))
     tail = _orbit_rows(decomposition) + _mobility_rows(decomposition, model, points)
@@ -126,11 +126,11 @@ def answer_lines(
     tail += [("open", line) for line in remarks(decomposition)]
     tail += [
         ("paths", paths_text(decomposition.paths)),
-        ("run", f"seed {decomposition.seed}, settings {decomposition.settings}, {seconds:.1f} s"),
+        run,
     ]
     agreement = compare(decomposition, case.truth, formulation_of(case, model))
     if agreement is not None:
-        tail.append(("known", printable(agreement_text(agreement))))
+        tail.append(("known", agreement_text(agreement)))
     return sheet(case.title, head, component_table(decomposition), tail)
 
 
@@ -143,8 +143,8 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     if model is not None:
         head = _model_rows(model) + body_rows(model) + head
     if case.assembly is not None:
-        head = [(label, printable(text)) for label, text in parts_rows(case.assembly)] + head
-    lines = [printable(case.title), "", *labelled(head), "", "equations"]
+        head = parts_rows(case.assembly) + head
+    lines = ["equations"]
     lines += [f"  {text} = 0" for text in system.text()] or ["  none"]
     if system.nonzero:
         lines += ["not zero", *(f"  {f.text(system.variables)}" for f in system.nonzero)]
@@ -157,7 +157,7 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
         values = zip(system.variables, point, strict=True)
         lines += [printable(name), "  " + ", ".join(f"{v} = {number_text(x)}" for v, x in values)]
     if model is not None:
-        return lines + joint_lines(model) + alternative_lines(model)
-    if case.assembly is None:
-        return lines
-    return lines + (table_lines if case.is_table else parts_lines)(case.assembly)
+        lines += joint_lines(model) + alternative_lines(model)
+    elif case.assembly is not None:
+        lines += (table_lines if case.is_table else parts_lines)(case.assembly)
+    return sheet(case.title, head, lines)

@@ -1,8 +1,9 @@
-"""The equations of a component's image and the maps to its other variables, as text."""
+"""The equations of a component's image and the maps to its other variables: printed, exported."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from nag.algebra.polynomial import Polynomial
 from nag.interpolation.essential import VariableMap
@@ -24,6 +25,22 @@ PROOFS = {
 
 
 NO_OTHERS = "the equations have no other zeros but for sets of lower dimension"
+
+
+def head_rows(found: ImageIdeal) -> list[tuple[str, str]]:
+    """What is said above the equations."""
+    names = ", ".join(found.names)
+    onto = f"{names}, degrees up to {found.degree}" if found.degree else names
+    return [("onto", onto), ("image", image_text(found)), ("essential", essential_text(found))]
+
+
+def checked_row(found: ImageIdeal) -> tuple[str, str]:
+    """At how many random points equations and maps hold, and how well."""
+    if not (found.generators or found.maps):
+        return "checked", "nothing to check"
+    points, worst = found.fresh
+    text = f"at {points} fresh random points: equations and maps hold to {-worst:.0f} digits"
+    return "checked", text
 
 
 def elimination_lines(found: ImageIdeal) -> list[str]:
@@ -113,3 +130,38 @@ def image_text(found: ImageIdeal) -> str:
     if found.cuts:
         return f"{text}: a component of the equations' common zeros; there may be others"
     return f"{text}: equations of higher degree are missing"
+
+
+def elimination_document(found: ImageIdeal) -> dict[str, Any]:
+    """The export, below its head."""
+    maps = []
+    for m, proof in zip(found.maps, found.map_proofs, strict=True):
+        above, below = (f.text(found.names) for f in whole_fraction(m))
+        variable = found.variables[m.variable]
+        maps.append(
+            {"variable": variable, "numerator": above, "denominator": below, "proof": proof}
+        )
+    return {
+        "variables": list(found.variables),
+        "onto": list(found.names),
+        "dimension": found.dimension,
+        "component_dimension": found.component_dimension,
+        "degree": found.degree,
+        "equations": [
+            {"polynomial": f.text(found.names), "proof": proof}
+            for f, proof in zip(found.generators, found.generator_proofs, strict=True)
+        ],
+        "maps": maps,
+        "missing": [found.variables[i] for i in found.missing],
+        "zeros": {"dimension": found.zeros[0], "degree": found.zeros[1]},
+        "cuts": found.cuts,
+        "defines": found.defines,
+        "defines_union": found.defines_union,
+        "self_conjugate": found.self_conjugate,
+        "together": list(found.together),
+        "digits": found.digits,
+        "fresh": {"points": found.fresh[0], "digits": max(0, round(-found.fresh[1]))}
+        if found.generators or found.maps
+        else None,
+        "note": found.note,
+    }

@@ -6,7 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from nag.mechanism.joint_types import JOINT_TYPES
-from nag.text.table import align, printable, sheet
+from nag.text.table import Row, align, printable, sheet
 from nag.witness.shown import in_words, kinds, paths_text, remarks
 from nag.witness.witness import PathCounts
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from nag.mechanism.mode_decomposition import ModesAnswer
 
 
-def modes_lines(answer: ModesAnswer, title: str, seconds: float) -> list[str]:
+def modes_lines(answer: ModesAnswer, title: str, run: Row) -> list[str]:
     """The answer to ``nag decompose --modes all``, line by line."""
     members = sum(len(c.modes.members) for c in answer.classes)
     first = answer.classes[0]
@@ -24,7 +24,7 @@ def modes_lines(answer: ModesAnswer, title: str, seconds: float) -> list[str]:
             total[kind] += count * len(each.modes.members)
     head = [
         ("modes", _modes_text(answer, members)),
-        ("model", printable(f"formulation {first.model.formulation}: {first.model.reason}")),
+        ("model", f"formulation {first.model.formulation}: {first.model.reason}"),
         ("answer", f"in all modes together {in_words(total)}"),
     ]
     if not answer.complete:
@@ -35,15 +35,10 @@ def modes_lines(answer: ModesAnswer, title: str, seconds: float) -> list[str]:
         text = in_words(kinds(each.decomposition.components))
         rows.append([str(k), str(len(each.modes.members)), printable(changed or "none"), text])
     paths = sum((c.decomposition.paths for c in answer.classes), PathCounts())
-    seed, settings = first.decomposition.seed, first.decomposition.settings
     tail = [("meeting", _meeting_text(answer, {k.dimension for k in total}))]
     for k, each in enumerate(answer.classes, 1):
         tail += [("open", f"class {k}: {line}") for line in remarks(each.decomposition)]
-    tail += [
-        ("paths", paths_text(paths)),
-        ("run", f"seed {seed}, settings {settings}, {seconds:.1f} s"),
-    ]
-    return sheet(title, head, align(rows, (2, 3)), tail)
+    return sheet(title, head, align(rows, (2, 3)), [*tail, ("paths", paths_text(paths)), run])
 
 
 def _modes_text(answer: ModesAnswer, members: int) -> str:

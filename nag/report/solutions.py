@@ -9,7 +9,7 @@ from nag.algebra.system import system_line
 from nag.files.problem import truth_of
 from nag.report.assemblies import real_row
 from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
-from nag.text.table import align, printable, sheet
+from nag.text.table import Row, align, sheet
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -17,20 +17,18 @@ if TYPE_CHECKING:
     from nag.solving.solutions import SolveResult
 
 
-def solution_lines(
-    result: SolveResult, case: Case, model: Model | None, seconds: float
-) -> list[str]:
+def solution_lines(result: SolveResult, case: Case, model: Model | None, run: Row) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(result.system)), ("answer", answer_text(result))]
     if model is not None:
-        head.insert(0, ("model", printable(f"formulation {model.formulation}: {model.reason}")))
+        head.insert(0, ("model", f"formulation {model.formulation}: {model.reason}"))
     if case.assembly is not None:
-        head.insert(0, ("model", printable(case.assembly.reason)))
+        head.insert(0, ("model", case.assembly.reason))
         head += real_row(case.kind, case.assembly, result.points)
     if not result.complete:
         head.append(("", "INCOMPLETE, see below"))
     paths = result.paths
-    tail = [("note", printable(note)) for note in result.notes]
+    tail = [("note", note) for note in result.notes]
     tail += [
         ("start", result.reason),
         (
@@ -38,11 +36,11 @@ def solution_lines(
             f"{paths.tracked} tracked, {paths.regular} regular, {paths.singular} singular, "
             f"{paths.at_infinity} to infinity, {paths.failed} failed, {paths.steps} steps",
         ),
-        ("run", f"seed {result.seed}, settings {result.settings}, {seconds:.2f} s"),
+        run,
     ]
     known = agreement_text(result, case, model)
     if known:
-        tail.append(("known", printable(known)))
+        tail.append(("known", known))
     return sheet(case.title, head, solution_table(result), tail)
 
 

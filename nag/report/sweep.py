@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.number import number_text
-from nag.text.table import align, labelled, printable
+from nag.text.table import Row, align, sheet
 from nag.witness.shown import in_words, kinds
 
 if TYPE_CHECKING:
     from nag.decomposition.sweep import Swept
 
 
-def sweep_lines(title: str, name: str, swept: Sequence[Swept], seconds: float) -> list[str]:
+def sweep_lines(title: str, name: str, swept: Sequence[Swept], run: Row) -> list[str]:
     """One line a value, and what they rest on."""
     rows = [[name, "", "paths", "components"]]
     for each in swept:
@@ -32,5 +32,4 @@ def sweep_lines(title: str, name: str, swept: Sequence[Swept], seconds: float) -
         )
     ]
     tail += [("by itself", reason) for reason in reasons]
-    tail.append(("run", f"{seconds:.1f} s"))
-    return [printable(title), "", *align(rows, left=(1, 3)), "", *labelled(tail)]
+    return sheet(title, align(rows, left=(1, 3)), [*tail, run])

@@ -69,19 +69,27 @@ def labelled(rows: Sequence[tuple[str, str]], width: int = 0) -> list[str]:
     return lines
 
 
-def sheet(
-    title: str,
-    head: Sequence[tuple[str, str]],
-    table: Sequence[str],
-    tail: Sequence[tuple[str, str]],
-) -> list[str]:
-    """What a command prints: a title, labelled lines above a table and below it, if there is one.
+Row = tuple[str, str]
+Block = Sequence[Row] | Sequence[str]
 
-    All texts stand in one column.
+
+def sheet(title: str, *blocks: Block, width: int = 0) -> list[str]:
+    """What a command prints: a title, and blocks below it with blank lines between.
+
+    Args:
+        blocks: each lines as they are, or labelled texts; empty ones are left out.
+        width: of the labels, at least; all texts of all blocks stand in one column.
     """
-    width = max(len(label) for label, _ in (*head, *tail))
-    middle = [*table, ""] if table else []
-    return [printable(title), "", *labelled(head, width), "", *middle, *labelled(tail, width)]
+    labels = [part[0] for block in blocks for part in block if not isinstance(part, str)]
+    width = max([width, *map(len, labels)])
+    lines = [printable(title)]
+    for block in filter(None, blocks):
+        lines.append("")
+        if isinstance(block[0], str):
+            lines += block
+        else:
+            lines += labelled([(label, printable(text)) for label, text in block], width)
+    return lines
 
 
 def lines_of(title: str, rows: Sequence[tuple[str, str]]) -> str:
