@@ -177,8 +177,10 @@ def test_the_curves_of_the_rhombus_cross_in_its_flat_poses() -> None:
         rounded = np.round(pose.real)
         assert np.abs(pose - rounded).max() < 1e-12
         assert set(rounded.tolist()) <= {-1.0, 0.0, 1.0}
-        answers = memberships(rhombus, rounded)
-        assert [k for k in range(3) if answers[k] is Membership.MEMBER] == [i, j]
+        for seed in range(4):
+            # Slices through rounded poses pass beside the crossing, or not, as rounding has it.
+            answers = memberships(rhombus, rounded, seed=seed)
+            assert [k for k in range(3) if answers[k] is Membership.MEMBER] == [i, j]
         poses.append(tuple(rounded.tolist()))
     assert len(set(poses)) == 3
 

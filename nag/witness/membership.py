@@ -66,7 +66,7 @@ def is_member(
             point than this and its own error explain is another one then. None of a point that
             paths led to.
     """
-    (answer,), counts = find_members(point, accuracy, [fibres], flag, rng, tracker, given)
+    ((answer, _),), counts = find_members(point, accuracy, [fibres], flag, rng, tracker, given)
     return answer, counts
 
 
@@ -79,17 +79,21 @@ def find_members(
     rng: np.random.Generator,
     tracker: Tracker,
     given: Sequence[Number] | None = None,
-) -> tuple[list[Membership], PathCounts]:
+) -> tuple[list[tuple[Membership, bool]], PathCounts]:
     """`is_member` for several sets of one dimension on one slice, which moves once.
 
     Sets that the same equations cut may come near to each other where the slice moves to. Their
     paths are tracked together, so that two that end at one point are known to have gone astray.
+
+    Returns:
+        With each answer whether it is undecided only because an end of another set is as near to
+        the point: it is on one of the two sets, or on both where they meet.
     """
     counts, bounded = PathCounts(), given is not None
     together = _join_by_cut(sets)
-    answers = [{Membership.FOREIGN} for _ in sets]
+    answers: list[set[Membership | None]] = [{Membership.FOREIGN} for _ in sets]
     if not together:
-        return [Membership.FOREIGN for _ in sets], counts
+        return [(Membership.FOREIGN, False) for _ in sets], counts
     first = together[0][0]
     target = rows_through(rng, first.dimension, point, first.sizes)
     rows, fibres = (flag[: first.dimension], target), [fibre for fibre, _ in together]
@@ -100,10 +104,10 @@ def find_members(
         if bounded:
             ends = _near_ones_rated(point, accuracy, fibre, ends, target)
         for k in np.unique(owners).tolist():
-            own = ends.without(np.flatnonzero(owners != k))
-            answers[k].add(_among_ends(point, accuracy, fibre, own, target, bounded))
-    order = Membership.MEMBER, Membership.UNDECIDED, Membership.FOREIGN
-    return [next(word for word in order if word in found) for found in answers], counts
+            answers[k].add(_among_ends(point, accuracy, fibre, ends, owners == k, target, bounded))
+    order = Membership.MEMBER, Membership.UNDECIDED, None, Membership.FOREIGN
+    words = [next(word for word in order if word in found) for found in answers]
+    return [(word or Membership.UNDECIDED, word is None) for word in words], counts
 
 
 def _join_by_cut(sets: Sequence[Sequence[Fibre]]) -> list[tuple[Fibre, np.ndarray]]:
@@ -128,22 +132,28 @@ def _among_ends(
     accuracy: float,
     fibre: Fibre,
     ends: Moved,
+    own: np.ndarray,
     target: np.ndarray,
     bounded: bool,
-) -> Membership:
-    """Whether a point is one of the ends of a set, on a slice through it."""
-    answers = set[Membership]()
-    if ends.fine:
+) -> Membership | None:
+    """Whether a point is one of a set's ``own`` ends, on a slice through it.
+
+    None where it is one of them or one of another set.
+    """
+    answers = set[Membership | None]()
+    fine = [i for i in ends.fine if own[i]]
+    if fine:
         error = accuracy * (1 + float(np.linalg.norm(point)))
-        answers = {_at_end(point, error, fibre, ends, i, target, bounded) for i in ends.fine}
-        ends = ends.without(ends.fine)
+        answers = {_at_end(point, error, fibre, ends, own, i, target, bounded) for i in fine}
+    ends = ends.without({*fine, *np.flatnonzero(~own).tolist()})
     distances = _distances(point, ends, fibre.sizes[1:])[ends.finite]
     if Membership.MEMBER in answers or compared(distances, accuracy)[0].any():
         return Membership.MEMBER
     errors = np.maximum(accuracy, ends.accuracy[ends.finite])
     unclear = ends.failed.any() or np.any(compared(distances, errors))
-    unclear |= Membership.UNDECIDED in answers
-    return Membership.UNDECIDED if unclear else Membership.FOREIGN
+    if unclear or Membership.UNDECIDED in answers:
+        return Membership.UNDECIDED
+    return None if None in answers else Membership.FOREIGN
 
 
 def _distances(point: np.ndarray, ends: Moved, sizes: np.ndarray) -> np.ndarray:
@@ -176,14 +186,16 @@ def _at_end(
     error: float,
     fibre: Fibre,
     ends: Moved,
+    own: np.ndarray,
     i: int,
     rows: np.ndarray,
     bounded: bool,
-) -> Membership:
+) -> Membership | None:
     """Whether a point that is off by so much may be an end to which other zeros are close.
 
     Undecided where the next zero is no further away than what the point is off by can make out,
-    unless that is an end as well: then the point is on the set at one or the other.
+    unless that is one of the ``own`` ends as well: then the point is on the set at one or the
+    other. None if it is an end of another set.
     """
     end = ends.fine[i]
     # The slice through a point beside the set meets it so much further off at most.
@@ -198,10 +210,16 @@ def _at_end(
     if max(gap, beside) < BASIN * apart:
         # The sheet on which the end is is the one beside the point.
         return Membership.MEMBER if beside <= SPREAD * error else Membership.FOREIGN
-    x = ends.points[:, : fibre.cut.n]
-    others = [distance(x[i], end, x[j], ends.fine[j]) for j in ends.fine if j != i]
-    sure = apart > SPREAD * reach or min(others, default=np.inf) < SPREAD * apart
-    return Membership.MEMBER if sure else Membership.UNDECIDED
+    if apart > SPREAD * reach:
+        return Membership.MEMBER
+    x, beside_end = ends.points[:, : fibre.cut.n], set[bool]()
+    for j in np.flatnonzero(ends.finite).tolist():
+        other = ends.fine.get(j) or (None if ends.regular[j] else Fine.of_doubles(ends.points[j]))
+        if j != i and other and distance(x[i], end, x[j], other) < SPREAD * apart:
+            beside_end.add(bool(own[j]))
+    if True in beside_end:
+        return Membership.MEMBER
+    return None if beside_end else Membership.UNDECIDED
 
 
 def _beside(cut: Cut, point: np.ndarray) -> float:
@@ -285,32 +303,40 @@ def memberships(
         return (Membership.FOREIGN,) * len(decomposition.components)
     asked = _Asked.of(point, accuracy, exact, coordinates_of(system).unscaled)
     whole = carry_decomposition(decomposition, asked.natural)
-    answers = _by_components(whole, asked, rng, tracker)
+    answers, shared = _by_components(whole, asked, rng, tracker)
     nowhere = all(answer is Membership.FOREIGN for answer in answers)
     if nowhere and not exact and _surely_on_one(decomposition, point, accuracy):
         return (Membership.UNDECIDED,) * len(answers)
-    on = [k for k, answer in enumerate(answers) if answer is Membership.MEMBER]
-    if len(on) > 1 and not exact and not _meet_near(decomposition, on, point, accuracy):
-        return tuple(Membership.UNDECIDED if k in on else a for k, a in enumerate(answers))
+    on = [k for k, answer in enumerate(answers) if answer is Membership.MEMBER or shared[k]]
+    if len(on) > 1 and not exact:
+        told = not any(shared[k] for k in on)
+        meet = _meet_near(decomposition, on, point, accuracy, told)
+        answer = Membership.MEMBER if meet else Membership.UNDECIDED
+        return tuple(answer if k in on else a for k, a in enumerate(answers))
     return answers
 
 
 def _meet_near(
-    decomposition: Decomposition, on: Sequence[int], point: np.ndarray, accuracy: float
+    decomposition: Decomposition,
+    on: Sequence[int],
+    point: np.ndarray,
+    accuracy: float,
+    told: bool,
 ) -> bool:
     """Whether components are seen to have a common point within the error of a rounded one.
 
     Without such a point it is rounded from one of a single component, and it is not known which.
-    Of components that one branch of the equations holds, nothing is said against it.
+    Of components that one branch of the equations holds nothing is said against it, if paths
+    ``told`` that the point is on each; else they meet in a point where the branch is not smooth.
     """
     system, components = decomposition.system, decomposition.components
     parts = dict.fromkeys(component_system(system, components[k]).polynomials for k in on)
-    if len(parts) == 1:
+    if len(parts) == 1 and told:
         return True
     together = tuple(dict.fromkeys(f for part in parts for f in part))
     error = SPREAD * accuracy
     zero = analyse(together, point, error, np.random.default_rng(0), place_only=True)
-    return zero.place is not Place.UNDECIDED
+    return zero.place is not Place.UNDECIDED and not (len(parts) == 1 and zero.beside)
 
 
 @dataclass(frozen=True, eq=False)
@@ -349,23 +375,24 @@ class _Asked:
 
 def _by_components(
     decomposition: Decomposition, asked: _Asked, rng: np.random.Generator, tracker: Tracker
-) -> tuple[Membership, ...]:
-    """For each component by itself, whether a point lies on it."""
+) -> tuple[tuple[Membership, ...], tuple[bool, ...]]:
+    """For each component by itself, whether a point lies on it, or on another as near to it."""
     system, components = decomposition.system, decomposition.components
     point, exact = asked.point, asked.exact
-    answers: dict[int, Membership] = {}
+    answers: dict[int, tuple[Membership, bool]] = {}
     moving: dict[tuple[object, bytes], dict[int, list[Fibre]]] = {}
     for k, component in enumerate(components):
         # Equations that would be found anew may be those of another set beside it.
         if exact and not all(_may_be_on(fibre.cut, exact) for fibre in component.fibres):
-            answers[k] = Membership.FOREIGN
+            answers[k] = Membership.FOREIGN, False
         elif component.dimension == 0:
-            answers[k] = _at_isolated(system, component, point, asked.accuracy(), exact)
+            found = _at_isolated(system, component, point, asked.accuracy(), exact)
+            answers[k] = found, False
         else:
             try:
                 fibres = component_fibres(system, component)
             except ValueError:
-                answers[k] = Membership.UNDECIDED
+                answers[k] = Membership.UNDECIDED, False
                 continue
             rows = component.slice.rows
             moving.setdefault((rows.shape, rows.tobytes()), {})[k] = fibres
@@ -373,9 +400,12 @@ def _by_components(
         rows = components[next(iter(several))].slice.rows
         sets = list(several.values())
         accuracy = asked.accuracy(sets[0][0].sizes[1:])
-        found, _ = find_members(point, accuracy, sets, rows, rng, tracker, exact)
-        answers |= zip(several, found, strict=True)
-    return tuple(answers[k] for k in range(len(components)))
+        each, _ = find_members(point, accuracy, sets, rows, rng, tracker, exact)
+        answers |= zip(several, each, strict=True)
+    if not answers:
+        return (), ()
+    words, shared = zip(*(answers[k] for k in range(len(components))), strict=True)
+    return words, shared
 
 
 def _surely_on_one(decomposition: Decomposition, point: np.ndarray, accuracy: float) -> bool:
