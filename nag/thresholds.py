@@ -188,6 +188,9 @@ tracking.ends.inclusion.WIDER               64      Rounding errors in the radiu
                                                     hold the errors of the values there.
 tracking.ends.inclusion.STEPS               16      Newton's steps in that radius, at least: the box
                                                     need not be larger where these are small.
+tracking.ends.inclusion.SHRINKS             0.01    Newton's step to a regular zero, in the one
+                                                    before, at most, with one Jacobian; to a
+                                                    double one it is a fourth of that.
 tracking.ends.corrector.STAGNANT            100     Rounding errors in a correction that need not
                                                     contract any more.
 tracking.ends.corrector.FLOOR               1e-9    Coordinates not known at a start in doubles.

@@ -155,6 +155,16 @@ def test_zeros_that_are_not_regular_are_not_proved() -> None:
     assert len(starts) == 2
 
 
+def test_no_more_digits_are_asked_for_near_a_double_zero() -> None:
+    (x,) = Polynomial.variables(1)
+    centre = np.zeros((2, 2, 2))
+    centre[:, 0, 0], centre[1, 0, 1] = 1.0, 1e-18
+    double, _ = homotopy_of([(x - 1) ** 2])
+    terms = Terms(double)
+    assert proved(terms, centre, np.full(2, 1e-18)) is None
+    assert "finer" not in vars(terms)
+
+
 @pytest.mark.parametrize("k", [8, 12, 14, 20, 24])
 def test_the_radii_of_close_ends_hold_one_zero_each(k: int) -> None:
     # Zeros at 1/3 +- 10^-k.

@@ -325,6 +325,12 @@ def _solutions(
         answers = [problem.excluded(s) for s in isolated]
     original = np.array(problem.target.original(points), dtype=np.complex128)
     original.setflags(write=False)
+    for i, (x, zero) in enumerate(zip(original, isolated, strict=True)):
+        if zero.fine is not None:
+            # Coordinates that are small where errors were estimated may be the largest of these.
+            radii = problem.target.original_radii(x, zero.fine.radii)
+            own = np.linalg.norm(radii) / (1 + np.linalg.norm(x))
+            accuracy[i] = max(accuracy[i], own)
     errors = (accuracy + problem.target.rounding(points)).tolist()
     solutions = [
         Solution(

@@ -10,7 +10,7 @@ Reference:
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import flint
 import numpy as np
@@ -21,8 +21,8 @@ from nag.tracking.ends.terms import BITS, Factors, Terms, number
 WIDER, STEPS = 64.0, 16.0
 # Least part of the first that is taken; of a zero in twice the digits, its square.
 TINY = 1e-12
-# Newton's steps to such a zero.
-FINER_STEPS = 2
+# Newton's steps to a regular zero, in the one before, at most.
+SHRINKS = 0.01
 
 
 def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray | None:
@@ -53,43 +53,76 @@ def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray |
         return None
     with flint.ctx.workprec(bits):
         x = [number(c) for c in centre]
-        radii = _radii_of_box(terms, x, most, TINY)
-    if radii is not None:
-        return radii
+        linear = _linearize(terms, x)
+        if linear is None:
+            return None
+        radii = _radii_of_box(terms, x, linear, most, TINY)
+        if radii is not None:
+            return radii
+        near = _next_if_convergent(terms, x, linear, most)
+    if near is None:
+        return None
     with flint.ctx.workprec(2 * bits):
-        zero = x
-        for _ in range(FINER_STEPS):
-            correction = _linearize(terms.finer, zero)
-            if correction is None:
-                return None
-            zero = [(z - step).mid() for z, step in zip(zero, correction[1].entries(), strict=True)]
-            away = np.array([float((z - c).abs_upper()) for z, c in zip(zero, x, strict=True)])
-            if not (away < most).all():
-                return None
-        radii = _radii_of_box(terms.finer, zero, most, TINY**2)
+        linear = _linearize(terms.finer, near)
+        if linear is None:
+            return None
+        zero = _after_step(near, linear.step)
+        away = np.array([float((z - c).abs_upper()) for z, c in zip(zero, x, strict=True)])
+        linear = _linearize(terms.finer, zero) if (away < most).all() else None
+        if linear is None:
+            return None
+        radii = _radii_of_box(terms.finer, zero, linear, most, TINY**2)
     return None if radii is None else away + radii
 
 
-def _linearize(terms: Terms, x: list[Any]) -> tuple[flint.acb_mat, flint.acb_mat, Any] | None:
+class _Linear(NamedTuple):
     """A matrix near the inverse Jacobian at a point, Newton's step there, and the patches."""
+
+    inverse: flint.acb_mat
+    step: flint.acb_mat
+    patches: list[list[Any]]
+
+
+def _linearize(terms: Terms, x: list[Any]) -> _Linear | None:
+    """What there is at a point; None if the Jacobian has no inverse."""
     patches = patches_through(flint, terms, x)
     values, jacobian = system_at(flint, terms, patches, x)
     try:
         inverse = jacobian.mid().inv().mid()
     except ZeroDivisionError:
         return None
-    return inverse, inverse * values, patches
+    return _Linear(inverse, inverse * values, patches)
 
 
-def _radii_of_box(terms: Terms, x: list[Any], most: np.ndarray, least: float) -> np.ndarray | None:
+def _after_step(x: list[Any], step: flint.acb_mat) -> list[Any]:
+    return [(z - s).mid() for z, s in zip(x, step.entries(), strict=True)]
+
+
+def _next_if_convergent(
+    terms: Terms, x: list[Any], linear: _Linear, most: np.ndarray
+) -> list[Any] | None:
+    """The point after Newton's step from ``x``; None if the next one is not far smaller.
+
+    Steps to a regular zero shrink with the distance from it; to a multiple one, by a constant.
+    """
+    near = _after_step(x, linear.step)
+    values, _ = system_at(flint, terms, linear.patches, near)
+    first, second = (
+        max(float(s.abs_upper()) / r for s, r in zip(step.entries(), most.tolist(), strict=True))
+        for step in (linear.step, linear.inverse * values)
+    )
+    return near if second < SHRINKS * first < SHRINKS else None
+
+
+def _radii_of_box(
+    terms: Terms, x: list[Any], linear: _Linear, most: np.ndarray, least: float
+) -> np.ndarray | None:
     """Half sides of a box about ``x`` that Krawczyk's operator maps into itself.
 
     Args:
         most: the largest that they may be, shape ``(N,)``; least: the least part of these.
     """
-    N, linear = terms.homotopy.N, _linearize(terms, x)
-    if linear is None:
-        return None
+    N = terms.homotopy.N
     inverse, newton, patches = linear
     # The box must not be larger than Newton's step asks for.
     steps = [float(newton[j, 0].abs_upper()) / r for j, r in enumerate(most.tolist())]
