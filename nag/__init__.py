@@ -49,6 +49,7 @@ _HOME = {
     "Polynomial": "nag.algebra.polynomial",
     "PolynomialSystem": "nag.algebra.system",
     "SignedPermutation": "nag.algebra.symmetry",
+    "Run": "nag.tracking.run",
     "Slice": "nag.witness.witness",
     "SolveResult": "nag.solving.solutions",
     "Solution": "nag.solving.solutions",

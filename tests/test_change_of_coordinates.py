@@ -22,8 +22,8 @@ from nag.decomposition.trace import linear_traces
 from nag.interpolation.precise_samples import samples, source_of_component
 from nag.numerics.digits import number
 from nag.numerics.natural_coordinates import NaturalCoordinates
+from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
-from nag.witness.fibres import Tracker
 from nag.witness.witness import Decomposition
 
 SYSTEMS = {
@@ -129,7 +129,7 @@ def test_points_far_from_the_origin_are_sampled_to_many_digits() -> None:
     assert [(c.dimension, c.degree) for c in whole.components] == [(1, 1), (1, 1), (1, 4)]
     for component in whole.components:
         source = source_of_component(system, component)
-        for found in samples(source, 3, np.random.default_rng(1), Tracker()):
+        for found in samples(source, 3, np.random.default_rng(1), Run()):
             with flint.ctx.workdps(150):
                 point = found.balls(60)
                 values = [f(point, number) for f in system.polynomials]

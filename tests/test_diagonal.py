@@ -11,7 +11,7 @@ from nag.decomposition.diagonal import Intersected, intersected
 from nag.decomposition.factor import Factor
 from nag.decomposition.intersection import intersect_components
 from nag.decomposition.reduction import Reduction
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 
 SPHERE = "x^2 + y^2 + z^2 - 1"
 
@@ -26,7 +26,7 @@ def met(
         (component,) = decompose(of).components
         factors.append(Factor.of(of, component))
     common = Reduction.of(system("x y z", first, second, nonzero=nonzero))
-    return intersected(*factors, common, np.random.default_rng(seed), Tracker()), common
+    return intersected(*factors, common, np.random.default_rng(seed), Run()), common
 
 
 def points(found: Intersected, common: Reduction) -> np.ndarray:

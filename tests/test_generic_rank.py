@@ -14,7 +14,7 @@ from nag.decomposition.isolated import is_finite
 from nag.mechanism.framework import placed_framework
 from nag.mechanism.framework_model import framework_model
 from nag.mechanism.model import model
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 from nag.witness.witness import PathCounts
 
 X, Y, Z = Polynomial.variables(3)
@@ -57,12 +57,12 @@ def test_no_paths_are_tracked_to_isolated_realisations_where_there_are_none(monk
         raise AssertionError("paths were tracked")
 
     monkeypatch.setattr(isolated, "_solved", tracked)
-    assert is_finite(system, np.random.default_rng(0), Tracker()) == (False, PathCounts())
+    assert is_finite(system, np.random.default_rng(0), Run()) == (False, PathCounts())
 
 
 def test_paths_that_only_said_that_a_set_is_finite_are_counted():
     system = model(general_loop(6, 4), "H").system
-    finite, spent = is_finite(system, np.random.default_rng(0), Tracker())
-    points = isolated.solved_at_once(system, np.random.default_rng(0), Tracker(), (), True)
+    finite, spent = is_finite(system, np.random.default_rng(0), Run())
+    points = isolated.solved_at_once(system, np.random.default_rng(0), Run(), (), True)
     assert finite and points is not None and spent.tracked > 0
     assert decompose(system).paths.tracked == spent.tracked + points.paths.tracked

@@ -7,11 +7,12 @@ import pytest
 from cuts import curve, fibre
 
 from nag.decomposition.hypersurface import Sections, hypersurface_section, intersect
+from nag.tracking.run import Run
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, Tracker
+from nag.witness.fibres import Fibre
 from nag.witness.slices import random_rows, unit_complex
 
-TRACKER = Tracker()
+TRACKER = Run()
 CIRCLE, LINE = "x^2 + y^2 - 1", "3*x - 4*y"
 
 

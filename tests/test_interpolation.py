@@ -34,7 +34,7 @@ from nag.interpolation.vanishing import (
     start,
 )
 from nag.numerics.rational_relations import Echelon, TooFewDigitsError, recognised
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 
 laws = settings(max_examples=25)
 DIGITS = 60
@@ -52,7 +52,7 @@ def system(names: str, *equations: str) -> PolynomialSystem:
 def cloud(equations: PolynomialSystem, *point: int | str) -> Cloud:
     rng = np.random.default_rng(0)
     source = source_at(equations, tuple(Fraction(x) for x in point), rng)
-    return Cloud(source, Ambient.itself(equations), rng, Tracker())
+    return Cloud(source, Ambient.itself(equations), rng, Run())
 
 
 rationals = st.builds(Fraction, st.integers(-(10**6), 10**6), st.integers(1, 10**6))

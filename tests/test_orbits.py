@@ -18,7 +18,7 @@ from nag.decomposition.superset import Ambient, witness_superset
 from nag.files.cases import read_case
 from nag.files.export import read_decomposition, write_decomposition
 from nag.report.agreement import Verdict, compare
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 from nag.witness.frame import Frame, expanded
 from nag.witness.points import Points
 from nag.witness.shown import kinds
@@ -155,7 +155,7 @@ def test_orbits_are_the_same_for_any_number_of_threads() -> None:
 def test_a_missing_point_is_noticed() -> None:
     swap = symmetry("x y", x="y", y="x")
     equations = system("x y", "(x^2 - 2)*(y^2 - 2)").polynomials
-    rng, tracker = np.random.default_rng(0), Tracker()
+    rng, tracker = np.random.default_rng(0), Run()
     flag = random_rows(rng, 2, 2)
     fibres = witness_superset(equations, Ambient.space(flag), rng, tracker).fibres[1]
     action = Action.of(swap, Frame(np.eye(2), np.zeros(2), (0, 1), np.ones(2)))

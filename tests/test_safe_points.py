@@ -13,8 +13,8 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.files.cases import read_case
 from nag.files.problem import system_of
+from nag.tracking.run import Run
 from nag.tracking.settings import Settings
-from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
 
 SPATIAL = Path(__file__).parent.parent / "cases" / "spatial"
@@ -26,7 +26,7 @@ def test_ends_that_ask_for_more_digits_are_reached_at_the_first_attempt(seed: in
     reduced, rng = reduction.reduced, np.random.default_rng(seed)
     equations = [reduced.polynomials[i] for i in intersection_order(reduced.polynomials)]
     flag = random_rows(rng, reduced.n, reduced.n, 0.3)
-    found = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, Tracker())
+    found = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, Run())
     assert found.counts.failed == 0
     assert found.notes == ()
     assert {d: sum(map(len, f)) for d, f in found.fibres.items() if f} == {1: 16}

@@ -25,7 +25,7 @@ from nag.decomposition.singular_points import SingularLocus, singular_locus
 from nag.files.json_values import schema
 from nag.numerics.tangent_cone import tangent_cone
 from nag.report.singular import set_lines
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 
 
 def locus_of(name: str) -> tuple[nag.PolynomialSystem, SingularLocus]:
@@ -85,7 +85,7 @@ def test_components_of_two_rhombi_meet_in_circles_and_points() -> None:
 
 def test_a_component_is_cut_by_the_equations_of_its_linear_hull() -> None:
     answer = nag.decompose(["(x - y)*(x^2 + y^2 - 1)", "z^2 - x^2 - 3*x*(x - y)"])
-    rng, tracker = np.random.default_rng(3), Tracker("default", 1)
+    rng, tracker = np.random.default_rng(3), Run()
     found = [within_hull(answer.system, c, rng, tracker) for c in answer.components]
     left = [Reduction.of(system).n for system, _ in found]
     assert sorted(zip(left, [c.degree for c in answer.components], strict=True)) == [

@@ -22,14 +22,15 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class, split
 from nag.decomposition.trace import EVIDENCE, Trace
 from nag.files.cases import read_case
-from nag.witness.fibres import Fibre, Tracker
+from nag.tracking.run import Run
+from nag.witness.fibres import Fibre
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
 from nag.witness.witness import Status, WitnessSet
 
 CIRCLE, LINE, CUBIC = "x^2 + y^2 - 1", "x - 2*y - 3", "y^2 - x^3 + x - 2"
 UNION = f"({CIRCLE})*({LINE})"
-TRACKER = Tracker()
+TRACKER = Run()
 CASES = Path(__file__).parent.parent / "cases"
 ROWS = random_rows(np.random.default_rng(6), 1, 2)
 

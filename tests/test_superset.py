@@ -12,10 +12,10 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition import decompose, superset
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
+from nag.tracking.run import Run
 from nag.witness.close_to_sets import Meant
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, Equations
-from nag.witness.fibres import Tracker
 from nag.witness.membership import Membership
 from nag.witness.slices import random_rows
 from nag.witness.witness import PathCounts
@@ -31,7 +31,7 @@ def test_what_only_the_first_equations_see_as_multiple_is_not_deflated(seed: int
     rng = np.random.default_rng(seed)
     flag = random_rows(rng, 3, 3)
     equations = polynomials("x y z", "y - x^3", "y + x^3", "x*(z^3 + 2)")
-    found = witness_superset(equations, Ambient.space(flag), rng, Tracker())
+    found = witness_superset(equations, Ambient.space(flag), rng, Run())
     assert not found.notes and not found.counts.failed
     assert Counter({d: sum(map(len, f)) for d, f in found.fibres.items()}) == Counter({1: 1})
     assert all(not f.cut.deflated for f in found.fibres[1])
@@ -136,6 +136,6 @@ def test_an_end_that_is_no_known_zero_is_not_taken_for_a_point_of_a_set(
     member = (Membership.MEMBER, PathCounts())
     monkeypatch.setattr(superset._Stage, "larger", lambda *_: member)
     none = superset.Superset({}, np.eye(3, 4), PathCounts(), ())
-    stage = superset._Stage((), (), none, (), np.random.default_rng(0), Tracker())
+    stage = superset._Stage((), (), none, (), np.random.default_rng(0), Run())
     doubts, _ = stage.add([(np.zeros(3), 1e-15)], {0: []}, Equations((), 3), np.eye(3, 4), 0, True)
     assert bool(doubts) is not located

@@ -28,7 +28,7 @@ from nag.solving import solve as solving
 from nag.solving.solve import solve
 from nag.solving.start.isotropic import IsotropicSection
 from nag.solving.start.mixed_cells import mixed_cells
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 from nag.witness.slices import random_rows
 from nag.witness.witness import PathCounts
 
@@ -42,7 +42,7 @@ def planar(name: str) -> PolynomialSystem:
 def at_once(system: PolynomialSystem, seed: int) -> tuple[Superset | None, PathCounts]:
     reduction, rng = Reduction.of(system, scaled=True), np.random.default_rng(seed)
     flag = random_rows(rng, reduction.n, reduction.n)
-    return section_at_once(reduction, flag, rng, Tracker())
+    return section_at_once(reduction, flag, rng, Run())
 
 
 def plate(name: str, pins: str, *places: tuple[int, int]) -> Link:

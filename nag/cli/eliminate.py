@@ -162,10 +162,10 @@ def _cloud(options: argparse.Namespace) -> Begun:
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import SourceError, source_of_component
     from nag.report.model import body_rows
-    from nag.witness.fibres import Tracker
+    from nag.witness.fibres import Run
 
     rng = np.random.default_rng([options.seed, 4])
-    tracker = Tracker(options.settings, options.threads)
+    run = Run(options.seed, options.threads, options.settings)
     model, top = None, []
     if not is_export(options.case):
         if options.component is None and options.formulation is None:
@@ -173,7 +173,7 @@ def _cloud(options: argparse.Namespace) -> Begun:
         case, model = read_problem(options)
         top = body_rows(model) if model is not None else []
         if options.at is not None or (model is not None and options.component is None):
-            return _through_point(options, case, model, rng, tracker, top)
+            return _through_point(options, case, model, rng, run, top)
     elif options.at is not None:
         raise UsageError("--at: is for cases; of an export name a --component")
     found = given(options)
@@ -185,7 +185,7 @@ def _cloud(options: argparse.Namespace) -> Begun:
         raise SourceError("the component is a point; there is nothing to eliminate from")
     top = [numbered_row(number, component), *top]
     tail = [*doubts(found), *([("open", component.note)] if component.note else [])]
-    cloud = Cloud(source_of_component(system, component), ambient, rng, tracker)
+    cloud = Cloud(source_of_component(system, component), ambient, rng, run)
     others = enumerate(found.decomposition.components, 1)
     alike = {number: component} | {k: c for k, c in others if _kind(c) == _kind(component)}
     return found.case, cloud, top, tail, alike
@@ -206,7 +206,7 @@ def _through_point(
     case: Any,
     model: Model | None,
     rng: np.random.Generator,
-    tracker: Any,
+    run: Any,
     top: Labelled,
 ) -> Begun:
     from nag.files.problem import points_of, system_of
@@ -231,7 +231,7 @@ def _through_point(
         raise UsageError(f"{options.case}: {what}{error}; or name a --component") from None
     which = "the reference configuration" if name == "reference" else name
     top = [("component", f"through {which}, of dimension {source.dimension}"), *top]
-    return name_case(case), Cloud(source, ambient, rng, tracker), top, [], {}
+    return name_case(case), Cloud(source, ambient, rng, run), top, [], {}
 
 
 def _ambient(model: Model) -> Ambient:

@@ -260,7 +260,7 @@ def compilation_notice(stream: TextIO, quiet: bool = False) -> Iterator[None]:
     def notice(name: str) -> None:
         if not given:
             start = _ERASE if stream.isatty() else ""
-            stream.write(f"{start}compiling the tracker, once; this takes a few seconds ...\n")
+            stream.write(f"{start}compiling the run, once; this takes a few seconds ...\n")
             stream.flush()
         given.append(name)
 

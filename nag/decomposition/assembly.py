@@ -16,7 +16,8 @@ from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.trace import digits_of_evidence
 from nag.numerics.zero_values import LEAST
-from nag.witness.fibres import Fibre, Tracker
+from nag.tracking.run import Run
+from nag.witness.fibres import Fibre
 from nag.witness.membership import Membership, is_member
 from nag.witness.points import Points
 from nag.witness.witness import PathCounts, Status, WitnessSet
@@ -85,7 +86,7 @@ def assembled(
     points: Mapping[int, Points],
     reduction: Reduction,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
     known: Known = NOTHING,
 ) -> Assembly:
     """The irreducible components of sets that are given by their points, by dimension."""
@@ -95,8 +96,8 @@ def assembled(
     for d in sorted(points, reverse=True):
         if not len(points[d]):
             continue
-        tracker.tell("splitting", len(pieces), 0)
-        found = irreducible_orbits(points[d], known.actions, evidence, rng, tracker)
+        run.tell("splitting", len(pieces), 0)
+        found = irreducible_orbits(points[d], known.actions, evidence, rng, run)
         counts += found.counts
         notes += [f"dimension {d}: {note}" for note in found.notes]
         here = []
@@ -106,11 +107,11 @@ def assembled(
             own = orbit.representative
             fibres = [fibre for fibre, _ in found.points.fibres(own.indices)]
             if known.embedded:
-                inside, spent = _on_larger_set(fibres[0], pieces, points, rng, tracker)
+                inside, spent = _on_larger_set(fibres[0], pieces, points, rng, run)
                 counts += spent
                 if inside:
                     continue
-            component, spent = checked_witness_set(own, examined, rng, tracker, known.scheme)
+            component, spent = checked_witness_set(own, examined, rng, run, known.scheme)
             counts += spent
             size = 1 + len(orbit.carriers)
             component = replace(component, orbit=size, images=orbit.carriers)
@@ -124,7 +125,7 @@ def _on_larger_set(
     pieces: Sequence[Piece],
     points: Mapping[int, Points],
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[bool, PathCounts]:
     """Whether a set that deflation was needed for lies on one of higher dimension."""
     counts = PathCounts()
@@ -132,7 +133,7 @@ def _on_larger_set(
         return False, counts
     for d in sorted({piece.component.dimension for piece in pieces}):
         higher = [f for piece in pieces for f in piece.fibres if f.dimension == d]
-        answer, spent = is_member(fibre.x[0], LEAST, higher, points[d].rows, rng, tracker)
+        answer, spent = is_member(fibre.x[0], LEAST, higher, points[d].rows, rng, run)
         counts += spent
         if answer is Membership.MEMBER:
             return True, counts

@@ -29,12 +29,13 @@ from nag.numerics.branch_union import (
 from nag.numerics.natural_coordinates import scale_coordinates
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import ON, SINGULAR, WRITTEN, vanishes_at_all, widened
+from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, numerical_corank
 from nag.witness.exact_points import exact_zeros, framed, sharpened
-from nag.witness.fibres import Fibre, Tracker
+from nag.witness.fibres import Fibre
 from nag.witness.frame import Frame
 from nag.witness.membership import Membership, is_member
 from nag.witness.moving import witness_at
@@ -153,8 +154,7 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     Returns:
         None if the system neither falls apart nor comes down to one variable.
     """
-    system, symmetries, seed = task.system, task.symmetries, task.seed
-    settings, threads = task.tracker.settings, task.tracker.threads
+    system, symmetries, run = task.system, task.symmetries, task.run
     if system.n == 0:
         return None
     apart = branches(system)
@@ -162,27 +162,27 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     zeros = algebraic_zeros(system) if apart is None else None
     if apart is None and zeros is None:
         return None
-    rng = np.random.default_rng([seed, 11])
+    rng = run.random(11)
     if zeros is not None:
         parts = [_algebraic(system, zeros)]
     else:
         systems = [b.system(system) for b in apart]
         used = symmetries if len(systems) == 1 and _keep(symmetries, systems[0]) else ()
         parts = [_part(task.of_part(each, used), others, rng) for each in systems]
-    joined, notes, counts = _join(parts, rng, Tracker(settings, threads))
+    joined, notes, counts = _join(parts, rng, run)
     components = [c.witness for c in joined]
     if apart is not None:
         components = _in_scheme(system, joined)
     if symmetries and not used and components:
         try:
-            components = _orbits(system, components, symmetries, seed, threads, settings)
+            components = _orbits(system, components, symmetries, run)
         except ValueError as error:
             notes.append(f"orbits of the symmetries are not known: {error}")
     components.sort(key=lambda c: (-c.dimension, c.degree))
     answers = [part.answer for part in parts if part.answer is not None]
     notes += [note for answer in answers for note in answer.notes]
     paths = sum((answer.paths for answer in answers), counts)
-    return judged(system, components, paths, settings, notes, seed=seed)
+    return judged(system, components, paths, run.settings, notes, seed=run.seed)
 
 
 def _keep(symmetries: Sequence[SignedPermutation], system: PolynomialSystem) -> bool:
@@ -276,7 +276,7 @@ class _Coverage:
     """Looks for components in larger ones of other branches, and counts the paths that it takes."""
 
     rng: np.random.Generator
-    tracker: Tracker
+    run: Run
     counts: PathCounts = field(default=PathCounts())
 
     def is_in_larger(self, part: _Part, component: BranchComponent) -> bool | None:
@@ -296,7 +296,7 @@ class _Coverage:
                 result = None
                 continue
             point, rows = witness.points[0], each.witness.slice.rows
-            answer, spent = is_member(point, witness.accuracy, fibres, rows, self.rng, self.tracker)
+            answer, spent = is_member(point, witness.accuracy, fibres, rows, self.rng, self.run)
             self.counts += spent
             if answer is Membership.MEMBER:
                 return True
@@ -306,10 +306,10 @@ class _Coverage:
 
 
 def _join(
-    parts: Sequence[_Part], rng: np.random.Generator, tracker: Tracker
+    parts: Sequence[_Part], rng: np.random.Generator, run: Run
 ) -> tuple[list[BranchComponent], list[str], PathCounts]:
     """The components of all branches that lie in no component of another branch."""
-    coverage = _Coverage(rng, tracker)
+    coverage = _Coverage(rng, run)
     kept: list[BranchComponent] = []
     notes: list[str] = []
     branches = [
@@ -353,22 +353,19 @@ def _orbits(
     system: PolynomialSystem,
     components: Sequence[WitnessSet],
     symmetries: Sequence[SignedPermutation],
-    seed: int,
-    threads: int,
-    settings: str,
+    run: Run,
 ) -> list[WitnessSet]:
     """One of each orbit; components that are not confirmed are none of any.
 
     Raises:
         ValueError: if points could not be moved to a common slice.
     """
-    options = {"seed": seed, "threads": threads, "settings": settings}
     whole = [c for c in components if c.status is Status.IRREDUCIBLE]
-    rng, natural = np.random.default_rng([seed, 12]), coordinates_of(system)
+    rng, natural = run.random(12), coordinates_of(system)
     flag = natural.inverse.rows(random_rows(rng, system.n, system.n))
     whole = [
-        witness_at(system, c, to_slice(flag[: c.dimension]), **options) if c.dimension else c
+        witness_at(system, c, to_slice(flag[: c.dimension]), run=run) if c.dimension else c
         for c in whole
     ]
-    orbits = in_orbits(system, whole, symmetries, **options)
+    orbits = in_orbits(system, whole, symmetries, run=run)
     return [*orbits, *(c for c in components if c.status is not Status.IRREDUCIBLE)]

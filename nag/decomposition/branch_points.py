@@ -23,7 +23,8 @@ from nag.numerics.digits import doubles, log_norm, log_size, middle, number, wor
 from nag.numerics.exact_system import ExactSystem, value
 from nag.numerics.implicit_function import jacobian
 from nag.numerics.power_series import Terms
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.tracking.run import Run
+from nag.witness.fibres import Fibre, move
 from nag.witness.slices import unit_complex
 
 DIGITS = 200
@@ -61,7 +62,7 @@ class Sheets:
         return sum(map(len, self.fibres))
 
 
-def branch_points(sheets: Sheets, rng: np.random.Generator, tracker: Tracker) -> list[complex]:
+def branch_points(sheets: Sheets, rng: np.random.Generator, run: Run) -> list[complex]:
     """The finite values at which sheets come together and are exchanged.
 
     Raises:
@@ -77,7 +78,7 @@ def branch_points(sheets: Sheets, rng: np.random.Generator, tracker: Tracker) ->
     while True:
         for _ in range(BATCH):
             t = complex(size * (0.3 + 1.2 * rng.random()) * unit_complex(rng))
-            values.append(_sum_of_squares(sheets, t, weights, rng, tracker))
+            values.append(_sum_of_squares(sheets, t, weights, rng, run))
             at.append(t)
         with working(DIGITS):
             rank = _rank(_loewner(at, values))
@@ -88,13 +89,13 @@ def branch_points(sheets: Sheets, rng: np.random.Generator, tracker: Tracker) ->
 
 
 def _sum_of_squares(
-    sheets: Sheets, t: complex, weights: np.ndarray, rng: np.random.Generator, tracker: Tracker
+    sheets: Sheets, t: complex, weights: np.ndarray, rng: np.random.Generator, run: Run
 ) -> flint.acb:
     with working(DIGITS):
         total = flint.acb(0)
     for fibre in sheets.fibres:
         gamma = complex(unit_complex(rng))
-        (ends,) = move([fibre], sheets.rows(sheets.base), sheets.rows(t), gamma, tracker)
+        (ends,) = move([fibre], sheets.rows(sheets.base), sheets.rows(t), gamma, run)
         if not ends.regular.all():
             raise BranchPointError("paths to another slice failed")
         system = ExactSystem.of(

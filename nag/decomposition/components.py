@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from nag.algebra.given import check_listed, check_running
+from nag.algebra.given import check_listed
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.branch_components import decompose_apart
@@ -19,19 +19,17 @@ from nag.decomposition.independent_parts import decompose_parts
 from nag.decomposition.method import Attempt, Others, Task, decompose_by
 from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.rational_curve import decompose_rational_curve
-from nag.witness.fibres import Progress, Tracker
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.given_component import check_system
 from nag.witness.witness import Decomposition
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def decompose(
     system: PolynomialSystem,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
-    progress: Progress | None = None,
+    run: Run = DEFAULT_RUN,
     symmetries: Sequence[SignedPermutation] = (),
 ) -> Decomposition:
     """Decompose the zero set of ``system`` into irreducible components over the complex numbers.
@@ -50,10 +48,7 @@ def decompose(
     Args:
         system: the equations; components on which a polynomial of ``system.nonzero`` vanishes
             identically are left out.
-        seed: of all random numbers.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
-        progress: called with a stage's name, the step reached and the number of steps.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
         symmetries: signed permutations of the variables that keep the equations. Of the components
             that they carry into each other one is worked out and reported, with the size of its
             orbit; `nag.witness.frame.expanded` lists the others.
@@ -68,12 +63,10 @@ def decompose(
     [(1, 1), (1, 1)]
     """
     check_system(system)
-    check_running(seed, threads, settings, progress)
     check_listed(symmetries, "symmetries", "a list of nag.SignedPermutation")
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
-    tracker = Tracker(settings, threads, progress)
-    return decompose_by(METHODS, Task(system, tuple(symmetries), seed, tracker))
+    return decompose_by(METHODS, Task(system, tuple(symmetries), run))
 
 
 def by_variables(task: Task, others: Others) -> Attempt:
@@ -89,14 +82,14 @@ def by_branches(task: Task, others: Others) -> Attempt:
 def one_equation(task: Task, _: Others) -> Attempt:
     """The factors over the complex numbers of the one equation that linear algebra leaves."""
     moving = any(not g.is_identity for g in task.symmetries)
-    answer = decompose_one_equation(task.reduction, task.rng, task.tracker, task.scheme, one=moving)
-    return Attempt(answer and replace(answer, seed=task.seed))
+    answer = decompose_one_equation(task.reduction, task.rng, task.run, task.scheme, one=moving)
+    return Attempt(answer and replace(answer, seed=task.run.seed))
 
 
 def rational_curve(task: Task, _: Others) -> Attempt:
     """A curve that polynomials in one variable give, exactly."""
-    answer = decompose_rational_curve(task.reduction, task.rng, task.tracker, task.scheme)
-    return Attempt(answer and replace(answer, seed=task.seed))
+    answer = decompose_rational_curve(task.reduction, task.rng, task.run, task.scheme)
+    return Attempt(answer and replace(answer, seed=task.run.seed))
 
 
 # Paths take longer to load than most of what needs none takes altogether.

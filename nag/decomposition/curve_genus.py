@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -26,9 +25,10 @@ from nag.decomposition.factor import IntersectionError
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.rank_drop import rank_drop, rank_drop_points
 from nag.errors import ComponentError, NagError
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.fibres import Tracker, move_regular
+from nag.witness.fibres import move_regular
 from nag.witness.given_component import check_component
 from nag.witness.points import with_fine
 from nag.witness.slices import random_rows, unit_complex
@@ -70,14 +70,13 @@ class Genus:
         return self.genus == 0
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def genus(
     system: PolynomialSystem,
     component: WitnessSet,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> Genus:
     """The genus of an irreducible, reduced curve.
 
@@ -87,9 +86,7 @@ def genus(
     Args:
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Returns:
         The genus of the smooth model, and what it was found from.
@@ -104,55 +101,52 @@ def genus(
     >>> genus(cubic.system, cubic.components[0]).genus
     1
     """
-    check_component(system, component, seed, threads, settings)
+    check_component(system, component)
     if component.dimension != 1:
         raise NagError(f"the component has dimension {component.dimension}; a curve has 1")
-    rng, tracker = np.random.default_rng([seed, 9, 0]), Tracker(settings, threads)
+    rng = run.random(9, 0)
     natural = coordinates_of(system)
     system = natural.system(system)
     component = carry_component(component, natural, system)
     try:
-        sheets = _sheets(system, component, rng, tracker)
-        values = branch_points(sheets, rng, tracker)
+        sheets = _sheets(system, component, rng, run)
+        values = branch_points(sheets, rng, run)
         # Sheets that are exchanged round a cusp have bounded derivatives there.
-        options = {"seed": seed, "threads": threads, "settings": settings}
-        cusps = _singular_points(system, component, options)
+        cusps = _singular_points(system, component, run)
         values += [complex(v) for v in cusps @ sheets.normal]
-        cover = _Cover(sheets, values, rng, tracker)
+        cover = _Cover(sheets, values, rng, run)
         return _riemann_hurwitz(cover.permutations(), cover.round_all(), component.degree)
     except (BranchPointError, IntersectionError) as error:
         raise GenusError(str(error)) from None
 
 
-def _singular_points(
-    system: PolynomialSystem, component: WitnessSet, options: dict[str, Any]
-) -> np.ndarray:
+def _singular_points(system: PolynomialSystem, component: WitnessSet, run: Run) -> np.ndarray:
     """The curve's singular points, perhaps with others, round whose values nothing is exchanged.
 
     Raises:
         GenusError: if one of them may be missing.
     """
     try:
-        found = rank_drop(system, component, **options)
+        found = rank_drop(system, component, run=run)
         if not found.notes:
             return found.isolated()
         reason = "; ".join(found.notes)
     except IntersectionError as error:
         reason = str(error)
-    points = rank_drop_points(system, component, **options)
+    points = rank_drop_points(system, component, run=run)
     if points is None:
         raise GenusError(f"its singular points are not all known: {reason}")
     return points
 
 
 def _sheets(
-    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
+    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, run: Run
 ) -> Sheets:
     """The curve's points over a random value of a random form."""
     row = random_rows(rng, 1, system.n)
     gamma = complex(unit_complex(rng))
     fibres, _ = move_regular(
-        component_fibres(system, component), component.slice.rows, row, gamma, tracker
+        component_fibres(system, component), component.slice.rows, row, gamma, run
     )
     if fibres is None:
         raise GenusError("paths to the first slice failed")
@@ -197,9 +191,9 @@ class _Cover:
     """The curve over the line of values of a linear form, and loops round the branch points."""
 
     def __init__(
-        self, sheets: Sheets, values: list[complex], rng: np.random.Generator, tracker: Tracker
+        self, sheets: Sheets, values: list[complex], rng: np.random.Generator, run: Run
     ) -> None:
-        self.tracker = tracker
+        self.run = run
         self.centre = complex(np.mean(values)) if values else 0j
         least = LEAST_RADIUS * (1 + abs(self.centre))
         radius = OUTSIDE * max([least, *(abs(v - self.centre) for v in values)])
@@ -208,7 +202,7 @@ class _Cover:
         # Seen from outside, one after the other from the right to the left.
         self.values = sorted(values, key=lambda v: np.angle((v - base) / inwards))
         gamma, rows = complex(unit_complex(rng)), sheets.rows
-        fibres, _ = move_regular(sheets.fibres, rows(sheets.base), rows(base), gamma, tracker)
+        fibres, _ = move_regular(sheets.fibres, rows(sheets.base), rows(base), gamma, run)
         if fibres is None:
             raise GenusError("paths to the base point failed")
         self.sheets = Sheets(tuple(with_fine(fibres, rows(base))), sheets.normal, base)
@@ -218,7 +212,7 @@ class _Cover:
         rows, last = self.sheets.rows, self.sheets.base
         fibres = list(self.sheets.fibres)
         for t in [*corners, self.sheets.base]:
-            there, _ = move_regular(fibres, rows(last), rows(t), 1.0, self.tracker)
+            there, _ = move_regular(fibres, rows(last), rows(t), 1.0, self.run)
             if there is None:
                 raise GenusError("paths round a branch point failed")
             # Near a cusp sheets are closer to each other than to the value.

@@ -24,12 +24,13 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import are_new_alone
 from nag.numerics.coincidence import clusters, coincident, compared
 from nag.numerics.zero_values import possible_zeros, vanishes_at, vanishes_at_all
+from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, Fine, chosen, in_words
 from nag.witness.close_to_sets import among, meant
 from nag.witness.confirm import vanishing, zero_in_digits
 from nag.witness.cutting import Cut, is_end, regular_on, sharpen
 from nag.witness.cutting_in_digits import admit_zero
-from nag.witness.fibres import STEEPER, Fibre, Moved, Tracker, admit
+from nag.witness.fibres import STEEPER, Fibre, Moved, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.points import with_fine
@@ -149,7 +150,7 @@ def intersected(
     second: Factor,
     common: Reduction,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> Intersected:
     """The points of the intersection of two components on generic slices of all dimensions.
 
@@ -165,12 +166,12 @@ def intersected(
         # Drawn in the units of one component, it may hardly depend on some coordinates in others.
         result.notes.append("a component's slice is too far from generic beside the other one")
         return result
-    moved, result.counts = on_flag(fibres, rows, flag, rng, tracker)
+    moved, result.counts = on_flag(fibres, rows, flag, rng, run)
     if moved is None:
         result.notes.append(NOT_MOVED)
         return result
     fibres = moved
-    diagonal = _Diagonal(product, common, flag, result, rng, tracker)
+    diagonal = _Diagonal(product, common, flag, result, rng, run)
     d = len(rows)
     # What vanishes on the diagonal, and nowhere else but by chance.
     probes = [*equations[1:], None]
@@ -180,7 +181,7 @@ def intersected(
     for k, (f, probe) in enumerate(zip(equations, probes, strict=True)):
         if not fibres or d == 0:
             break
-        tracker.tell("intersecting", k, len(equations))
+        run.tell("intersecting", k, len(equations))
         d -= 1
         fibres = diagonal.met(fibres, f, probe, d)
     if result.counts.failed:
@@ -256,7 +257,7 @@ class _Diagonal:
     flag: np.ndarray
     result: Intersected
     rng: np.random.Generator
-    tracker: Tracker
+    run: Run
 
     def met(
         self, fibres: Sequence[Fibre], f: Polynomial, probe: Polynomial | None, d: int
@@ -272,7 +273,7 @@ class _Diagonal:
         gamma = complex(unit_complex(self.rng))
         off, on, errors = [], [np.zeros((0, product.n), dtype=complex)], [np.zeros(0)]
         for fibre in fibres:
-            ends = intersect(fibre, f, flag, gamma, self.tracker)
+            ends = intersect(fibre, f, flag, gamma, self.run)
             result.counts += ends.counts
             cut, gaps = fibre.cut.extended(f), np.full(len(ends.points), np.inf)
             gaps[ends.finite] = product.gaps(ends.points[ends.finite])
@@ -430,7 +431,7 @@ class _Diagonal:
         result = self.result
         for higher in sorted((e for e in result.fibres if e > d), reverse=True):
             answer, spent = is_member(
-                x, accuracy, result.fibres[higher], result.rows[higher], self.rng, self.tracker
+                x, accuracy, result.fibres[higher], result.rows[higher], self.rng, self.run
             )
             result.counts += spent
             if answer is not Membership.FOREIGN:

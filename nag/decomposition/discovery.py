@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nag.algebra.given import check_listed, check_running, check_whole
+from nag.algebra.given import check_listed, check_whole
 from nag.algebra.symmetry import SignedPermutation, check_symmetry
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.assembly import Assembly, Known, assembled
@@ -24,8 +24,8 @@ from nag.decomposition.given_points import CommonSlices, Start
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.zero_values import LEAST
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.cutting import NEARLY_SINGULAR, Cut
-from nag.witness.fibres import Progress, Tracker
 from nag.witness.gauss_newton import CLOSE, descend, polish
 from nag.witness.given_component import check_system
 from nag.witness.slices import complex_normal
@@ -42,15 +42,13 @@ MULTIPLE = 1e-7
 MOST_REFUSALS = 3
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def discover(
     system: PolynomialSystem,
     *,
-    seed: int = 0,
+    run: Run = DEFAULT_RUN,
     starts: int = STARTS,
-    threads: int = 1,
-    settings: str = "default",
-    progress: Progress | None = None,
     symmetries: Sequence[SignedPermutation] = (),
 ) -> Decomposition:
     """The irreducible components that Newton's method finds from ``starts`` random points.
@@ -62,10 +60,7 @@ def discover(
     Args:
         system: as for `nag.decomposition.decompose`.
         starts: number of starting points.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
-        progress: called with a stage's name, the step reached and the number of steps.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
         symmetries: as for `nag.decomposition.decompose`; what they carry a component to is found
             with it.
 
@@ -83,24 +78,24 @@ def discover(
     ([(2, 1), (2, 2)], False)
     """
     check_system(system)
-    check_running(seed, threads, settings, progress)
     check_whole(starts, "starts")
     check_listed(symmetries, "symmetries", "a list of nag.SignedPermutation")
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
-    rng = np.random.default_rng([seed, 7])
-    tracker = Tracker(settings, threads, progress)
+    rng = run.random(7)
     reduction = Reduction.of(system, scaled=True)
-    search = _Search(reduction, CommonSlices.random(reduction.equations, rng), rng, tracker)
+    search = _Search(reduction, CommonSlices.random(reduction.equations, rng), rng, run)
     search.from_random_points(starts)
-    found = assembled(search.slices.points, reduction, rng, tracker, Known(embedded=True))
+    found = assembled(search.slices.points, reduction, rng, run, Known(embedded=True))
     notes = search.notes(starts, found)
     components = list(found.components)
     if symmetries:
-        components, more = _with_orbits(system, components, symmetries, seed, tracker)
+        components, more = _with_orbits(system, components, symmetries, run)
         notes += more
     notes += found.notes
-    return judged(system, components, search.counts + found.counts, settings, notes, seed=seed)
+    return judged(
+        system, components, search.counts + found.counts, run.settings, notes, seed=run.seed
+    )
 
 
 @dataclass(eq=False)
@@ -116,7 +111,7 @@ class _Search:
     reduction: Reduction
     slices: CommonSlices
     rng: np.random.Generator
-    tracker: Tracker
+    run: Run
     hits: Counter[tuple[int, int]] = field(default_factory=Counter)
     refused: int = 0
     counts: PathCounts = field(default=PathCounts())
@@ -125,7 +120,7 @@ class _Search:
         """Follow Newton's method from random points to components."""
         reduction, rng = self.reduction, self.rng
         for k in range(starts):
-            self.tracker.tell("sampling", k, starts)
+            self.run.tell("sampling", k, starts)
             start = complex_normal(rng, (reduction.n,)) * 2 ** rng.uniform(-2, 1)
             x = descend(reduction.equations.evaluator, start)
             if x is None or forbidden(reduction.nonzero, x[None], np.array([CLOSE]))[0]:
@@ -162,7 +157,7 @@ class _Search:
         return self._brought(Start(near, MULTIPLE, range(len(near) - rank - 1, -1, -1), True))
 
     def _brought(self, start: Start) -> tuple[int, int] | None:
-        self.slices, place, spent = self.slices.with_start(start, self.rng, self.tracker)
+        self.slices, place, spent = self.slices.with_start(start, self.rng, self.run)
         self.counts += spent
         return place
 
@@ -188,16 +183,14 @@ def _with_orbits(
     system: PolynomialSystem,
     components: Sequence[WitnessSet],
     symmetries: Sequence[SignedPermutation],
-    seed: int,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[list[WitnessSet], list[str]]:
     """One component of each orbit, those included that were not met, and what to say of it."""
     whole = [c for c in components if c.status is Status.IRREDUCIBLE]
     if not whole:
         return list(components), []
-    options = {"seed": seed, "threads": tracker.threads, "settings": tracker.settings}
     try:
-        orbits = in_orbits(system, whole, symmetries, **options)
+        orbits = in_orbits(system, whole, symmetries, run=run)
     except ValueError as error:
         return list(components), [f"orbits of the symmetries are not known: {error}"]
     unmet = sum(c.orbit for c in orbits) - len(whole)

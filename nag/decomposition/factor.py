@@ -12,11 +12,12 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.errors import ComponentError
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
+from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component
 from nag.witness.close_points import CLOSE, Fine, follow_slice, rated
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, Tracker, cut_fibres, move_regular
+from nag.witness.fibres import Fibre, cut_fibres, move_regular
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.slices import even_rows, unit_complex
 from nag.witness.witness import PathCounts, WitnessSet
@@ -123,7 +124,7 @@ def on_flag(
     rows: np.ndarray,
     flag: np.ndarray,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[list[Fibre] | None, PathCounts]:
     """Fibres on the slice ``rows`` carried to the leading rows of a generic flag.
 
@@ -132,4 +133,4 @@ def on_flag(
     if len(rows) == 0:
         return fibres, PathCounts()
     gamma = complex(unit_complex(rng))
-    return move_regular(fibres, rows, flag[: len(rows)], gamma, tracker)
+    return move_regular(fibres, rows, flag[: len(rows)], gamma, run)

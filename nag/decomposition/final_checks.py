@@ -13,11 +13,12 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.splitting import Class
 from nag.numerics.zero_values import ON, SINGULAR
+from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, CLOSE_AFAR, close_pairs, follow_slice
 from nag.witness.confirm import confirmed, zero_in_digits
 from nag.witness.cutting import Equations, numerical_corank
 from nag.witness.exact_points import Sharp, framed, in_order, sharpened
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Fibre, move
 from nag.witness.frame import Frame
 from nag.witness.multiplicity import multiplicity
 from nag.witness.points import Points, with_fine
@@ -56,7 +57,7 @@ def _multidegree(
     groups: Sequence[Sequence[int]],
     frame: Frame,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[np.ndarray | None, PathCounts]:
     """Numbers of points with groups fixed at random values, by moving the slice there."""
     d, counts = len(rows), PathCounts()
@@ -74,7 +75,7 @@ def _multidegree(
         finite = 0
         if d == 0 or np.linalg.matrix_rank(target[:, 1:]) == d:
             gamma = complex(unit_complex(rng))
-            for ends in move(fibres, rows, target, gamma, tracker, endgame=True):
+            for ends in move(fibres, rows, target, gamma, run, endgame=True):
                 counts += ends.counts
                 if ends.failed.any():
                     return None, counts
@@ -218,7 +219,7 @@ def checked_witness_set(
     found: Class,
     examined: Examined,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
     scheme: bool = True,
 ) -> tuple[WitnessSet, PathCounts]:
     """A class of points as a witness set, after the final checks.
@@ -253,7 +254,7 @@ def checked_witness_set(
         reasons.append("its multiplicity was not found")
     multidegree = None
     if groups:
-        multidegree, counts = _multidegree(chosen, rows, groups, reduction.frame, rng, tracker)
+        multidegree, counts = _multidegree(chosen, rows, groups, reduction.frame, rng, run)
     return (
         WitnessSet(
             slice=examined.cut,

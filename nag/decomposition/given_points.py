@@ -20,8 +20,9 @@ from nag.decomposition.reduction import Reduction
 from nag.decomposition.symmetric_images import in_orbits, keeps, sign_orbit
 from nag.numerics.coincidence import coincident
 from nag.numerics.zero_values import LEAST, ON
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.cutting import Cut, Equations
-from nag.witness.fibres import Fibre, Tracker, admit, move
+from nag.witness.fibres import Fibre, admit, move
 from nag.witness.gauss_newton import polish
 from nag.witness.points import Points
 from nag.witness.slices import random_rows, rows_through, unit_complex
@@ -76,7 +77,7 @@ class CommonSlices:
         return replace(self, points=points, errors=errors), len(known)
 
     def with_start(
-        self, start: Start, rng: np.random.Generator, tracker: Tracker
+        self, start: Start, rng: np.random.Generator, run: Run
     ) -> tuple[CommonSlices, tuple[int, int] | None, PathCounts]:
         """With the point that a solution leads to, and its dimension and index.
 
@@ -90,7 +91,7 @@ class CommonSlices:
         z, error, counts = fibre.points[0], start.accuracy, PathCounts()
         if d:
             gamma = complex(unit_complex(rng))
-            (ends,) = move([fibre], rows, self.flag[:d], gamma, tracker)
+            (ends,) = move([fibre], rows, self.flag[:d], gamma, run)
             z, error, counts = ends.points[0], float(ends.accuracy[0]), ends.counts.judged_elsewhere
             if not ends.regular.all():
                 return self, None, counts
@@ -136,13 +137,12 @@ def best_lifted(
     return lifted[int(np.argmin(np.nan_to_num(sizes, nan=np.inf)))]
 
 
+@takes_run
 def components_through_points(
     system: PolynomialSystem,
     starts: Sequence[tuple[int, np.ndarray]],
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
     symmetries: Sequence[SignedPermutation] = (),
 ) -> Decomposition:
     """The components through solutions that are generic on them.
@@ -150,9 +150,7 @@ def components_through_points(
     Args:
         system: the equations.
         starts: for each component at least one point, with the component's dimension there.
-        seed: of all random numbers.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
         symmetries: signed permutations that keep the equations; of each orbit of components one is
             worked out.
 
@@ -160,32 +158,31 @@ def components_through_points(
         A decomposition that is complete if every point led to a component that was confirmed; it
         says nothing of components through none of the points.
     """
-    rng = np.random.default_rng([seed, 11])
-    tracker = Tracker(settings, threads)
+    rng = run.random(11)
     reduction = Reduction.of(system, scaled=True)
-    slices, counts, notes = _on_common_slices(starts, reduction, rng, tracker)
-    found = assembled(slices.points, reduction, rng, tracker)
+    slices, counts, notes = _on_common_slices(starts, reduction, rng, run)
+    found = assembled(slices.points, reduction, rng, run)
     counts += found.counts
     components: list[WitnessSet] = []
     for piece in found.pieces:
         component, d = piece.component, piece.component.dimension
         if component.status is Status.IRREDUCIBLE and symmetries:
             whole, spent = _with_orbit(
-                component, piece.fibres, slices.flag[:d], reduction, symmetries, rng, tracker
+                component, piece.fibres, slices.flag[:d], reduction, symmetries, rng, run
             )
             counts += spent
             if whole is None:
                 notes.append(f"the orbit of a component of dimension {d} is not known")
             component = component if whole is None else whole
         components.append(component)
-    return judged(system, components, counts, settings, (*notes, *found.notes), seed=seed)
+    return judged(system, components, counts, run.settings, (*notes, *found.notes), seed=run.seed)
 
 
 def _on_common_slices(
     starts: Sequence[tuple[int, np.ndarray]],
     reduction: Reduction,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[CommonSlices, PathCounts, list[str]]:
     """A point of each component on the common slice of its dimension, and what was not found."""
     slices = CommonSlices.random(reduction.equations, rng)
@@ -195,9 +192,7 @@ def _on_common_slices(
         zero = polish(reduction.equations.evaluator, x)
         near, accuracy = (zero.x, LEAST) if zero.converged else (x, ROUGH)
         simple = zero.converged and zero.corank == d
-        slices, place, spent = slices.with_start(
-            Start(near, accuracy, [d], not simple), rng, tracker
-        )
+        slices, place, spent = slices.with_start(Start(near, accuracy, [d], not simple), rng, run)
         counts += spent
         if place is None:
             notes.append(f"a point of dimension {d} led to no component")
@@ -211,7 +206,7 @@ def _with_orbit(
     reduction: Reduction,
     symmetries: Sequence[SignedPermutation],
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[WitnessSet | None, PathCounts]:
     """The component with its orbit, or None if that could not be found."""
     n, counts = reduction.system.n, PathCounts()
@@ -219,7 +214,7 @@ def _with_orbit(
     kept = reduction.kept
     generators = [tuple(g.signs[i] for i in kept) for g in symmetries]
     if plain and len(fibres) == 1 and all(keeps(fibres[0].cut, g) for g in generators):
-        carriers, counts = sign_orbit(fibres[0], rows, generators, rng, tracker)
+        carriers, counts = sign_orbit(fibres[0], rows, generators, rng, run)
         if carriers is None:
             return None, counts
         images = []
@@ -234,8 +229,8 @@ def _with_orbit(
             reduction.system,
             [component],
             symmetries,
-            threads=tracker.threads,
-            settings=tracker.settings,
+            threads=run.threads,
+            settings=run.settings,
         )
     except ValueError:
         return None, counts

@@ -16,19 +16,12 @@ from nag.algebra.polynomial import Polynomial
 from nag.decomposition.roots import line, points_in_balls, zeros_on
 from nag.tracking.compiled import CompiledRows, compile_rows
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.run import Run
 from nag.tracking.track import track
 from nag.witness.close_points import with_roots
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, leading_power
-from nag.witness.fibres import (
-    Fibre,
-    Moved,
-    Tracker,
-    ends_of_paths,
-    homogeneous,
-    joined,
-    track_close_points,
-)
+from nag.witness.fibres import Fibre, Moved, ends_of_paths, homogeneous, joined, track_close_points
 from nag.witness.points import with_fine
 from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import PathCounts
@@ -81,12 +74,10 @@ class HypersurfaceSection:
         return sum(int(ends.failed.sum()) for _, ends in self.ends.get(d, ()))
 
 
-def intersect(
-    fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker
-) -> Moved:
+def intersect(fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, run: Run) -> Moved:
     """The ends of the paths from a fibre's points, none of them on f, to the hypersurface f = 0."""
     if fibre.fine:
-        return _intersect_close(fibre, f, flag, gamma, tracker)
+        return _intersect_close(fibre, f, flag, gamma, run)
     cut, d, degree = fibre.cut, fibre.dimension, f.degree
     total = cut.n + cut.aux
     if not cut.polynomials and len(fibre) == 1 and f.exact and degree <= MOST_ROOTS:
@@ -108,7 +99,7 @@ def intersect(
         [np.repeat(fibre.points, degree, axis=0), u_start.reshape(-1, 1)], axis=1
     )
     homotopy, points = Homotopy(compiled, a0, a1), homogeneous(starts)
-    paths = track(homotopy, points, settings=tracker.settings, threads=tracker.threads)
+    paths = track(homotopy, points, settings=run.settings, threads=run.threads)
     return ends_of_paths(paths, keep=total)
 
 
@@ -136,7 +127,7 @@ def _with_power(cut: Cut, f: Polynomial) -> CompiledRows:
 
 
 def _intersect_close(
-    fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, tracker: Tracker
+    fibre: Fibre, f: Polynomial, flag: np.ndarray, gamma: complex, run: Run
 ) -> Moved:
     """`intersect` where some points are close to others: their paths are tracked in more digits.
 
@@ -156,18 +147,16 @@ def _intersect_close(
     target[d - 1, -1] = 1
     starts = [start for i in indices for start in with_roots(fibre.fine[i], f)]
     homotopy = moving_rows(_with_power(cut, f), source, target, gamma)
-    close = track_close_points(
-        homotopy, starts, cut.extended(f), flag[: d - 1], tracker, endgame=True
-    )
+    close = track_close_points(homotopy, starts, cut.extended(f), flag[: d - 1], run, endgame=True)
     places = {
         k: (own[:, None] * degree + np.arange(degree)).ravel()
         for k, own in enumerate((plain, indices))
     }
-    return joined(places, (intersect(rest, f, flag, gamma, tracker), close))
+    return joined(places, (intersect(rest, f, flag, gamma, run), close))
 
 
 def hypersurface_section(
-    sections: Sections, f: Polynomial, rng: np.random.Generator, tracker: Tracker
+    sections: Sections, f: Polynomial, rng: np.random.Generator, run: Run
 ) -> HypersurfaceSection:
     """All points of the sets where ``f`` vanishes, and how many paths led there."""
     gamma, counts = complex(unit_complex(rng)), PathCounts()
@@ -182,7 +171,7 @@ def hypersurface_section(
             if on.any():
                 kept.setdefault(d, []).append(fibre.only(on))
             if d > 0 and f.degree > 0 and not on.all():
-                new = intersect(fibre.only(~on), f, sections.flag, gamma, tracker)
+                new = intersect(fibre.only(~on), f, sections.flag, gamma, run)
                 counts += new.counts
                 ends.setdefault(d - 1, []).append((fibre.cut.extended(f), new))
     return HypersurfaceSection(sections, kept, ends, counts)

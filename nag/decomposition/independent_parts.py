@@ -53,9 +53,7 @@ def decompose_parts(task: Task, others: Others) -> Attempt:
     answer = components_through_points(
         system,
         starts,
-        seed=task.seed,
-        threads=task.tracker.threads,
-        settings=task.tracker.settings,
+        run=task.run,
         symmetries=symmetries,
     )
     wanted = [

@@ -26,10 +26,11 @@ from nag.decomposition.superset import (
 )
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.zero_values import LEAST, ON
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
-from nag.witness.fibres import Fibre, Progress, Tracker, admit
+from nag.witness.fibres import Fibre, admit
 from nag.witness.given_component import check_component, check_index, check_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
@@ -61,7 +62,7 @@ class Intersection:
             of one system meet where that system's own equations say nothing new. A component's
             multiplicity is 1 where these equations cut it as a reduced one, else 0, not known.
         components: by falling dimension, then rising degree.
-        paths: what the tracker did.
+        paths: what the run did.
         seed: seed of the random numbers.
         settings: name of the tracking settings.
         complete: whether every component is confirmed and nothing was left undecided.
@@ -82,16 +83,14 @@ class Intersection:
         return max((c.dimension for c in self.components), default=-1)
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def intersect_components(
     system: PolynomialSystem,
     first: WitnessSet,
     second: WitnessSet,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
-    progress: Progress | None = None,
+    run: Run = DEFAULT_RUN,
 ) -> Intersection:
     """The irreducible components of the intersection of two components, as sets.
 
@@ -101,10 +100,7 @@ def intersect_components(
         system: the equations that ``first`` was found from.
         first: one of the components of a `nag.Decomposition`.
         second: one of the same system, or of one in the same variables that it knows.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
-        progress: called with a stage's name, the step reached and the number of steps.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
@@ -117,18 +113,16 @@ def intersect_components(
     >>> [(c.dimension, c.degree) for c in parabola.components]
     [(1, 2)]
     """
-    check_component(system, first, seed, threads, settings, "first")
+    check_component(system, first, "first")
     check_type(second, WitnessSet, "second", "a component, as nag.decompose finds them")
     other = second.system or system
     _check_variables(system, other)
     factors = Factor.in_branch(system, first), Factor.in_branch(other, second)
-    return intersect_factors(*factors, seed=seed, tracker=Tracker(settings, threads, progress))
+    return intersect_factors(*factors, run=run)
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def intersect_factors(
-    first: Factor, second: Factor, *, seed: int, tracker: Tracker
-) -> Intersection:
+def intersect_factors(first: Factor, second: Factor, *, run: Run) -> Intersection:
     """`intersect_components` for components whose equations have been looked at before.
 
     Raises:
@@ -137,17 +131,17 @@ def intersect_factors(
     whole = _union(first.reduction.system, second.reduction.system)
     natural = coordinates_of(whole)
     common = Reduction.of(natural.system(whole))
-    rng = np.random.default_rng([seed, 5])
+    rng = run.random(5)
     if any(f and f.degree == 0 for f in common.reduced.polynomials):
         # Linear equations of both contradict each other, exactly.
-        nothing = _intersection(common, {}, PathCounts(), (), rng, tracker)
-        return _carry_back(nothing, (), whole, natural, seed)
+        nothing = _intersection(common, {}, PathCounts(), (), rng, run)
+        return _carry_back(nothing, (), whole, natural, run)
     first, second = first.carried(natural), second.carried(natural)
-    found = intersected(first, second, common, rng, tracker)
+    found = intersected(first, second, common, rng, run)
     points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
-    result = _intersection(common, points, found.counts, found.notes, rng, tracker)
+    result = _intersection(common, points, found.counts, found.notes, rng, run)
     bare = [_bare_point(x, accuracy, common) for x, accuracy in found.bare]
-    return _carry_back(result, (*result.components, *bare), whole, natural, seed)
+    return _carry_back(result, (*result.components, *bare), whole, natural, run)
 
 
 def _carry_back(
@@ -155,7 +149,7 @@ def _carry_back(
     components: Sequence[WitnessSet],
     system: PolynomialSystem,
     natural: NaturalCoordinates,
-    seed: int,
+    run: Run,
 ) -> Intersection:
     """An answer with these components, in the coordinates that were given."""
     return replace(
@@ -165,20 +159,18 @@ def _carry_back(
             carry_component(c, natural.inverse, system, back=True) for c in components
         ),
         complete=result.complete and not any(c.note for c in components),
-        seed=seed,
+        seed=run.seed,
     )
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def intersect_equations(
     system: PolynomialSystem,
     component: WitnessSet,
     equations: PolynomialSystem,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
-    progress: Progress | None = None,
+    run: Run = DEFAULT_RUN,
 ) -> Intersection:
     """The irreducible components of the intersection of a component with a zero set.
 
@@ -189,10 +181,7 @@ def intersect_equations(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         equations: further equations in the same variables.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
-        progress: called with a stage's name, the step reached and the number of steps.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
@@ -206,18 +195,17 @@ def intersect_equations(
     >>> [(c.dimension, c.degree) for c in circle.components]
     [(1, 2)]
     """
-    check_component(system, component, seed, threads, settings)
+    check_component(system, component)
     check_system(equations, "equations")
     _check_variables(system, equations)
     system = component_system(system, component)
     whole = _union(system, equations)
     natural = coordinates_of(whole)
     factor = Factor.of(system, component).carried(natural)
-    tracker = Tracker(settings, threads, progress)
     common = Reduction.of(natural.system(whole))
 
-    rng = np.random.default_rng([seed, 6])
-    superset = _met(factor, natural.system(equations), rng, tracker)
+    rng = run.random(6)
+    superset = _met(factor, natural.system(equations), rng, run)
     notes = list(superset.notes)
     if superset.counts.failed:
         notes.append(f"{superset.counts.failed} paths failed; points may be missing")
@@ -230,25 +218,25 @@ def intersect_equations(
             notes.append(f"{lost} singular points of dimension {d} could not be made regular")
         if len(points[d]) + lost < sum(map(len, found)):
             notes.append(f"points of dimension {d} are too close to each other")
-    answer = _intersection(common, points, superset.counts, notes, rng, tracker)
-    return _carry_back(answer, answer.components, whole, natural, seed)
+    answer = _intersection(common, points, superset.counts, notes, rng, run)
+    return _carry_back(answer, answer.components, whole, natural, run)
 
 
 def _met(
-    factor: Factor, equations: PolynomialSystem, rng: np.random.Generator, tracker: Tracker
+    factor: Factor, equations: PolynomialSystem, rng: np.random.Generator, run: Run
 ) -> Superset:
     """Witness points of all dimensions where a component meets equations, in its coordinates."""
     further = [f.compose(factor.reduction.images) for f in equations.polynomials]
     further = [f for f in dict.fromkeys(further) if f]
     further = [further[i] for i in intersection_order(further)]
     flag = random_rows(rng, factor.n, factor.n)
-    start, spent = on_flag(factor.fibres(rng), factor.rows, flag, rng, tracker)
+    start, spent = on_flag(factor.fibres(rng), factor.rows, flag, rng, run)
     if start is None:
         return Superset({}, flag, spent, (NOT_MOVED,))
     reduced = factor.reduction.reduced
     sections = Sections({factor.component.dimension: start}, flag)
     ambient = Ambient(sections, reduced.polynomials, reduced.nonzero)
-    found = witness_superset(further, ambient, rng, tracker)
+    found = witness_superset(further, ambient, rng, run)
     return replace(found, counts=spent + found.counts)
 
 
@@ -292,16 +280,16 @@ def _intersection(
     counts: PathCounts,
     notes: Sequence[str],
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> Intersection:
     """The points of all dimensions, split into irreducible components."""
-    found = assembled(points, reduction, rng, tracker, Known(scheme=False))
+    found = assembled(points, reduction, rng, run, Known(scheme=False))
     return Intersection(
         system=reduction.system,
         components=found.components,
         paths=counts + found.counts,
         seed=0,
-        settings=tracker.settings,
+        settings=run.settings,
         complete=found.complete and not notes,
         notes=(*notes, *found.notes),
     )

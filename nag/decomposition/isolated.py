@@ -27,8 +27,8 @@ from nag.numerics.coincidence import coincident
 from nag.numerics.zero_values import NONZERO, SINGULAR
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
+from nag.tracking.run import Run
 from nag.witness.cutting import dyadic, numerical_corank
-from nag.witness.fibres import Tracker
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet, even_radii
 
 # A set whose points would take more paths is not asked first whether it is finite.
@@ -36,7 +36,7 @@ MOST_PATHS = 20_000
 
 
 def is_finite(
-    system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker
+    system: PolynomialSystem, rng: np.random.Generator, run: Run
 ) -> tuple[bool, PathCounts]:
     """Whether the zero set of as many equations as variables is seen to be finite, by which paths.
 
@@ -58,7 +58,7 @@ def is_finite(
     for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
         plane = plane + x * Fraction(float(weight))
     cut = PolynomialSystem(system.variables, (*others, plane), system.nonzero)
-    found = _solved(cut, rng, tracker, True)
+    found = _solved(cut, rng, run, True)
     if found is None or found.pathless:
         return False, none
     # What failed here leaves nothing open: the set is intersected equation by equation then.
@@ -86,10 +86,10 @@ def _linear(n: int) -> list[tuple[int, ...]]:
 
 
 def _solved(
-    system: PolynomialSystem, rng: np.random.Generator, tracker: Tracker, finite: bool
+    system: PolynomialSystem, rng: np.random.Generator, run: Run, finite: bool
 ) -> SolveResult | None:
     """The isolated solutions of a system; None if it has no start system."""
-    seed, how = int(rng.integers(2**31)), {"settings": tracker.settings, "threads": tracker.threads}
+    seed, how = int(rng.integers(2**31)), {"settings": run.settings, "threads": run.threads}
     try:
         return solve(system, seed=seed, finite=finite, **how)
     except StartError:
@@ -99,7 +99,7 @@ def _solved(
 def solved_at_once(
     system: PolynomialSystem,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
     symmetries: Sequence[SignedPermutation],
     finite: bool = False,
 ) -> Decomposition | None:
@@ -111,20 +111,20 @@ def solved_at_once(
     if len(system.polynomials) < system.n:
         return None
     outside = finite and bool(system.nonzero)
-    found = _solved(system, rng, tracker, not outside)
+    found = _solved(system, rng, run, not outside)
     if found is None or not found.complete or (found.pathless and not finite):
         return None
     if found.positive_dimensional or (found.perhaps_infinite and not outside):
         return None
     components = _components(found, system, symmetries)
     paths = PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
-    return judged(system, components, paths, tracker.settings)
+    return judged(system, components, paths, run.settings)
 
 
 def with_points(
     answer: Decomposition,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
     symmetries: Sequence[SignedPermutation],
 ) -> Decomposition | None:
     """The answer with all isolated points of its system, if the solver has no doubts of these.
@@ -136,7 +136,7 @@ def with_points(
     larger = [c for c in answer.components if c.dimension > 0]
     if len(system.polynomials) < system.n or any(c.status is Status.UNDECIDED for c in larger):
         return None
-    found = _solved(system, rng, tracker, False)
+    found = _solved(system, rng, run, False)
     if found is None or not found.complete:
         return None
     points = _components(found, system, symmetries)

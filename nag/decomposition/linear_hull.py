@@ -23,13 +23,13 @@ from nag.decomposition.reduction import Reduction
 from nag.interpolation.point_cloud import Ambient, Cloud
 from nag.interpolation.precise_samples import SourceError, source_of_component
 from nag.interpolation.vanishing import InterpolationError, next_degree, start
+from nag.tracking.run import Run
 from nag.witness.component_equations import find_fibres
-from nag.witness.fibres import Tracker
 from nag.witness.witness import WitnessSet
 
 
 def within_hull(
-    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
+    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, run: Run
 ) -> tuple[PolynomialSystem, WitnessSet]:
     """A component with the equations of its linear hull beside those of a system.
 
@@ -47,7 +47,7 @@ def within_hull(
     component = simple_in(system, component)
     try:
         source = source_of_component(system, component)
-        cloud = Cloud(source, Ambient.itself(system), rng, tracker)
+        cloud = Cloud(source, Ambient.itself(system), rng, run)
         known = next_degree(cloud, start(range(system.n)))
         own = _beside(known.basis, system)
         if component.multiplicity == 1 and Reduction.of(own).n == Reduction.of(system).n:

@@ -11,7 +11,7 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 from nag.witness.witness import Decomposition, PathCounts
 
 
@@ -21,20 +21,18 @@ class Task:
 
     Attributes:
         symmetries: signed permutations of the variables that keep the equations.
-        seed: of all random numbers.
         scheme: whether multiplicities are of interest: a branch is not the scheme that was given.
     """
 
     system: PolynomialSystem
     symmetries: tuple[SignedPermutation, ...]
-    seed: int
-    tracker: Tracker
+    run: Run
     scheme: bool = True
 
     def of_part(self, system: PolynomialSystem, symmetries: Sequence[SignedPermutation]) -> Task:
         """The same for a part of the system, as a set."""
         scheme = self.scheme and system is self.system
-        return Task(system, tuple(symmetries), self.seed, self.tracker, scheme)
+        return Task(system, tuple(symmetries), self.run, scheme)
 
     @cached_property
     def reduction(self) -> Reduction:
@@ -44,7 +42,7 @@ class Task:
     @cached_property
     def rng(self) -> np.random.Generator:
         """The random numbers of what is tried before equations are intersected one by one."""
-        return np.random.default_rng([self.seed, 3])
+        return self.run.random(3)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,13 +9,13 @@ from types import MappingProxyType
 import numpy as np
 
 from nag.numerics.coincidence import BEYOND, MISS, compared
+from nag.tracking.run import Run
 from nag.witness.close_points import Fine, distance
-from nag.witness.fibres import Tracker
 from nag.witness.points import Points, move_points
 from nag.witness.slices import random_rows, unit_complex
 from nag.witness.witness import PathCounts
 
-# Relative errors that ends of loops may have, whatever the tracker thinks of them.
+# Relative errors that ends of loops may have, whatever the run thinks of them.
 ROUGH = 1e-8
 # Distance of an end from its point beside that from the next one.
 NEARER = 1e-3
@@ -127,7 +127,7 @@ def loop(
     points: Points,
     start: Sequence[int],
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
     scaled: bool = False,
 ) -> tuple[Looped, PathCounts]:
     """Carry some points round a random loop of slices.
@@ -143,8 +143,8 @@ def loop(
         middle[:, 1:] /= np.maximum(sizes, LEAST_SIZE * sizes.max())
         middle /= np.linalg.norm(middle[:, 1:], axis=1, keepdims=True)
     out, back = (complex(g) for g in unit_complex(rng, 2))
-    half, origins, counts = move_points(points, start, middle, out, tracker)
-    again, order, spent = move_points(half, range(len(half)), points.rows, back, tracker)
+    half, origins, counts = move_points(points, start, middle, out, run)
+    again, order, spent = move_points(half, range(len(half)), points.rows, back, run)
     places = located(again, points)
     if places is not None and not ends_are_distinct(again, places):
         places = None

@@ -28,8 +28,8 @@ from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, ball, line, points_in_balls, zeros_on
 from nag.decomposition.splitting import Class
+from nag.tracking.run import Run
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
 
@@ -46,7 +46,7 @@ def is_one_equation(reduction: Reduction) -> bool:
 
 
 def decompose_one_equation(
-    reduction: Reduction, rng: np.random.Generator, tracker: Tracker, scheme: bool, one: bool
+    reduction: Reduction, rng: np.random.Generator, run: Run, scheme: bool, one: bool
 ) -> Decomposition | None:
     """The components of a hypersurface.
 
@@ -74,8 +74,8 @@ def decompose_one_equation(
     classes = None if cut_out is None else cut_out.classes(count)
     if cut_out is None or classes is None:
         return None
-    components = _components(reduction, cut_out, rows, classes, rng, tracker, scheme)
-    settings = str(tracker.settings)
+    components = _components(reduction, cut_out, rows, classes, rng, run, scheme)
+    settings = str(run.settings)
     return judged(reduction.system, components, PathCounts(), settings, order=(0,))
 
 
@@ -85,7 +85,7 @@ def _components(
     rows: np.ndarray,
     classes: Sequence[Sequence[int]],
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
     scheme: bool,
 ) -> list[WitnessSet]:
     (f,) = reduction.reduced.polynomials
@@ -100,7 +100,7 @@ def _components(
     whole = [Class(np.array(own)) for own in classes]
     examined = Examined.of(points, whole, plain, rng)
     for own in whole:
-        found, _ = checked_witness_set(own, examined, rng, tracker, scheme)
+        found, _ = checked_witness_set(own, examined, rng, run, scheme)
         if multidegree is not None:
             found = replace(found, multidegree=multidegree // len(classes))
         result.append(found)

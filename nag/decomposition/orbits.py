@@ -14,7 +14,7 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.splitting import Class, split
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 from nag.witness.frame import Frame
 from nag.witness.points import Points, move_points
 from nag.witness.slices import unit_complex
@@ -86,16 +86,16 @@ def irreducible_orbits(
     actions: Sequence[Action],
     evidence: int,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> Orbits:
     """Split points on a generic slice into orbits of components.
 
     Args:
         evidence: digits to which traces must be linear.
     """
-    found = split(points, evidence, rng, tracker)
+    found = split(points, evidence, rng, run)
     firsts = np.unique(found.labels).tolist()
-    used, counts, notes = _images_of(found.points, firsts, actions, rng, tracker)
+    used, counts, notes = _images_of(found.points, firsts, actions, rng, run)
     counts += found.counts
     if not notes and not all(_carries_classes(found.labels, images) for images in used):
         notes.append("a symmetry carries a component to something else than a component")
@@ -124,7 +124,7 @@ def _images_of(
     indices: Sequence[int],
     actions: Sequence[Action],
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[list[_Images], PathCounts, list[str]]:
     """Where actions take some points, back on the slice, and what is wrong.
 
@@ -132,7 +132,7 @@ def _images_of(
     """
     counts, found, notes = PathCounts(), [], []
     for action in actions if len(indices) else ():
-        places, spent = _places(points, indices, action, rng, tracker)
+        places, spent = _places(points, indices, action, rng, run)
         counts += spent
         if places is not None and (places < 0).any():
             missing = int((places < 0).sum())
@@ -155,7 +155,7 @@ def _places(
     indices: Sequence[int],
     action: Action,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[np.ndarray | None, PathCounts]:
     """Where an action takes some points, back on the slice; -1 where no point is there.
 
@@ -164,7 +164,7 @@ def _places(
     counts, there = PathCounts(), points.x[indices]
     if points.dimension:
         target, gamma = action.pulled_back(points.rows), complex(unit_complex(rng))
-        moved, _, counts = move_points(points, indices, target, gamma, tracker)
+        moved, _, counts = move_points(points, indices, target, gamma, run)
         there = moved.x
     if len(there) < len(indices):
         return None, counts

@@ -22,7 +22,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
@@ -35,6 +34,7 @@ from nag.numerics.coincidence import clusters
 from nag.numerics.local_dimension import local_dimension
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.component_equations import component_system
 from nag.witness.membership import Membership, memberships
 from nag.witness.moving import orthonormal_rows
@@ -69,7 +69,7 @@ class RankDrop:
 
     Attributes:
         sets: as they were found; an isolated point may be found more than once.
-        paths: what the tracker did.
+        paths: what the run did.
         notes: what was left open.
         n: number of variables.
         proved: whether exact algebra proves that it drops nowhere.
@@ -91,13 +91,12 @@ class RankDrop:
         return points[[group[0] for group in clusters(points, errors)]]
 
 
+@takes_run
 def rank_drop(
     system: PolynomialSystem,
     component: WitnessSet,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> RankDrop:
     """Where the Jacobian of the equations of a reduced component has less than its generic rank.
 
@@ -114,9 +113,8 @@ def rank_drop(
         return RankDrop((), PathCounts(), (), system.n)
     if is_regular_everywhere(own.polynomials, n - component.dimension):
         return RankDrop((), PathCounts(), (), system.n, proved=True)
-    options = {"seed": seed, "threads": threads, "settings": settings}
-    search = _Search(own, _restricted(component, reduction), options)
-    rng = np.random.default_rng(seed)
+    search = _Search(own, _restricted(component, reduction), run)
+    rng = run.random()
     search.cut(_left_null_space(own, search.rank, rng), rng)
     if search.regular:
         search = search.joined(_right_null_space(own, search.rank, rng), rng)
@@ -128,13 +126,12 @@ def rank_drop(
     return RankDrop(tuple(sets), search.paths, tuple(dict.fromkeys(search.notes)), system.n)
 
 
+@takes_run
 def rank_drop_points(
     system: PolynomialSystem,
     component: WitnessSet,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> np.ndarray | None:
     """Finitely many points, among which are all where a component's Jacobian drops in rank.
 
@@ -146,10 +143,9 @@ def rank_drop_points(
     """
     reduction = Reduction.of(component_system(system, component), scaled=True)
     own, frame = reduction.reduced, reduction.frame
-    rng = np.random.default_rng(seed)
+    rng = run.random()
     conditions = _left_null_space(own, own.n - component.dimension, rng)
-    options = {"seed": seed, "threads": threads, "settings": settings}
-    found = _isolated_pairs(own, conditions, options)
+    found = _isolated_pairs(own, conditions, run)
     return frame.points(found.points[:, : own.n]) if _is_whole(found) else None
 
 
@@ -162,13 +158,11 @@ def _in_variables(own: PolynomialSystem, conditions: PolynomialSystem) -> Polyno
     return PolynomialSystem(conditions.variables, lifted, nonzero)
 
 
-def _isolated_pairs(
-    own: PolynomialSystem, conditions: PolynomialSystem, options: dict[str, Any]
-) -> SolveResult:
+def _isolated_pairs(own: PolynomialSystem, conditions: PolynomialSystem, run: Run) -> SolveResult:
     """The isolated zeros of a system and conditions, in the variables of these."""
     product = _in_variables(own, conditions)
     equations = dict.fromkeys((*product.polynomials, *conditions.polynomials))
-    return solve(replace(product, polynomials=tuple(equations)), **options)
+    return solve(replace(product, polynomials=tuple(equations)), run=run)
 
 
 def _is_whole(found: SolveResult) -> bool:
@@ -186,7 +180,7 @@ class _Search:
 
     own: PolynomialSystem
     component: WitnessSet
-    options: dict[str, Any]
+    run: Run
     sets: list[SetOfPoints] = field(default_factory=list)
     paths: PathCounts = field(default=PathCounts())
     notes: list[str] = field(default_factory=list)
@@ -206,7 +200,7 @@ class _Search:
         own, total = self.own, conditions.n
         product = _in_variables(own, conditions)
         start = _times_space(self.component, total - own.n, rng)
-        found = intersect_equations(product, start, conditions, **self.options)
+        found = intersect_equations(product, start, conditions, run=self.run)
         self.paths += found.paths
         if found.notes and self._solved(conditions):
             return
@@ -221,7 +215,7 @@ class _Search:
         Of a point where many come together, as of a cusp of high order, no regular equations are
         found in passing, and none are needed.
         """
-        found = _isolated_pairs(self.own, conditions, self.options)
+        found = _isolated_pairs(self.own, conditions, self.run)
         self.paths += PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
         if not _is_whole(found):
             return False
@@ -229,7 +223,7 @@ class _Search:
         alone = Decomposition(self.own, (self.component,), PathCounts(), 0, "default", (), False)
         for solution in found.solutions:
             x, error = solution.point[:own], max(error, solution.accuracy)
-            (answer,) = memberships(alone, x, accuracy=solution.accuracy, **self.options)
+            (answer,) = memberships(alone, x, accuracy=solution.accuracy, run=self.run)
             if answer is Membership.UNDECIDED:
                 return False
             kept += [x] if answer is Membership.MEMBER else []
@@ -239,7 +233,7 @@ class _Search:
 
     def joined(self, conditions: PolynomialSystem, rng: np.random.Generator) -> _Search:
         """A search by conditions that leave nothing out, beside what is known of larger sets."""
-        again = _Search(self.own, self.component, self.options)
+        again = _Search(self.own, self.component, self.run)
         again.cut(conditions, rng)
         again.paths += self.paths
         if again.notes:
@@ -254,7 +248,7 @@ class _Search:
         image: WitnessSet | Projection = one
         if one.dimension:
             try:
-                image = project(found.system, one, range(n), **self.options)
+                image = project(found.system, one, range(n), run=self.run)
             except (ProjectionError, ValueError) as reason:
                 self.notes.append(f"a set of points of dimension {one.dimension} at most: {reason}")
                 return

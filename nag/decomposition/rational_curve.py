@@ -16,8 +16,8 @@ from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, ball, points_at_roots, points_in_balls
 from nag.decomposition.splitting import Class
+from nag.tracking.run import Run
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Tracker
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition
 
@@ -26,7 +26,7 @@ MOST_DEGREE = 20
 
 
 def decompose_rational_curve(
-    reduction: Reduction, rng: np.random.Generator, tracker: Tracker, scheme: bool
+    reduction: Reduction, rng: np.random.Generator, run: Run, scheme: bool
 ) -> Decomposition | None:
     """The curve that is the zero set of a system.
 
@@ -63,6 +63,6 @@ def decompose_rational_curve(
     points = points_in_balls(Cut(n, 0, reduced.polynomials), rows, balls)
     whole = Class(np.arange(degree))
     examined = Examined.of(points, [whole], reduction, rng)
-    found, counts = checked_witness_set(whole, examined, rng, tracker, scheme)
-    settings, order = str(tracker.settings), range(n - 1)
+    found, counts = checked_witness_set(whole, examined, rng, run, scheme)
+    settings, order = str(run.settings), range(n - 1)
     return judged(reduction.system, [found], counts, settings, order=order)

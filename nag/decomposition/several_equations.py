@@ -23,8 +23,8 @@ from nag.witness.witness import Decomposition, PathCounts
 def decompose_section(task: Task) -> Attempt:
     """The components of a set of turns by all its points on a slice, see `section_at_once`."""
     flag, rng = _random_flag(task)
-    own = np.random.default_rng([task.seed, 23])
-    superset, spent = section_at_once(task.reduction, flag, own, task.tracker)
+    own = task.run.random(23)
+    superset, spent = section_at_once(task.reduction, flag, own, task.run)
     if superset is None:
         return Attempt(None, spent)
     answer = _settle(task, superset, rng)
@@ -34,13 +34,13 @@ def decompose_section(task: Task) -> Attempt:
 
 def decompose_finite(task: Task) -> Attempt:
     """The points of a system of as many equations as variables, if they are seen to be all."""
-    finite, spent = is_finite(task.reduction.reduced, task.rng, task.tracker)
+    finite, spent = is_finite(task.reduction.reduced, task.rng, task.run)
     points = None
     if finite:
-        given = task.system, task.rng, task.tracker, task.symmetries
+        given = task.system, task.rng, task.run, task.symmetries
         points = solved_at_once(*given, finite=True)
     if points is not None:
-        points = replace(points, seed=task.seed, settings=task.tracker.settings)
+        points = replace(points, seed=task.run.seed, settings=task.run.settings)
     return Attempt(points, spent)
 
 
@@ -50,14 +50,14 @@ def decompose_several(task: Task) -> Decomposition:
     reduced = task.reduction.reduced
     order = intersection_order(reduced.polynomials)
     equations = [reduced.polynomials[i] for i in order]
-    superset = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, task.tracker)
+    superset = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, task.run)
     answer = _settle(task, superset, rng, order)
     return counted(answer, task.scheme)
 
 
 def _random_flag(task: Task) -> tuple[np.ndarray, np.random.Generator]:
     """Rows of generic slices, and the random numbers of what begins with them."""
-    rng, n = np.random.default_rng(task.seed), task.reduction.n
+    rng, n = task.run.random(), task.reduction.n
     return random_rows(rng, n, n, NEARER), rng
 
 
@@ -71,25 +71,25 @@ def _settle(
     points = {d: Points.of(fibres, superset.flag[:d]) for d, fibres in superset.fibres.items()}
     moving = [g for g in task.symmetries if not g.is_identity]
     known = Known(actions=[Action.of(g, task.reduction.frame) for g in moving], scheme=task.scheme)
-    found = assembled(points, task.reduction, rng, task.tracker, known)
+    found = assembled(points, task.reduction, rng, task.run, known)
     answer = judged(
         task.system,
         found.components,
         superset.counts + found.counts,
-        task.tracker.settings,
+        task.run.settings,
         [*notes, *found.notes],
         order,
-        task.seed,
+        task.run.seed,
     )
     # Whether all doubts are about isolated points.
     only_points = superset.only_points and not found.notes
     if not answer.complete and answer.dimension > 0 and only_points:
-        answer = with_points(answer, task.rng, task.tracker, task.symmetries) or answer
+        answer = with_points(answer, task.rng, task.run, task.symmetries) or answer
     if not answer.complete and answer.dimension <= 0:
-        isolated = solved_at_once(task.system, task.rng, task.tracker, task.symmetries)
+        isolated = solved_at_once(task.system, task.rng, task.run, task.symmetries)
         if isolated is not None and contains(isolated, answer):
             answer = replace(isolated, paths=_add_tracked(isolated.paths, answer.paths))
-    return replace(answer, seed=task.seed, settings=task.tracker.settings)
+    return replace(answer, seed=task.run.seed, settings=task.run.settings)
 
 
 def _add_tracked(paths: PathCounts, earlier: PathCounts) -> PathCounts:

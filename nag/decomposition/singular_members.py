@@ -24,7 +24,7 @@ import flint
 import numpy as np
 
 from nag.algebra.factoring import factored
-from nag.algebra.given import check_running, check_whole
+from nag.algebra.given import check_whole
 from nag.algebra.groebner import Ideal, UnfinishedBasis, ideal_of
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -45,7 +45,7 @@ from nag.interpolation.vanishing import (
 )
 from nag.numerics.digits import number
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
-from nag.witness.fibres import Tracker
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expanded
 from nag.witness.given_component import check_system
 from nag.witness.projection import ProjectionError, project
@@ -91,7 +91,7 @@ class SingularParameters:
     Attributes:
         parameters: their names.
         sets: the components, over the rational numbers, of the closure of these parameters.
-        paths: what the tracker did.
+        paths: what the run did.
         complete: whether nothing was left open.
         notes: what was.
         proved: whether it is proved that no set is missing: all singular points have the dimension
@@ -116,13 +116,12 @@ class SingularParameters:
         return [each.text(self.parameters) for each in self.sets]
 
 
+@takes_run
 def singular_parameters(
     system: PolynomialSystem,
     count: int,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> SingularParameters:
     """For which parameters, the last ``count`` variables, the zero set in the others is singular.
 
@@ -133,9 +132,7 @@ def singular_parameters(
         system: a complete intersection in its variables, for general parameters. Singular points
             where something vanishes that must not, `PolynomialSystem.nonzero`, do not count.
         count: how many of the variables are parameters.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Returns:
         For each set of parameters that is irreducible over the rational numbers its equations, and
@@ -151,13 +148,12 @@ def singular_parameters(
     >>> singular_parameters(nag.system("x^2 + a*x + b", "x a b"), 2).texts()
     ['a^2 - 4*b = 0']
     """
-    check_running(seed, threads, settings)
     n = _variables(system, count)
     natural = natural_coordinates(system.polynomials, system.n)
-    whole = _null_space_system(natural.system(system), n, np.random.default_rng([seed, 8]))
-    found = decompose(whole, seed=seed, threads=threads, settings=settings)
+    whole = _null_space_system(natural.system(system), n, run.random(8))
+    found = decompose(whole, run=run)
     ideal, components = _ideal(whole), expanded(found).components
-    family = _Family(whole, ideal, tuple(range(n, n + count)), seed, Tracker(settings, threads))
+    family = _Family(whole, ideal, tuple(range(n, n + count)), run)
     sets, open_notes = _parameter_sets(family, components)
     # The equations alone say nothing of what is excluded.
     comparable = ideal is not None and not whole.nonzero
@@ -249,13 +245,12 @@ class _Family:
     whole: PolynomialSystem
     ideal: Ideal | None
     coordinates: tuple[int, ...]
-    seed: int
-    tracker: Tracker
+    run: Run
 
     def cloud(self, sources: Sequence[Source]) -> Cloud:
         """Points of components of one dimension, one after the other."""
-        rng = np.random.default_rng([self.seed, 9])
-        return Cloud(sources[0], Ambient.itself(self.whole), rng, self.tracker, sources[1:])
+        rng = self.run.random(9)
+        return Cloud(sources[0], Ambient.itself(self.whole), rng, self.run, sources[1:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -363,9 +358,7 @@ def _image_degree(family: _Family, image: _Image) -> int:
         family.whole,
         image.component,
         family.coordinates,
-        seed=family.seed,
-        threads=family.tracker.threads,
-        settings=family.tracker.settings,
+        run=family.run,
     )
     if found.dimension != image.dimension:
         raise _OpenError("its dimension is not certain")
@@ -418,10 +411,10 @@ def _sets_together(family: _Family, images: Sequence[_Image]) -> list[ParameterS
         InterpolationError: if some are conjugate to others that are not among them.
         _OpenError: if equations are not known for another reason.
     """
-    rng, sources = np.random.default_rng([family.seed, 10]), [i.cloud.source for i in images]
+    rng, sources = family.run.random(10), [i.cloud.source for i in images]
     dimension, coordinates = images[0].dimension, family.coordinates
     found = []
-    for each in conjugate_classes(sources, coordinates, dimension, rng, family.tracker):
+    for each in conjugate_classes(sources, coordinates, dimension, rng, family.run):
         cloud = family.cloud([sources[i] for i in each.members])
         if dimension < len(coordinates) - 1:
             found.append(_small_set(family, cloud, dimension, each.degree))

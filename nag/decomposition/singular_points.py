@@ -13,7 +13,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import comb
-from typing import Any
 
 import flint
 import numpy as np
@@ -29,6 +28,7 @@ from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, tangent_cone
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.close_to_sets import are_same
 from nag.witness.component_equations import (
@@ -37,7 +37,6 @@ from nag.witness.component_equations import (
     may_vanish,
     point_in_balls,
 )
-from nag.witness.fibres import Tracker
 from nag.witness.frame import expanded
 from nag.witness.given_component import check_decomposition, check_index
 from nag.witness.multiplicity import multiplicity_at
@@ -92,7 +91,7 @@ class SingularLocus:
     Attributes:
         sets: by falling dimension.
         examined: indices of the components whose own singular points are all in ``sets``.
-        paths: what the tracker did.
+        paths: what the run did.
         complete: whether nothing was left open.
         notes: what was.
         proved: indices of components that exact algebra proves to be smooth.
@@ -139,7 +138,7 @@ class _Search:
 
     whole: Decomposition
     own: Sequence[tuple[PolynomialSystem, WitnessSet]]
-    options: dict[str, Any]
+    run: Run
     candidates: list[_Candidate] = field(default_factory=list)
     examined: list[int] = field(default_factory=list)
     proved: list[int] = field(default_factory=list)
@@ -154,7 +153,7 @@ class _Search:
             self.notes.append(f"{name} is not reduced; its own singular points are not known")
             return
         try:
-            found = rank_drop(system, component, **self.options)
+            found = rank_drop(system, component, run=self.run)
         except (IntersectionError, ValueError) as reason:
             self.notes.append(f"{name}: {reason}")
             return
@@ -168,10 +167,9 @@ class _Search:
 
     def of_pair(self, i: int, j: int) -> None:
         """The intersection of two components that no common equations show."""
-        tracker = Tracker(self.options["settings"], self.options["threads"])
         try:
             factors = self._factor(i), self._factor(j)
-            found = intersect_factors(*factors, seed=self.options["seed"], tracker=tracker)
+            found = intersect_factors(*factors, run=self.run)
         except (IntersectionError, ValueError) as reason:
             self.notes.append(f"components {i + 1} and {j + 1}: {reason}")
             return
@@ -219,14 +217,13 @@ class _Search:
         )
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def singular_locus(
     decomposition: Decomposition,
     *,
     only: Sequence[int] | None = None,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> SingularLocus:
     """The singular points of the components of a decomposition, and where components meet.
 
@@ -237,9 +234,7 @@ def singular_locus(
         decomposition: as `nag.decompose` returns it.
         only: indices of components of `nag.witness.frame.expanded`; singular points of these
             and their intersections with all others are looked for. All of them by default.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Returns:
         The sets of singular points by falling dimension, each with points of shape
@@ -254,19 +249,19 @@ def singular_locus(
     >>> node.dimension, node.multiplicities, bool(abs(node.points).max() < 1e-12)
     (0, {0: 2}, True)
     """
-    check_decomposition(decomposition, seed, threads, settings)
+    check_decomposition(decomposition)
     given = expanded(decomposition)
     check_indices(only, len(given.components))
     natural = coordinates_of(given.system)
     whole = carry_decomposition(given, natural)
     chosen = list(range(len(whole.components))) if only is None else sorted(set(only))
-    own = _own_equations(whole, np.random.default_rng([seed, 8]), Tracker(settings, threads))
-    search = _Search(whole, own, {"seed": seed, "threads": threads, "settings": settings})
+    own = _own_equations(whole, run.random(8), run)
+    search = _Search(whole, own, run)
     for i in chosen:
         search.on_component(i)
     search.of_pairs(chosen)
-    rng = np.random.default_rng([seed, 7])
-    sets = _judged_sets(search, rng, Tracker(settings, threads))
+    rng = run.random(7)
+    sets = _judged_sets(search, rng, run)
     if not natural.is_identity:
         sets = tuple(_carry_back(one, natural, given.system) for one in sets)
     notes = tuple(dict.fromkeys(search.notes))
@@ -302,7 +297,7 @@ def check_indices(only: Sequence[int] | None, count: int) -> None:
 
 
 def _own_equations(
-    whole: Decomposition, rng: np.random.Generator, tracker: Tracker
+    whole: Decomposition, rng: np.random.Generator, run: Run
 ) -> list[tuple[PolynomialSystem, WitnessSet]]:
     """The components, each with its branch of the system, or in its linear hull.
 
@@ -315,12 +310,10 @@ def _own_equations(
     ]
     if comb(len(found), 2) > MOST_PAIRS:
         return [(system, simple_in(system, c)) for system, c in found]
-    return [within_hull(system, c, rng, tracker) for system, c in found]
+    return [within_hull(system, c, rng, run) for system, c in found]
 
 
-def _judged_sets(
-    search: _Search, rng: np.random.Generator, tracker: Tracker
-) -> tuple[SingularSet, ...]:
+def _judged_sets(search: _Search, rng: np.random.Generator, run: Run) -> tuple[SingularSet, ...]:
     points: list[SingularSet] = []
     known, errors = np.zeros((0, search.whole.system.n), dtype=complex), np.zeros(0)
     seen: list[_Candidate] = []
@@ -331,7 +324,7 @@ def _judged_sets(
             same = np.flatnonzero(coincident(known, x, np.maximum(errors, found.error))).tolist()
             if not all(candidate.is_apart_from(seen[i]) for i in same):
                 continue
-        judged = _judged(search, candidate, rng, tracker)
+        judged = _judged(search, candidate, rng, run)
         if judged is None:
             continue
         if found.dimension == 0:
@@ -348,7 +341,7 @@ def _judged_sets(
 
 
 def _judged(
-    search: _Search, candidate: _Candidate, rng: np.random.Generator, tracker: Tracker
+    search: _Search, candidate: _Candidate, rng: np.random.Generator, run: Run
 ) -> SingularSet | None:
     """What a candidate is; None if the components are smooth there and do not meet."""
     found = candidate.found
@@ -368,7 +361,7 @@ def _judged(
             continue
         # A multiple component is simple in equations of its own.
         own = search.own[i] if component.multiplicity != 1 else (whole.system, component)
-        m = _multiplicity(*own, x, error, rng, tracker)
+        m = _multiplicity(*own, x, error, rng, run)
         if m is None:
             search.notes.append(f"the multiplicity of component {i + 1} at a point is not known")
         elif m:
@@ -399,10 +392,10 @@ def _multiplicity(
     x: np.ndarray,
     error: float,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> int | None:
     try:
         fibres = component_fibres(system, component)
     except ValueError:
         return None
-    return multiplicity_at(x, error, fibres, component.slice.rows, rng, tracker)
+    return multiplicity_at(x, error, fibres, component.slice.rows, rng, run)

@@ -19,7 +19,7 @@ import numpy as np
 from nag.decomposition.monodromy import loop
 from nag.decomposition.power_sums import PowerSums
 from nag.decomposition.trace import Trace
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 from nag.witness.points import Points
 from nag.witness.witness import PathCounts
 
@@ -109,7 +109,7 @@ class _State:
         return joined_labels(len(self.points), pairs)
 
 
-def split(points: Points, evidence: int, rng: np.random.Generator, tracker: Tracker) -> Split:
+def split(points: Points, evidence: int, rng: np.random.Generator, run: Run) -> Split:
     """Split points on a generic slice into irreducible components.
 
     Args:
@@ -122,12 +122,12 @@ def split(points: Points, evidence: int, rng: np.random.Generator, tracker: Trac
     state = _State(points, rng, Trace.of(points, evidence, rng))
     idle = 0
     for _ in range(MOST_LOOPS):
-        if not _found_components(state, tracker):
+        if not _found_components(state, run):
             break
         open_points = state.open_points()
         if not len(open_points) or state.lost:
             break
-        idle = 0 if _looped(state, open_points, tracker, idle >= IDLE_LOOPS) else idle + 1
+        idle = 0 if _looped(state, open_points, run, idle >= IDLE_LOOPS) else idle + 1
     known = state.points if state.trace is None else state.trace.sharper(state.points)
     pairs = [*state.loops, *(np.column_stack([np.full(len(w), w[0]), w]) for w in state.whole)]
     labels = joined_labels(len(known), pairs)
@@ -160,13 +160,13 @@ def _by_label(labels: np.ndarray, among: np.ndarray) -> list[np.ndarray]:
     return np.split(order, np.flatnonzero(np.diff(labels[order])) + 1) if len(order) else []
 
 
-def _found_components(state: _State, tracker: Tracker) -> bool:
+def _found_components(state: _State, run: Run) -> bool:
     """Find components among open points, as far as traces and loops tell; False if a path fails."""
     while True:
         open_points = state.open_points()
         classes = _by_label(state.labels(), open_points)
-        tracker.tell("splitting", len(state.whole), len(state.whole) + len(classes))
-        state.trace, spent = state.trace.carried(state.points, open_points, tracker)
+        run.tell("splitting", len(state.whole), len(state.whole) + len(classes))
+        state.trace, spent = state.trace.carried(state.points, open_points, run)
         state.counts += spent
         if state.trace is None:
             return False
@@ -294,9 +294,9 @@ def _doubt(state: _State) -> None:
     state.whole = [own for own in state.whole if _is_linear(state, own)]
 
 
-def _looped(state: _State, open_points: np.ndarray, tracker: Tracker, scaled: bool) -> bool:
+def _looped(state: _State, open_points: np.ndarray, run: Run, scaled: bool) -> bool:
     """Track a random loop from open points; whether it joined some or found any."""
-    found, spent = loop(state.points, open_points, state.rng, tracker, scaled)
+    found, spent = loop(state.points, open_points, state.rng, run, scaled)
     state.counts += spent
     new = None if found.places is None else found.places < 0
     if new is None or not np.isin(found.places[~new], open_points).all():

@@ -17,10 +17,11 @@ from nag.decomposition.ends import Cluster, collect
 from nag.decomposition.hypersurface import HypersurfaceSection, Sections, hypersurface_section
 from nag.numerics.coincidence import SAFETY, coincident
 from nag.numerics.zero_values import ON, vanishes_at
+from nag.tracking.run import Run
 from nag.witness.close_to_sets import Meant, among, meant
 from nag.witness.cutting import Cut, Equations, dyadic, leading_power
 from nag.witness.cutting_in_digits import admit_zero, is_alone
-from nag.witness.fibres import Fibre, Tracker, admit
+from nag.witness.fibres import Fibre, admit
 from nag.witness.membership import Membership, is_member
 from nag.witness.witness import PathCounts
 
@@ -98,7 +99,7 @@ class _Stage:
     found: Superset
     avoid: tuple[Polynomial, ...]
     rng: np.random.Generator
-    tracker: Tracker
+    run: Run
 
     @property
     def n(self) -> int:
@@ -130,7 +131,7 @@ class _Stage:
 
     def outcome(self, f: Polynomial, deflate: bool) -> tuple[_Outcome, PathCounts]:
         sections = Sections(self.found.fibres, self.found.flag)
-        crossed = hypersurface_section(sections, f, self.rng, self.tracker)
+        crossed = hypersurface_section(sections, f, self.rng, self.run)
         found, spent = self.superset(f, crossed, deflate)
         return _Outcome(f, crossed, found), PathCounts(crossed.counts.tracked) + spent
 
@@ -162,7 +163,7 @@ class _Stage:
             for higher in sorted((e for e in kept if e > d), reverse=True):
                 if answer is not Membership.FOREIGN:
                     break
-                answer, used = is_member(x, REGULAR, kept[higher], flag, self.rng, self.tracker)
+                answer, used = is_member(x, REGULAR, kept[higher], flag, self.rng, self.run)
                 counts += used
             if answer is Membership.UNDECIDED:
                 notes.append(f"a point of dimension {d} could not be told from a larger set")
@@ -180,7 +181,7 @@ class _Stage:
         """Whether a point lies on a set of dimension above ``d``, as far as doubles can tell."""
         answer, counts = Membership.FOREIGN, PathCounts()
         for higher in sorted((e for e in kept if e > d), reverse=True):
-            answer, used = is_member(x, accuracy, kept[higher], flag, self.rng, self.tracker)
+            answer, used = is_member(x, accuracy, kept[higher], flag, self.rng, self.run)
             counts += used
             if answer is not Membership.FOREIGN:
                 break
@@ -368,7 +369,7 @@ class Ambient:
 
 
 def witness_superset(
-    equations: Sequence[Polynomial], ambient: Ambient, rng: np.random.Generator, tracker: Tracker
+    equations: Sequence[Polynomial], ambient: Ambient, rng: np.random.Generator, run: Run
 ) -> Superset:
     """Witness points of all dimensions where sets meet ``equations``, intersected in order.
 
@@ -382,9 +383,9 @@ def witness_superset(
     found = Superset(dict(ambient.sections.fibres), ambient.sections.flag, counts, ())
     mixing = False
     for k, f in enumerate(equations):
-        tracker.tell("intersecting", k, len(equations))
+        run.tell("intersecting", k, len(equations))
         before, after = (*ambient.known, *equations[:k]), tuple(equations[k + 1 :])
-        stage = _Stage(before, after, found, ambient.nonzero, rng, tracker)
+        stage = _Stage(before, after, found, ambient.nonzero, rng, run)
         best, mixing, spent = stage.best(f, mixing)
         found = best.superset
         equations[k] = best.polynomial

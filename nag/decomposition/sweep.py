@@ -25,6 +25,7 @@ from nag.decomposition.given_points import components_through_points
 from nag.numerics.zero_values import ON
 from nag.solving.parameter_line import parameter_line
 from nag.tracking.paths import PathStatus
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.track import track
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -63,13 +64,12 @@ class _General:
     members: tuple[tuple[Family, np.ndarray, int], ...]
 
 
+@takes_run
 def sweep(
     system_at: SystemAt,
     values: Sequence[Fraction],
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> list[Swept]:
     """The components of a system for each value of a parameter.
 
@@ -80,29 +80,28 @@ def sweep(
         system_at: the exact system at a rational value.
         values: two or more.
     """
-    rng = np.random.default_rng([seed, 13])
-    options = {"seed": seed, "threads": threads, "settings": settings}
-    general, reason = _general(system_at, values, rng, options)
+    rng = run.random(13)
+    general, reason = _general(system_at, values, rng, run)
     swept = []
     for value in values:
         system = system_at(value)
         starts, paths, why = [], 0, reason
         if general is not None:
-            starts, paths, why = _followed(general, system, value, options)
+            starts, paths, why = _followed(general, system, value, run)
         if not why:
-            answer = components_through_points(system, starts, **options)
+            answer = components_through_points(system, starts, run=run)
             paths += answer.paths.tracked
             if not answer.complete:
                 why = "special value: the points that arrive are not general ones"
         if why:
-            answer = decompose(system, **options)
+            answer = decompose(system, run=run)
             paths += answer.paths.tracked
         swept.append(Swept(value, answer, not why, paths, why))
     return swept
 
 
 def _general(
-    system_at: SystemAt, values: Sequence[Fraction], rng: np.random.Generator, options: dict
+    system_at: SystemAt, values: Sequence[Fraction], rng: np.random.Generator, run: Run
 ) -> tuple[_General | None, str]:
     """The components for a random complex value, or why they cannot be followed."""
     first, last = min(values), max(values)
@@ -116,7 +115,7 @@ def _general(
         return None, "the equations are no rational functions of the parameter"
     start = first + (last - first) * Fraction(int(rng.integers(1, 10**6)), 10**6 + 3)
     system = system_at(start)
-    answer = decompose(system, **options)
+    answer = decompose(system, run=run)
     if not answer.complete:
         return None, "the components for a general value are not all known"
     if not answer.components:
@@ -130,7 +129,7 @@ def _general(
     for component in answer.components:
         family = _cut_family(system, polynomials, component, rng)
         line = parameter_line(family, [complex(start)], [target])
-        paths = track(line.homotopy, line.starts(component.points), options["settings"])
+        paths = track(line.homotopy, line.starts(component.points), run.settings)
         regular = paths.where(PathStatus.REGULAR)
         if len(regular) < component.degree:
             return None, "a component could not be followed to a complex value"
@@ -166,7 +165,7 @@ def _cut_family(
 
 
 def _followed(
-    general: _General, system: PolynomialSystem, value: Fraction, options: dict
+    general: _General, system: PolynomialSystem, value: Fraction, run: Run
 ) -> tuple[list[tuple[int, np.ndarray]], int, str]:
     """The components' points at a value; the number of paths; why it is special, if it is."""
     if system.variables != general.variables:
@@ -176,7 +175,7 @@ def _followed(
     count = 0
     for family, points, dimension in general.members:
         line = parameter_line(family, [general.value], [value])
-        paths = track(line.homotopy, line.starts(points), options["settings"], options["threads"])
+        paths = track(line.homotopy, line.starts(points), run.settings, run.threads)
         count += len(points)
         if len(paths.where(PathStatus.REGULAR)) < len(points):
             return [], count, "special value: not all points stay regular and finite"

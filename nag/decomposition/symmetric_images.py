@@ -14,22 +14,22 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.coincidence import coincident
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Fibre, move
 from nag.witness.frame import image
 from nag.witness.moving import witness_at
 from nag.witness.slices import unit_complex
 from nag.witness.witness import PathCounts, Slice, WitnessSet
 
 
+@takes_run
 def in_orbits(
     system: PolynomialSystem,
     components: Sequence[WitnessSet],
     symmetries: Sequence[SignedPermutation],
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> list[WitnessSet]:
     """One component of each orbit, with the symmetries that carry it into the others.
 
@@ -47,8 +47,7 @@ def in_orbits(
     def moved(component: WitnessSet, target: Slice) -> WitnessSet:
         if component.dimension == 0:
             return component
-        options = {"seed": seed, "threads": threads, "settings": settings}
-        return witness_at(system, component, target, **options)
+        return witness_at(system, component, target, run=run)
 
     absorbed: set[int] = set()
     found: list[WitnessSet] = []
@@ -106,7 +105,7 @@ def sign_orbit(
     rows: np.ndarray,
     generators: Sequence[Signs],
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[list[tuple[int, ...]] | None, PathCounts]:
     """The sign changes that carry a component to those of its orbit, itself first.
 
@@ -123,7 +122,7 @@ def sign_orbit(
     points, counts = fibre.points, PathCounts()
     for k, signs in enumerate(generators):
         factor = np.array(signs, dtype=float)
-        images, error, spent = _moved(fibre, points * factor, rows, factor, rng, tracker)
+        images, error, spent = _moved(fibre, points * factor, rows, factor, rng, run)
         counts += spent
         if images is None:
             return None, counts
@@ -140,7 +139,7 @@ def _moved(
     rows: np.ndarray,
     factor: np.ndarray,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[np.ndarray | None, float, PathCounts]:
     """Images of points, from the slice that they lie on to the common one, and their error.
 
@@ -150,7 +149,7 @@ def _moved(
         return images, 0.0, PathCounts()
     moved = Fibre(fibre.cut, fibre.dimension, images)
     there = rows * np.concatenate([[1.0], factor])
-    (ends,) = move([moved], there, rows, complex(unit_complex(rng)), tracker)
+    (ends,) = move([moved], there, rows, complex(unit_complex(rng)), run)
     if not ends.regular.all():
         return None, 0.0, ends.counts.judged_elsewhere
     return ends.points, float(ends.accuracy.max(initial=0.0)), ends.counts.judged_elsewhere

@@ -16,15 +16,16 @@ from nag.errors import StartError
 from nag.solving.start.isotropic import IsotropicSection, in_doubles
 from nag.tracking.compiled import compile_rows
 from nag.tracking.homotopy import Homotopy
+from nag.tracking.run import Run
 from nag.tracking.track import track
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Tracker, ends_of_paths, homogeneous
+from nag.witness.fibres import ends_of_paths, homogeneous
 from nag.witness.slices import random_rows
 from nag.witness.witness import PathCounts
 
 
 def section_at_once(
-    reduction: Reduction, flag: np.ndarray, rng: np.random.Generator, tracker: Tracker
+    reduction: Reduction, flag: np.ndarray, rng: np.random.Generator, run: Run
 ) -> tuple[Superset | None, PathCounts]:
     """Witness points of a set of turns, if they are proved to be all.
 
@@ -35,7 +36,7 @@ def section_at_once(
     section = _section(reduction, flag)
     if section is None:
         return None, PathCounts()
-    x, tracked = section.zeros(tracker.settings, rng, tracker.threads)
+    x, tracked = section.zeros(run.settings, rng, run.threads)
     counts = PathCounts(tracked)
     if x is None:
         return None, counts
@@ -45,8 +46,8 @@ def section_at_once(
     paths = track(
         Homotopy(compile_rows(own.polynomials, n=n), flag[:d]),
         homogeneous(x[:, reduction.kept] / reduction.scales),
-        in_doubles(tracker.settings),
-        tracker.threads,
+        in_doubles(run.settings),
+        run.threads,
         endgame=False,
     )
     ends = ends_of_paths(paths, keep=n)

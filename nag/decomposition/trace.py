@@ -16,11 +16,12 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.zero_sums import smallest_zero_sums
+from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
-from nag.witness.fibres import Fibre, Tracker, join_fibres, move
+from nag.witness.fibres import Fibre, join_fibres, move
 from nag.witness.points import Points
 from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import Decomposition, PathCounts, WitnessSet
@@ -100,7 +101,7 @@ class Trace:
         return cls(shift or 1.0, gamma, evidence, {}, {}, {}, weights)
 
     def carried(
-        self, points: Points, indices: Iterable[int], tracker: Tracker
+        self, points: Points, indices: Iterable[int], run: Run
     ) -> tuple[Trace | None, PathCounts]:
         """The trace of these points as well; None if a path failed."""
         new = sorted(set(map(int, indices)) - set(self.ends))
@@ -112,7 +113,7 @@ class Trace:
             target = self._slices(points.rows, starts.cut)
             source = padded(points.rows, target.shape[1])
             sizes = points.sizes
-            (there,) = move([starts], source, target, self.gamma, tracker, sizes=sizes)
+            (there,) = move([starts], source, target, self.gamma, run, sizes=sizes)
             counts += there.counts.judged_elsewhere
             if not there.regular.all():
                 return None, counts
@@ -242,7 +243,7 @@ class Trace:
 
 @np.errstate(over="ignore", invalid="ignore")
 def has_linear_trace(
-    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
+    system: PolynomialSystem, component: WitnessSet, rng: np.random.Generator, run: Run
 ) -> bool | None:
     """Whether the trace of a component's points is linear, as it is of all its points on a slice.
 
@@ -260,7 +261,7 @@ def has_linear_trace(
     fibres = component_fibres(bare.system, bare)
     points = Points.of(fibres, bare.slice.rows)
     trace = Trace.of(points, digits_of_evidence(system.polynomials), rng)
-    carried, _ = trace.carried(points, range(len(points)), tracker)
+    carried, _ = trace.carried(points, range(len(points)), run)
     return None if carried is None else carried.linear(points, range(len(points)))[0]
 
 
@@ -281,7 +282,7 @@ def linear_trace(
         return None
     rng = np.random.default_rng([seed, 23, index])
     try:
-        return has_linear_trace(system, component, rng, Tracker())
+        return has_linear_trace(system, component, rng, Run())
     except (ValueError, OverflowError):
         return None
 

@@ -19,7 +19,7 @@ from nag.interpolation.precise_samples import Sample, Source, SourceError
 from nag.interpolation.vanishing import DIGITS, InterpolationError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.rational_relations import TooFewDigitsError, recognised
-from nag.witness.fibres import Tracker
+from nag.tracking.run import Run
 from nag.witness.moving import arrival
 from nag.witness.projection import SHARP
 from nag.witness.slices import random_rows
@@ -73,7 +73,7 @@ class RationalSlice:
         form = rng.integers(1, LARGEST + 1, len(coordinates)) / sizes[1:]
         return cls(tuple(coordinates), rows, np.ones(1) if len(form) == 1 else form)
 
-    def samples(self, source: Source, rng: np.random.Generator, tracker: Tracker) -> list[Sample]:
+    def samples(self, source: Source, rng: np.random.Generator, run: Run) -> list[Sample]:
         """The points of a component on this slice and on one through the fibres of the projection.
 
         Raises:
@@ -84,7 +84,7 @@ class RationalSlice:
         target[:r, [0, *(1 + i for i in self.coordinates)]] = self.rows
         sizes = source.fibres[0].sizes
         target[r:] = random_rows(rng, source.dimension - r, n) / sizes
-        there = arrival(source.fibres, source.rows, target, rng, tracker)
+        there = arrival(source.fibres, source.rows, target, rng, run)
         if there.irregular or not there.accuracy < SHARP:
             raise SourceError("a path to a rational slice failed")
         found = []
@@ -106,7 +106,7 @@ def conjugate_classes(
     coordinates: Sequence[int],
     dimension: int,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> list[ConjugateClass]:
     """Classes of components whose images in some variables are conjugate.
 
@@ -119,7 +119,7 @@ def conjugate_classes(
         SourceError: if points on the slice are not found.
     """
     cut = RationalSlice.at_random(sources[0], coordinates, dimension, rng)
-    samples = [cut.samples(source, rng, tracker) for source in sources]
+    samples = [cut.samples(source, rng, run) for source in sources]
     for digits in DIGITS:
         with flint.ctx.workdps(digits + 20):
             values = [_distinct([cut.value(s, digits) for s in each]) for each in samples]

@@ -13,8 +13,8 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.interpolation.precise_samples import SPARE, Sample, Source, samples
 from nag.numerics.digits import number
+from nag.tracking.run import Run
 from nag.witness.cutting import numerical_corank
-from nag.witness.fibres import Tracker
 from nag.witness.slices import padded
 
 # Points beyond those that make the columns as long as they are many.
@@ -82,12 +82,12 @@ class Cloud:
         source: Source,
         ambient: Ambient,
         rng: np.random.Generator,
-        tracker: Tracker,
+        run: Run,
         further: Sequence[Source] = (),
     ) -> None:
         self.source, self.sources, self.ambient = source, (source, *further), ambient
         self.interpolated: dict[tuple[tuple[int, ...], int], Any] = {}
-        self._rng, self._tracker = rng, tracker
+        self._rng, self._tracker = rng, run
         self._samples: list[Sample] = []
         self._balls: dict[int, list[list[flint.acb]]] = {}
 

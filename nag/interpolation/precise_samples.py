@@ -22,10 +22,11 @@ from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.digits import number
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.zero_values import ON
+from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import Cut, Equations, find_cut
-from nag.witness.fibres import Fibre, Tracker
+from nag.witness.fibres import Fibre
 from nag.witness.given_component import rounded
 from nag.witness.sampling import at_random
 from nag.witness.slices import padded, rows_through
@@ -193,7 +194,7 @@ def _widened(z: flint.acb, radius: flint.arb) -> flint.acb:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def samples(source: Source, count: int, rng: np.random.Generator, tracker: Tracker) -> list[Sample]:
+def samples(source: Source, count: int, rng: np.random.Generator, run: Run) -> list[Sample]:
     """Independent random points of the component.
 
     Raises:
@@ -204,7 +205,7 @@ def samples(source: Source, count: int, rng: np.random.Generator, tracker: Track
     found: list[Sample] = []
     in_balls: dict[Cut, BallPolynomials] = {}
     while len(found) < count:
-        target, there = at_random(source.fibres, source.rows, rng, tracker)
+        target, there = at_random(source.fibres, source.rows, rng, run)
         if not (len(there.x) and np.isfinite(there.accuracy)):
             raise SourceError("the path to a point failed")
         (fibre,) = there.fibres

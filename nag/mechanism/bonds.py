@@ -31,8 +31,9 @@ from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
 from nag.numerics.read_only import fixed_mapping
+from nag.tracking.run import Run
 from nag.witness.component_equations import component_fibres
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Fibre, move
 from nag.witness.points import with_fine
 from nag.witness.slices import padded, unit_complex
 from nag.witness.witness import WitnessSet
@@ -176,7 +177,7 @@ def bonds(
     if component.dimension != 1:
         raise NagError(f"the component has dimension {component.dimension}; a curve has 1")
     rng = np.random.default_rng([seed, 10])
-    search = _Ends(loop, component, rng, Tracker(settings, threads))
+    search = _Ends(loop, component, rng, Run(seed, threads, settings))
     order = loop.joints
     found: dict[_Kind, set[Fraction]] = {}
     degrees: dict[str, int] = {}
@@ -215,9 +216,9 @@ class _Ends:
     """Ends of a curve over a joint's half-angles of norm zero."""
 
     def __init__(
-        self, loop: _Loop, component: WitnessSet, rng: np.random.Generator, tracker: Tracker
+        self, loop: _Loop, component: WitnessSet, rng: np.random.Generator, run: Run
     ) -> None:
-        self.loop, self.component, self.rng, self.tracker = loop, component, rng, tracker
+        self.loop, self.component, self.rng, self.run = loop, component, rng, run
         self.n = loop.system.n
         self.fibres = component_fibres(loop.system, component)
 
@@ -247,14 +248,14 @@ class _Ends:
             gamma = complex(unit_complex(self.rng))
             start, goal = (self._rows(i, root + turn * size * r) for r in (NEAR, NEARER))
             source = self.component.slice.rows
-            (first,) = move([fibre], source, start, gamma, self.tracker, endgame=True)
+            (first,) = move([fibre], source, start, gamma, self.run, endgame=True)
             regular = np.flatnonzero(first.regular)
             if first.failed.any():
                 raise BondError("paths to the ends of the curve failed")
             if not len(regular):
                 continue
             (near,) = with_fine([first.fibre(fibre.cut, 1, regular)], start)
-            (second,) = move([near], start, goal, 1.0, self.tracker)
+            (second,) = move([near], start, goal, 1.0, self.run)
             if not second.regular.all():
                 raise BondError("paths to the ends of the curve failed")
             for x, y in zip(near.points, second.points, strict=True):

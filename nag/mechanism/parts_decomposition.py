@@ -20,8 +20,8 @@ from nag.decomposition.given_points import best_lifted, components_through_point
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.isotropic import conjugates
+from nag.tracking.run import Run
 from nag.witness.component_equations import component_fibres
-from nag.witness.fibres import Tracker
 from nag.witness.membership import Membership, is_member
 from nag.witness.witness import Decomposition, Status, WitnessSet
 
@@ -70,8 +70,8 @@ def _carried(
     """Components in z as components in x and y; None if they cannot be, or not for certain."""
     chosen = list(found.components)
     if symmetries:
-        tracker, rng = Tracker(settings, threads), np.random.default_rng([seed, 17])
-        chosen = _one_of_each_pair(parts, found, rng, tracker)
+        run, rng = Run(seed, threads, settings), np.random.default_rng([seed, 17])
+        chosen = _one_of_each_pair(parts, found, rng, run)
     starts = [(c.dimension, best_lifted(c, lambda z: _in_the_plane(parts, z))) for c in chosen]
     answer = components_through_points(
         parts.system,
@@ -93,14 +93,14 @@ def _in_the_plane(parts: FrameworkModel, z: np.ndarray) -> np.ndarray:
 
 
 def _one_of_each_pair(
-    parts: FrameworkModel, found: Decomposition, rng: np.random.Generator, tracker: Tracker
+    parts: FrameworkModel, found: Decomposition, rng: np.random.Generator, run: Run
 ) -> list[WitnessSet]:
     """Components of which none is the reflection of another, as far as that can be told."""
     chosen: list[WitnessSet] = []
     for component in found.components:
         image = np.array(conjugates(parts.framework, component.points[0]))
         alike = [c for c in chosen if _kind(c) == _kind(component)]
-        if not any(_lies_on(c, image, found, rng, tracker) for c in alike):
+        if not any(_lies_on(c, image, found, rng, run) for c in alike):
             chosen.append(component)
     return chosen
 
@@ -114,7 +114,7 @@ def _lies_on(
     point: np.ndarray,
     found: Decomposition,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> bool:
     """Whether the reflection of a point of a component of the same kind lies on a component."""
     if component.status is not Status.IRREDUCIBLE:
@@ -123,5 +123,5 @@ def _lies_on(
         others = [c for c in found.components if c.dimension == 0]
         return min(others, key=lambda c: np.linalg.norm(c.points[0] - point)) is component
     fibres, rows = component_fibres(found.system, component), component.slice.rows
-    answer, _ = is_member(point, ROUNDED, fibres, rows, rng, tracker)
+    answer, _ = is_member(point, ROUNDED, fibres, rows, rng, run)
     return answer is Membership.MEMBER

@@ -39,6 +39,7 @@ from nag.solving.larger_sets import LargerSets
 from nag.solving.lifted_solution import lifted_solution
 from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
+from nag.tracking.run import Run
 
 # Solutions that may be the same, found in two branches: relative distance.
 NEAR = 1e-7
@@ -154,7 +155,7 @@ class _Part:
 
 
 def solve_apart(
-    system: PolynomialSystem, tracked: Tracked, seed: int, settings: str, exactly: bool
+    system: PolynomialSystem, tracked: Tracked, run: Run, exactly: bool
 ) -> SolveResult | None:
     """The isolated solutions of a system that falls apart, or has zeros that are known exactly.
 
@@ -178,7 +179,7 @@ def solve_apart(
     else:
         every = [BranchEquations(b.system(replace(system, nonzero=())), True) for b in apart]
         parts = [_part(branch, system.nonzero, tracked, exactly) for branch in every]
-    return _joined(system, parts, seed, settings, apart is not None)
+    return _joined(system, parts, run, apart is not None)
 
 
 def _exact(
@@ -235,9 +236,7 @@ def _part(
     return _Part(branch.system, found, result, larger, elimination.lift(result.undecided))
 
 
-def _joined(
-    system: PolynomialSystem, parts: Sequence[_Part], seed: int, settings: str, apart: bool
-) -> SolveResult:
+def _joined(system: PolynomialSystem, parts: Sequence[_Part], run: Run, apart: bool) -> SolveResult:
     undecided = [np.zeros((0, system.n), dtype=complex), *(part.undecided for part in parts)]
     kept: list[_Found] = []
     doubtful: list[_Found] = []
@@ -269,8 +268,8 @@ def _joined(
         paths=sum((r.paths for r in results), PathStatistics()),
         start=next((r.start for r in results if r.start != "none"), "none"),
         reason=_reason(parts, results, apart),
-        seed=seed,
-        settings=settings,
+        seed=run.seed,
+        settings=run.name,
         complete=complete,
         notes=tuple(dict.fromkeys(notes)),
         excluded_solutions=excluded,

@@ -30,11 +30,11 @@ from nag.solving.solve_classes import (
     solved_by_monodromy,
 )
 from nag.solving.start.choice import choose
-from nag.solving.start.family_monodromy import Progress
 from nag.solving.start.target import Start, Target, unit
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import PathStatus
-from nag.tracking.settings import Settings, named
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
+from nag.tracking.settings import Settings
 from nag.tracking.track import track
 
 __all__ = ["Family", "Solved", "solve_family", "solve_generic", "solve_member"]
@@ -61,15 +61,13 @@ class Solved:
     classes: SolvedClasses | None = None
 
 
+@takes_run
 def solve_generic(
     family: Family | SymmetricFamily,
     *,
     start: str = "auto",
     count: int | None = None,
-    seed: int = 0,
-    threads: int = 1,
-    settings: Settings | str = "default",
-    progress: Progress | None = None,
+    run: Run = DEFAULT_RUN,
 ) -> Solved:
     """Solve a family for random complex parameters.
 
@@ -82,20 +80,17 @@ def solve_generic(
             ``"auto"`` means for a symmetric family.
         count: with ``"parameter"``, the known number of solutions; without it an answer is not
             called complete, as loops prove nothing.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: number of threads.
-        settings: tracking settings, of paths from a start system.
-        progress: called with a stage, the work done and the whole work or 0.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Raises:
         StartError: if there would be too many paths, or loops have nothing to begin with.
         nag.algebra.rational_map.MapError: if the symmetries do not fit the family.
     """
-    rng = np.random.default_rng(seed)
+    rng = run.random()
     given = family if isinstance(family, SymmetricFamily) else SymmetricFamily(family)
     family = given.original
     if start == "parameter" or (start == "auto" and len(given) > 1):
-        classes = solved_by_monodromy(given, count, rng, threads, progress)
+        classes = solved_by_monodromy(given, count, rng, run.threads, run.progress)
         return Solved(
             family,
             given.outer_values(classes.values),
@@ -106,20 +101,19 @@ def solve_generic(
         )
     values = unit(rng, len(family.parameters)) * (0.5 + rng.random(len(family.parameters)))
     target = Target(family.n, family.terms([complex(v) for v in values]))
-    begin, _ = choose(target, start, (), rng, threads)
-    paths = track(begin.homotopy, begin.points, settings, threads)
+    begin, _ = choose(target, start, (), rng, run.threads)
+    paths = track(begin.homotopy, begin.points, run.settings, run.threads)
     points = begin.affine(paths.points[paths.where(PathStatus.REGULAR)])
     doubtful = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)
     return Solved(family, values, points, begin.complete and len(doubtful) == 0)
 
 
+@takes_run
 def solve_family(
     solved: Solved,
     targets: Sequence[Sequence[Number]],
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: Settings | str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> list[SolveResult]:
     """Solve a family for each of the given exact parameters, by as many paths as it has solutions.
 
@@ -127,7 +121,6 @@ def solve_family(
         StartError: if a target has a wrong number of parameters.
     """
     family = solved.family
-    name = settings if isinstance(settings, str) else "custom"
     results = []
     for number, values in enumerate(targets):
         if len(values) != len(family.parameters):
@@ -135,27 +128,25 @@ def solve_family(
                 f"target {number + 1}: {len(values)} values for {len(family.parameters)} parameters"
             )
         if solved.classes is not None:
-            rng = np.random.default_rng([seed, number])
-            given = (solved.classes, values, rng, threads, settings, seed, name)
+            rng = run.random(number)
+            given = (solved.classes, values, rng, run)
             results.append(solve_classes(*given))
             continue
         begin = _start(solved, values)
-        paths = track(begin.homotopy, begin.points, settings, threads)
+        paths = track(begin.homotopy, begin.points, run.settings, run.threads)
         reason = f"parameter homotopy: {len(begin.points)} solutions for random parameters"
-        rng = np.random.default_rng([seed, number])
-        results.append(ends_of(family.at(values), begin, paths, reason, rng, seed, name))
+        rng = run.random(number)
+        results.append(ends_of(family.at(values), begin, paths, reason, rng, run))
     return results
 
 
+@takes_run
 def solve_member(
     system: PolynomialSystem,
     member: FamilyMember,
     *,
     exact_first: bool = True,
-    seed: int = 0,
-    threads: int = 1,
-    settings: Settings | str = "default",
-    progress: Progress | None = None,
+    run: Run = DEFAULT_RUN,
 ) -> SolveResult:
     """All isolated solutions of one member of a family, by way of random parameters.
 
@@ -166,36 +157,29 @@ def solve_member(
         member: which one of which family it is. Where no number of solutions is known, an answer
             is complete only if exact algebra gives it.
         exact_first: whether exact algebra is asked before paths are tracked.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: number of threads.
-        settings: tracking settings.
-        progress: called with a stage, the work done and the whole work or 0.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Raises:
         StartError: if loops have nothing to begin with, there would be too many paths, or the
             symmetries do not fit the family.
     """
-    named(settings)
-    name = settings if isinstance(settings, str) else "custom"
 
     def branch(part: PolynomialSystem) -> SolveResult:
-        return solve_whole(part, "auto", seed, threads, settings, progress, False)
+        return solve_whole(part, "auto", run)
 
-    exact = solve_apart(system, branch, seed, name, True) if exact_first else None
+    exact = solve_apart(system, branch, run, True) if exact_first else None
     if exact is not None:
         return exact
-    common = {"seed": seed, "threads": threads, "settings": settings}
     try:
         generic = solve_generic(
             member.symmetric,
             start="parameter",
             count=member.solutions,
-            progress=progress,
-            **common,
+            run=run,
         )
     except MapError as error:
         raise StartError(f"[family]: {error}") from None
-    (result,) = solve_family(generic, [member.values], **common)
+    (result,) = solve_family(generic, [member.values], run=run)
     result = replace(result, system=system)
     if result.complete and member.solutions is not None:
         return _compare_with_count(result, member.solutions)

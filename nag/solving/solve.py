@@ -21,6 +21,7 @@ from nag.solving.start.isotropic import isotropic
 from nag.solving.start.target import Start, Target
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.settings import Settings, named, tighter
 from nag.tracking.track import merged, track
 
@@ -33,15 +34,13 @@ SEPARATING = 60
 INFINITE, ROUGHLY_INFINITE = 2e-12, 1e-7
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def solve(
     system: PolynomialSystem,
     *,
     start: str = "auto",
-    seed: int = 0,
-    threads: int = 1,
-    settings: Settings | str = "default",
-    progress: Progress | None = None,
+    run: Run = DEFAULT_RUN,
     finite: bool = False,
 ) -> SolveResult:
     """All isolated solutions of ``system``, each once, with their multiplicities.
@@ -54,10 +53,7 @@ def solve(
         system: what to solve; its ``groups`` are tried among the multihomogeneous structures.
         start: ``"auto"`` (the least work), ``"total"``, ``"multihomogeneous"``,
             ``"polyhedral"`` or ``"monodromy"``.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: number of threads.
-        settings: tracking settings.
-        progress: called with a stage, the work done and the whole work.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
         finite: whether only a finite solution set is of interest; the result is incomplete, and
             quickly there, if the set proves to have positive dimension.
 
@@ -65,37 +61,29 @@ def solve(
         nag.StartError: if there would be too many paths.
         ValueError: if there is no such start system or no settings of that name.
     """
-    named(settings)
     check_kind(start)
-    name = settings if isinstance(settings, str) else "custom"
 
     def tracked(part: PolynomialSystem) -> SolveResult:
-        return solve_whole(part, start, seed, threads, settings, progress, finite)
+        return solve_whole(part, start, run, finite)
 
     # Who names a start system wants its paths.
-    return solve_apart(system, tracked, seed, name, start == "auto") or tracked(system)
+    return solve_apart(system, tracked, run, start == "auto") or tracked(system)
 
 
 def solve_whole(
-    system: PolynomialSystem,
-    start: str,
-    seed: int,
-    threads: int,
-    settings: Settings | str,
-    progress: Progress | None,
-    finite: bool,
+    system: PolynomialSystem, start: str, run: Run, finite: bool = False
 ) -> SolveResult:
     """The isolated solutions of a system that is tracked as a whole."""
-    name = settings if isinstance(settings, str) else "custom"
-    rng = np.random.default_rng(seed)
+    rng = run.random()
     equations = [f for f in system.polynomials if f]
     if any(f.degree == 0 for f in equations) or system.n == 0:
-        return _nothing(system, seed, name)
+        return _nothing(system, run)
     problem = SquareProblem.of(system, equations, rng)
-    if progress:
-        progress("solve", 0, 1)
-    own = np.random.default_rng([seed, 31])
-    turned = isotropic(system, problem.target, settings, own, threads) if start == "auto" else None
+    run.tell("solve", 0, 1)
+    settings, threads = run.settings, run.threads
+    turned = None
+    if start == "auto":
+        turned = isotropic(system, problem.target, settings, run.random(31), threads)
     begin, reason = turned or choose(problem.target, start, system.groups, rng, threads)
     paths = track(begin.homotopy, begin.points, settings, threads, known=begin.known)
 
@@ -121,7 +109,7 @@ def solve_whole(
         if again.zeros > ends.zeros or verdict(again) is Verdict.ALL:
             paths, ends = more, again
     paths = with_conjugate_ends(begin, paths)
-    return _result(problem, begin, reason, paths, ends, seed, name)
+    return _result(problem, begin, reason, paths, ends, run)
 
 
 def _once_more(
@@ -152,19 +140,16 @@ def ends_of(
     paths: Paths,
     reason: str,
     rng: np.random.Generator,
-    seed: int,
-    settings: str,
+    run: Run,
 ) -> SolveResult:
     """The result for a square system whose paths, in its own variables, were tracked already."""
     n = system.n
     target = Target(n, tuple(dict(f.terms) for f in system.polynomials))
     problem = SquareProblem(system, system.polynomials, system.nonzero, target, 0, False)
-    return _result(
-        problem, begin, reason, paths, judged_ends(problem, begin, paths, rng), seed, settings
-    )
+    return _result(problem, begin, reason, paths, judged_ends(problem, begin, paths, rng), run)
 
 
-def _nothing(system: PolynomialSystem, seed: int, settings: str) -> SolveResult:
+def _nothing(system: PolynomialSystem, run: Run) -> SolveResult:
     empty = np.zeros((0, system.n), dtype=complex)
     contradiction = any(f.degree == 0 for f in system.polynomials)
     solutions = ()
@@ -172,7 +157,17 @@ def _nothing(system: PolynomialSystem, seed: int, settings: str) -> SolveResult:
         solutions = (Solution(np.zeros(0), 1, True, 0.0, 0.0, 1.0, 16),)
     reason = "an equation is a constant that is not zero" if contradiction else "no variables"
     return SolveResult(
-        system, solutions, empty, empty, 0, PathStatistics(), "none", reason, seed, settings, True
+        system,
+        solutions,
+        empty,
+        empty,
+        0,
+        PathStatistics(),
+        "none",
+        reason,
+        run.seed,
+        run.name,
+        True,
     )
 
 
@@ -182,8 +177,7 @@ def _result(
     reason: str,
     paths: Paths,
     ends: JudgedEnds,
-    seed: int,
-    settings: str,
+    run: Run,
 ) -> SolveResult:
     counts = PathStatistics(
         len(paths),
@@ -217,8 +211,8 @@ def _result(
         paths=counts,
         start=begin.name,
         reason=reason,
-        seed=seed,
-        settings=settings,
+        seed=run.seed,
+        settings=run.name,
         complete=complete,
         notes=tuple(notes),
         excluded_solutions=ends.excluded,

@@ -25,6 +25,7 @@ from nag.solving.solutions import PathStatistics, Solution, SolveResult
 from nag.solving.start.family_monodromy import CONFIRMING, SHARP, Progress, family_monodromy
 from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
 from nag.tracking.paths import PathStatus
+from nag.tracking.run import Run
 from nag.tracking.settings import Settings, named
 from nag.tracking.track import track
 
@@ -113,10 +114,7 @@ def solve_classes(
     solved: SolvedClasses,
     target: Sequence[Number],
     rng: np.random.Generator,
-    threads: int,
-    settings: Settings | str,
-    seed: int,
-    name: str,
+    run: Run,
 ) -> SolveResult:
     """All solutions for exact parameters ``target``, by one path for each class."""
     symmetric = solved.symmetric
@@ -124,14 +122,14 @@ def solve_classes(
     # The nearer the parameters, the shorter the paths.
     weights = scaling_weights(symmetric.family)
     factors = nearest_scaling(weights, solved.values, goal, rng)
-    found = track_classes(solved, goal, factors, threads, settings)
+    found = track_classes(solved, goal, factors, run.threads, run.settings)
     lost = int((~found.arrived & ~found.at_infinity).sum())
     if len(weights) and 0 < lost <= FEW * len(found.arrived):
         # Another way leads to the same solutions, each from another one.
         turned = factors * random_scaling(weights, rng)
-        other = track_classes(solved, goal, turned, threads, settings)
+        other = track_classes(solved, goal, turned, run.threads, run.settings)
         found = _joined(symmetric, goal, factors, found, other)
-    return _result(symmetric, target, found, solved.complete, solved.detail, seed, name)
+    return _result(symmetric, target, found, solved.complete, solved.detail, run)
 
 
 def _joined(
@@ -250,8 +248,7 @@ def _result(
     found: ClassEnds,
     complete: bool,
     detail: str,
-    seed: int,
-    settings: str,
+    run: Run,
 ) -> SolveResult:
     """All members of the classes that arrived, as solutions of the family's own system."""
     system = symmetric.original.at(target)
@@ -288,8 +285,8 @@ def _result(
         paths=counts,
         start="parameter",
         reason=f"parameter homotopy: {detail}",
-        seed=seed,
-        settings=settings,
+        seed=run.seed,
+        settings=run.name,
         complete=not notes,
         notes=tuple(notes),
     )

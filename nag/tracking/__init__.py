@@ -1,6 +1,7 @@
 """Homotopy path tracking: predictor, corrector, ends in as many digits as they need.
 
-In order of reading: `settings`; `compiled`, `homotopy` and `projective` (what is tracked); `taylor`
+In order of reading: `run` and `settings`; `compiled`, `homotopy` and `projective` (what is
+tracked); `taylor`
 (values and series of a path) and `predictor`, `linear_algebra` and `newton_kernel` on
 `kernel_arrays`; `straight_run` (many paths at once in doubles); `track` (their ends judged, by
 `newton`) with `jumps` and `known` (what a start system says of them); `ends` (the doubtful ones,

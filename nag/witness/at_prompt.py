@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numbers
-from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -15,6 +15,7 @@ from nag.algebra.given import check_whole
 from nag.algebra.number import Irrational, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
+from nag.tracking.run import Run
 from nag.witness.given_component import rounded
 from nag.witness.membership import Membership, UndecidedError, memberships
 from nag.witness.sampling import sample
@@ -31,8 +32,7 @@ def sampled(
     component: WitnessSet,
     rng: np.random.Generator | int,
     count: int,
-    threads: int,
-    settings: str,
+    run: Run,
 ) -> np.ndarray:
     """Points of a component, see `WitnessSet.sample`."""
     check_whole(count, "count")
@@ -42,7 +42,7 @@ def sampled(
         seed = int(rng.integers(2**63))
     else:
         raise NagError(f"rng: {rng!r} is given; give numpy.random.default_rng(), or a seed")
-    found = sample(system, component, int(count), seed=seed, threads=threads, settings=settings)
+    found = sample(system, component, int(count), run=replace(run, seed=seed))
     return found.points
 
 
@@ -58,7 +58,7 @@ def contains(
     component: WitnessSet,
     point: Any,
     accuracy: float | None,
-    running: Mapping[str, Any],
+    run: Run,
 ) -> bool:
     """Whether a point lies on a component, see `WitnessSet.contains`."""
     entries = coordinates(point, system.variables)
@@ -76,7 +76,7 @@ def contains(
         accuracy = max(INEXACT, 10 * residual) if accuracy is None else accuracy
     alone = Decomposition(system, (component,), PathCounts(), 0, "default", (), False)
     known = entries if exact else ()
-    (answer,) = memberships(alone, at, accuracy=accuracy, exact=known, **running)
+    (answer,) = memberships(alone, at, accuracy=accuracy, exact=known, run=run)
     if answer is Membership.UNDECIDED:
         raise UndecidedError([], [0])
     return answer is Membership.MEMBER

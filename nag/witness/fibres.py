@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -14,7 +14,7 @@ from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.zero_values import ON
 from nag.tracking.homotopy import Homotopy, norms
 from nag.tracking.paths import Ball, Paths, PathStatus
-from nag.tracking.settings import Settings
+from nag.tracking.run import Run
 from nag.tracking.track import track
 from nag.witness.close_points import (
     WORDS,
@@ -39,9 +39,6 @@ from nag.witness.witness import PathCounts
 
 # Newton's constant of points that are close, over their inverse distance.
 STEEPER = 2.0
-
-# Called with a stage's name, the step reached and the number of steps.
-Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,23 +109,6 @@ class Fibre:
         """The fibre's points where ``mask`` holds."""
         fine = chosen(self.fine, np.flatnonzero(mask)) if self.fine else self.fine
         return Fibre(self.cut, self.dimension, self.points[mask], fine)
-
-
-@dataclass(frozen=True)
-class Tracker:
-    """How paths are to be tracked: settings, or the name of some, and number of threads.
-
-    ``progress`` is told how far work that takes long has got.
-    """
-
-    settings: Settings | str = "default"
-    threads: int = 1
-    progress: Progress | None = None
-
-    def tell(self, stage: str, done: int, total: int) -> None:
-        """Tell of the step ``done`` of ``total``; 0 if their number is not known."""
-        if self.progress is not None:
-            self.progress(stage, done, total)
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,7 +209,7 @@ def move(
     source: np.ndarray,
     target: np.ndarray,
     gamma: complex,
-    tracker: Tracker,
+    run: Run,
     *,
     endgame: bool = False,
     through: Sequence[Number] = (),
@@ -253,7 +233,7 @@ def move(
         return []
     sizes = fibres[0].sizes if sizes is None else sizes
     rows = even_rows(source, sizes), even_rows(target, sizes)
-    return [_move_scaled(fibre, *rows, gamma, tracker, endgame, through) for fibre in fibres]
+    return [_move_scaled(fibre, *rows, gamma, run, endgame, through) for fibre in fibres]
 
 
 def _move_scaled(
@@ -261,20 +241,20 @@ def _move_scaled(
     source: np.ndarray,
     target: np.ndarray,
     gamma: complex,
-    tracker: Tracker,
+    run: Run,
     endgame: bool,
     through: Sequence[Number],
 ) -> Moved:
     """The ends of a fibre, tracked in coordinates of comparable sizes."""
     powers = fibre.cut.powers
     if not powers.any():
-        return _track(fibre, source, target, gamma, tracker, endgame, through)
+        return _track(fibre, source, target, gamma, run, endgame, through)
     units = np.ldexp(1.0, np.concatenate([[0], powers]))[: target.shape[1]]
     scaled = source * units, target * units
     own = Fibre(fibre.cut.scaled, fibre.dimension, fibre.points * np.ldexp(1.0, -powers))
     own = replace(own, fine=_scale_points(fibre.fine, -powers, own.cut, scaled[0]))
     there = [x * Fraction(2) ** -int(k) for x, k in zip(through, powers, strict=False)]
-    ends = _track(own, *scaled, gamma, tracker, endgame, there)
+    ends = _track(own, *scaled, gamma, run, endgame, there)
     finite = np.where(ends.finite[:, None], ends.points, 0.0)
     fine = _scale_points(ends.fine, powers, fibre.cut, target)
     return replace(ends, points=finite * np.ldexp(1.0, powers), fine=fine)
@@ -296,13 +276,13 @@ def _track(
     source: np.ndarray,
     target: np.ndarray,
     gamma: complex,
-    tracker: Tracker,
+    run: Run,
     endgame: bool,
     through: Sequence[Number],
 ) -> Moved:
     """The ends of a fibre, tracked in its own coordinates."""
     if fibre.fine:
-        return _track_apart(fibre, source, target, gamma, tracker, endgame, through)
+        return _track_apart(fibre, source, target, gamma, run, endgame, through)
     columns = 1 + fibre.cut.n + fibre.cut.aux
     if len(through):
         from nag.tracking.close_paths import moving_rows
@@ -315,8 +295,8 @@ def _track(
     paths = track(
         homotopy,
         homogeneous(fibre.points),
-        settings=tracker.settings,
-        threads=tracker.threads,
+        settings=run.settings,
+        threads=run.threads,
         endgame=endgame,
     )
     return ends_of_paths(paths)
@@ -327,7 +307,7 @@ def _track_apart(
     source: np.ndarray,
     target: np.ndarray,
     gamma: complex,
-    tracker: Tracker,
+    run: Run,
     endgame: bool,
     through: Sequence[Number],
 ) -> Moved:
@@ -341,8 +321,8 @@ def _track_apart(
     rows = padded(source, columns), padded(target, columns)
     starts = [fibre.fine[i] for i in indices]
     homotopy = moving_rows(fibre.cut.rows, *rows, gamma, through)
-    close = track_close_points(homotopy, starts, fibre.cut, target, tracker, endgame)
-    others = _track(rest, source, target, gamma, tracker, endgame, through)
+    close = track_close_points(homotopy, starts, fibre.cut, target, run, endgame)
+    others = _track(rest, source, target, gamma, run, endgame, through)
     return joined({0: plain, 1: indices}, (others, close))
 
 
@@ -351,7 +331,7 @@ def track_close_points(
     starts: Sequence[Fine],
     cut: Cut,
     rows: np.ndarray,
-    tracker: Tracker,
+    run: Run,
     endgame: bool,
 ) -> Moved:
     """Where paths end that start at points that are close to others.
@@ -364,8 +344,8 @@ def track_close_points(
         homotopy,
         np.array([start.homogeneous for start in starts]),
         np.array([start.curvature for start in starts]),
-        tracker.settings,
-        tracker.threads,
+        run.settings,
+        run.threads,
         endgame=endgame,
     )
     close, total = ends_of_paths(replace(paths, balls={}), keep=cut.n + cut.aux), cut.n + cut.aux
@@ -405,11 +385,11 @@ def move_regular(
     source: np.ndarray,
     target: np.ndarray,
     gamma: complex,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[list[Fibre] | None, PathCounts]:
     """The fibres on another generic slice, or None if a path did not arrive regularly."""
     counts, result = PathCounts(), []
-    moves = move(fibres, source, target, gamma, tracker)
+    moves = move(fibres, source, target, gamma, run)
     for fibre, ends in zip(fibres, moves, strict=True):
         counts += ends.counts.judged_elsewhere
         if not ends.regular.all():

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from nag.algebra.from_python import coordinates
-from nag.algebra.given import check_running, check_type, check_whole
+from nag.algebra.given import check_type, check_whole
 from nag.algebra.number import Irrational
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
@@ -24,10 +24,8 @@ def check_system(system: Any, place: str = "system") -> None:
     check_type(system, PolynomialSystem, place, "a nag.PolynomialSystem: nag.system(equations)")
 
 
-def check_component(
-    system: Any, component: Any, seed: Any, threads: Any, settings: Any, place: str = "component"
-) -> None:
-    """Make sure that a component of a system, and how to run, are given.
+def check_component(system: Any, component: Any, place: str = "component") -> None:
+    """Make sure that a component of a system is given.
 
     Raises:
         ValueError: if something else is, or the component has another number of variables.
@@ -39,18 +37,16 @@ def check_component(
             f"{place}: it has {component.points.shape[1]} coordinates, and system has "
             f"{system.n} variables; give the system that it is a component of"
         )
-    check_running(seed, threads, settings)
 
 
-def check_decomposition(decomposition: Any, seed: Any, threads: Any, settings: Any) -> None:
-    """Make sure that a decomposition, and how to run, are given.
+def check_decomposition(decomposition: Any) -> None:
+    """Make sure that a decomposition is given.
 
     Raises:
         ValueError: if something else is.
     """
     advice = "what nag.decompose returns"
     check_type(decomposition, Decomposition, "decomposition", advice)
-    check_running(seed, threads, settings)
 
 
 def check_index(value: Any, place: str, count: int) -> None:

@@ -19,12 +19,13 @@ from nag.numerics.coincidence import compared
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import NONZERO
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.close_points import BASIN, DIGITS, Fine, distance, rated
 from nag.witness.component_equations import component_fibres, component_system
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import exact_zeros
-from nag.witness.fibres import Fibre, Moved, Tracker, join_fibres, move
+from nag.witness.fibres import Fibre, Moved, join_fibres, move
 from nag.witness.gauss_newton import polish
 from nag.witness.given_component import check_decomposition, in_doubles, rounded
 from nag.witness.slices import padded, rows_through, unit_complex
@@ -51,7 +52,7 @@ def is_member(
     fibres: Sequence[Fibre],
     flag: np.ndarray,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
     given: Sequence[Number] | None = None,
 ) -> tuple[Membership, PathCounts]:
     """Whether an affine point lies in the closure of the set that ``fibres`` stand for.
@@ -66,7 +67,7 @@ def is_member(
             point than this and its own error explain is another one then. None of a point that
             paths led to.
     """
-    ((answer, _),), counts = find_members(point, accuracy, [fibres], flag, rng, tracker, given)
+    ((answer, _),), counts = find_members(point, accuracy, [fibres], flag, rng, run, given)
     return answer, counts
 
 
@@ -77,7 +78,7 @@ def find_members(
     sets: Sequence[Sequence[Fibre]],
     flag: np.ndarray,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
     given: Sequence[Number] | None = None,
 ) -> tuple[list[tuple[Membership, bool]], PathCounts]:
     """`is_member` for several sets of one dimension on one slice, which moves once.
@@ -98,7 +99,7 @@ def find_members(
     target = rows_through(rng, first.dimension, point, first.sizes)
     rows, fibres = (flag[: first.dimension], target), [fibre for fibre, _ in together]
     gamma = complex(unit_complex(rng))
-    moves = move(fibres, *rows, gamma, tracker, endgame=True, through=given or ())
+    moves = move(fibres, *rows, gamma, run, endgame=True, through=given or ())
     for ends, (fibre, owners) in zip(moves, together, strict=True):
         counts += ends.counts.judged_elsewhere
         if bounded:
@@ -258,6 +259,7 @@ def _angle(cut: Cut, rows: np.ndarray, end: Fine) -> float:
     return max(float(np.linalg.svd(np.array(unit), compute_uv=False)[-1]), 1e-300)
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def memberships(
     decomposition: Decomposition,
@@ -265,9 +267,7 @@ def memberships(
     *,
     accuracy: float = 1e-12,
     exact: Sequence[Number] = (),
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> tuple[Membership, ...]:
     """For each component, whether an affine point lies on it.
 
@@ -281,9 +281,7 @@ def memberships(
         exact: the exact coordinates that ``point`` is rounded from, if they are known: then a
             component on which an equation holds that does not hold there is told from the others
             however near it is.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Raises:
         ValueError: if an argument makes no sense; the message says which, and what would.
@@ -293,17 +291,16 @@ def memberships(
     >>> [str(found.value) for found in memberships(nag.decompose("x*(y - 1)"), [0, 2])]
     ['member', 'foreign']
     """
-    check_decomposition(decomposition, seed, threads, settings)
+    check_decomposition(decomposition)
     check_error(accuracy, "accuracy")
-    rng = np.random.default_rng([seed, 1])
-    tracker = Tracker(settings, threads)
+    rng = run.random(1)
     system = decomposition.system
     point = in_doubles(point, system.variables)
     if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > NONZERO:
         return (Membership.FOREIGN,) * len(decomposition.components)
     asked = _Asked.of(point, accuracy, exact, coordinates_of(system).unscaled)
     whole = carry_decomposition(decomposition, asked.natural)
-    answers, shared = _by_components(whole, asked, rng, tracker)
+    answers, shared = _by_components(whole, asked, rng, run)
     nowhere = all(answer is Membership.FOREIGN for answer in answers)
     if nowhere and not exact and _surely_on_one(decomposition, point, accuracy):
         return (Membership.UNDECIDED,) * len(answers)
@@ -374,7 +371,7 @@ class _Asked:
 
 
 def _by_components(
-    decomposition: Decomposition, asked: _Asked, rng: np.random.Generator, tracker: Tracker
+    decomposition: Decomposition, asked: _Asked, rng: np.random.Generator, run: Run
 ) -> tuple[tuple[Membership, ...], tuple[bool, ...]]:
     """For each component by itself, whether a point lies on it, or on another as near to it."""
     system, components = decomposition.system, decomposition.components
@@ -400,7 +397,7 @@ def _by_components(
         rows = components[next(iter(several))].slice.rows
         sets = list(several.values())
         accuracy = asked.accuracy(sets[0][0].sizes[1:])
-        each, _ = find_members(point, accuracy, sets, rows, rng, tracker, exact)
+        each, _ = find_members(point, accuracy, sets, rows, rng, run, exact)
         answers |= zip(several, each, strict=True)
     if not answers:
         return (), ()
@@ -501,6 +498,7 @@ class UndecidedError(ComponentError):
         super().__init__(text)
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def components_through(
     decomposition: Decomposition,
@@ -508,9 +506,7 @@ def components_through(
     *,
     accuracy: float = 1e-12,
     exact: Sequence[Number] = (),
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> list[int]:
     """Indices of the components that an affine point lies on, the highest dimension first.
 
@@ -521,9 +517,7 @@ def components_through(
         point: complex, shape ``(n,)``, in the system's variables.
         accuracy: bound of the relative error of the point.
         exact: the exact coordinates that ``point`` is rounded from, if they are known.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Raises:
         UndecidedError: if the membership in a component could not be decided.
@@ -539,9 +533,7 @@ def components_through(
         point,
         accuracy=accuracy,
         exact=exact,
-        seed=seed,
-        threads=threads,
-        settings=settings,
+        run=run,
     )
     found = [i for i, answer in enumerate(answers) if answer is Membership.MEMBER]
     undecided = [i for i, answer in enumerate(answers) if answer is Membership.UNDECIDED]

@@ -12,10 +12,11 @@ from nag.algebra.given import check_type
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.zero_values import ON
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.exact_points import Sharp, in_order, sharpened
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.witness.fibres import Fibre, move
 from nag.witness.given_component import check_component
 from nag.witness.slices import to_slice, unit_complex
 from nag.witness.witness import Slice, WitnessSet
@@ -85,7 +86,7 @@ def arrival(
     rows: np.ndarray,
     target: np.ndarray,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
     endgame: bool = True,
 ) -> Arrival:
     """What becomes of fibres when the slice moves from ``rows`` to ``target``."""
@@ -93,7 +94,7 @@ def arrival(
         return Arrival([sharpened(fibre, target) for fibre in fibres], 0, 0)
     found, infinite, irregular = [], 0, 0
     gamma = complex(unit_complex(rng))
-    moves = move(fibres, rows, target, gamma, tracker, endgame=endgame)
+    moves = move(fibres, rows, target, gamma, run, endgame=endgame)
     for fibre, ends in zip(fibres, moves, strict=True):
         infinite += ends.counts.at_infinity
         irregular += int(np.sum(~ends.regular)) - ends.counts.at_infinity
@@ -111,14 +112,13 @@ def _check_slice(target: Slice, component: WitnessSet) -> None:
         )
 
 
+@takes_run
 def witness_at(
     system: PolynomialSystem,
     component: WitnessSet,
     target: Slice,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> WitnessSet:
     """The witness set of ``component`` at a given slice.
 
@@ -129,7 +129,7 @@ def witness_at(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         target: as many equations as the component has dimensions, in the system's variables.
-        seed, threads, settings: of the run, as for `nag.decompose`.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Returns:
         The component with other points, shape ``(degree, n)``.
@@ -146,15 +146,15 @@ def witness_at(
     >>> sorted(round(float(y), 6) for y in moved.points[:, 1].real)
     [-1.0, 1.0]
     """
-    check_component(system, component, seed, threads, settings)
+    check_component(system, component)
     _check_slice(target, component)
-    rng = np.random.default_rng([seed, 2])
+    rng = run.random(2)
     goal, natural = orthonormal_rows(target.rows), coordinates_of(system)
     own = natural.system(system)
     here = carry_component(component, natural, own)
     fibres, rows = component_fibres(own, here), natural.rows(goal)
     evaluator = Evaluator.of(own.polynomials, own.n)
-    there = arrival(fibres, here.slice.rows, rows, rng, Tracker(settings, threads))
+    there = arrival(fibres, here.slice.rows, rows, rng, run)
     found = [each.only(in_order(each.fibre.points)) for each in there.sharp]
     points = np.vstack([each.fibre.x for each in found])
     residual = float(evaluator.residuals(points).max(initial=0.0))

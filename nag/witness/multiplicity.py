@@ -18,7 +18,8 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.coincidence import compared
 from nag.numerics.zero_values import WRITTEN, multiplicity_of_all, possible_zeros
-from nag.witness.fibres import Fibre, Tracker, move
+from nag.tracking.run import Run
+from nag.witness.fibres import Fibre, move
 from nag.witness.slices import padded, rows_through, unit_complex
 
 # How well points are known that were sharpened in doubles, by a deflation that may be badly
@@ -51,7 +52,7 @@ def multiplicity_at(
     fibres: Sequence[Fibre],
     rows: np.ndarray,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> int | None:
     """The multiplicity of the set that ``fibres`` stand for at a point; 0 if it is not on it.
 
@@ -71,7 +72,7 @@ def multiplicity_at(
     target = rows_through(rng, dimension, point, fibres[0].sizes)
     ends = []
     gamma = complex(unit_complex(rng))
-    moves = move(fibres, rows, target, gamma, tracker, endgame=True)
+    moves = move(fibres, rows, target, gamma, run, endgame=True)
     for fibre, moved in zip(fibres, moves, strict=True):
         if moved.failed.any():
             return None

@@ -9,6 +9,7 @@ from functools import cached_property
 import flint
 import numpy as np
 
+from nag.tracking.run import Run
 from nag.witness.close_points import (
     CLOSE,
     DIGITS,
@@ -21,7 +22,7 @@ from nag.witness.close_points import (
 )
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import FEWEST, ExactPoints, exact_points, together
-from nag.witness.fibres import STEEPER, Fibre, Tracker, move
+from nag.witness.fibres import STEEPER, Fibre, move
 from nag.witness.witness import PathCounts
 
 
@@ -166,7 +167,7 @@ def with_fine(fibres: Sequence[Fibre], rows: np.ndarray, close: float = CLOSE) -
 
 
 def move_points(
-    points: Points, indices: Sequence[int], target: np.ndarray, gamma: complex, tracker: Tracker
+    points: Points, indices: Sequence[int], target: np.ndarray, gamma: complex, run: Run
 ) -> tuple[Points, np.ndarray, PathCounts]:
     """Some points when the slice moves to another generic one.
 
@@ -177,7 +178,7 @@ def move_points(
     found: dict[int, tuple[np.ndarray, Fine | None]] = {}
     parts = points.fibres(indices)
     fibres, sizes = [fibre for fibre, _ in parts], points.sizes
-    moves = move(fibres, points.rows, target, gamma, tracker, sizes=sizes)
+    moves = move(fibres, points.rows, target, gamma, run, sizes=sizes)
     for there, (_, own) in zip(moves, parts, strict=True):
         counts += there.counts.judged_elsewhere
         for k in np.flatnonzero(there.regular).tolist():

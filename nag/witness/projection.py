@@ -18,6 +18,7 @@ from nag.errors import ComponentError, NagError
 from nag.numerics.coincidence import clusters
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import SINGULAR
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import (
     carry_component,
     carry_points,
@@ -25,7 +26,7 @@ from nag.witness.change_of_coordinates import (
 )
 from nag.witness.component_equations import component_fibres
 from nag.witness.cutting import numerical_corank
-from nag.witness.fibres import Fibre, Tracker
+from nag.witness.fibres import Fibre
 from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
 from nag.witness.moving import Arrival, arrival
@@ -110,14 +111,13 @@ def _special_rows(
     return np.vstack([first, random_rows(rng, rest, n)]) / sizes
 
 
+@takes_run
 def project(
     system: PolynomialSystem,
     component: WitnessSet,
     coordinates: Sequence[int | str],
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> Projection:
     """Dimension and degree of the closure of a coordinate projection, and of its generic fibre.
 
@@ -127,9 +127,7 @@ def project(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         coordinates: the variables to project to, by index or name, at least one, each once.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Returns:
         Dimensions and degrees, with a slice and the points on it, shape
@@ -146,21 +144,20 @@ def project(
     >>> image.dimension, image.degree, image.fibre_degree
     (1, 3, 1)
     """
-    check_component(system, component, seed, threads, settings)
+    check_component(system, component)
     chosen = variable_indices(coordinates, system.variables, "coordinates")
     if not chosen or len(set(chosen)) < len(chosen):
         raise NagError(
             f"coordinates: {list(chosen)} are given; give at least one variable, each once"
         )
-    rng = np.random.default_rng([seed, 4])
+    rng = run.random(4)
     natural = coordinates_of(system)
     system = natural.system(system)
     component = carry_component(component, natural, system)
     fibres = component_fibres(system, component)
     d = component.dimension
     r = _image_dimension(fibres[0], chosen)
-    tracker = Tracker(settings, threads)
-    found = [_pseudo_witness(fibres, component, chosen, r, rng, tracker) for _ in range(SLICES)]
+    found = [_pseudo_witness(fibres, component, chosen, r, rng, run) for _ in range(SLICES)]
     degrees = {numbers for numbers, *_ in found}
     if len(degrees) > 1:
         raise ProjectionError("the numbers of points differ between two slices")
@@ -177,13 +174,13 @@ def _pseudo_witness(
     coordinates: Sequence[int],
     r: int,
     rng: np.random.Generator,
-    tracker: Tracker,
+    run: Run,
 ) -> tuple[tuple[int, int], np.ndarray, Arrival]:
     """Degrees of the image and of the fibre, the slice's rows, and the points on it."""
     rows, d = component.slice.rows, component.dimension
     sizes = fibres[0].sizes
     target = _special_rows(rng, sizes, coordinates, r, d - r)
-    there = arrival(fibres, rows, target, rng, tracker)
+    there = arrival(fibres, rows, target, rng, run)
     # Finite points of a generic slice are regular (Bertini's theorem).
     if there.irregular or not there.accuracy < SHARP:
         raise ProjectionError("paths failed; the component may not be irreducible")

@@ -20,9 +20,10 @@ from nag.errors import NagError
 from nag.numerics.coincidence import coincident
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import LEAST, ON
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.fibres import Fibre, Tracker
+from nag.witness.fibres import Fibre
 from nag.witness.gauss_newton import descend, polish
 from nag.witness.given_component import check_component
 from nag.witness.membership import Membership, is_member
@@ -78,15 +79,14 @@ class RealPoints:
         return len(self.points)
 
 
+@takes_run
 def real_points_near(
     system: PolynomialSystem,
     component: WitnessSet,
     near: np.ndarray,
     *,
     starts: int = STARTS,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> RealPoints:
     """Real points of ``component`` near a real point.
 
@@ -98,7 +98,7 @@ def real_points_near(
         component: one of the components of a `nag.Decomposition`.
         near: real, shape ``(n,)``.
         starts: number of starting points; the first is ``near`` itself.
-        seed, threads, settings: of the run, as for `nag.decompose`.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Returns:
         The points, real of shape ``(count, n)``, the nearest first.
@@ -113,10 +113,10 @@ def real_points_near(
     >>> near.points[0].round(6).tolist(), round(float(near.distances[0]), 6)
     ([1.0, 0.0], 2.0)
     """
-    check_component(system, component, seed, threads, settings)
+    check_component(system, component)
     check_whole(starts, "starts", 1)
     near = _real_vector(near, system.n)
-    rng, tracker = np.random.default_rng([seed, 8]), Tracker(settings, threads)
+    rng = run.random(8)
     # Distances are those in the units that are given.
     natural = coordinates_of(system).unscaled
     system, near = natural.system(system), natural.points(near)
@@ -131,7 +131,7 @@ def real_points_near(
             zeros += 1
             if coincident(known, x, pull if pull < ALMOST else 0.0).any():
                 continue
-            answer, _ = is_member(x + 0j, LEAST, fibres, component.slice.rows, rng, tracker)
+            answer, _ = is_member(x + 0j, LEAST, fibres, component.slice.rows, rng, run)
             undecided += answer is Membership.UNDECIDED
             if answer is Membership.MEMBER:
                 known = np.vstack([known, x])

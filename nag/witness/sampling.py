@@ -14,9 +14,10 @@ from nag.errors import ComponentError
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import fixed_array
 from nag.numerics.zero_values import ON
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, carry_points, coordinates_of
 from nag.witness.component_equations import component_fibres
-from nag.witness.fibres import Fibre, Tracker
+from nag.witness.fibres import Fibre
 from nag.witness.frame import EPS
 from nag.witness.given_component import check_component
 from nag.witness.moving import Arrival, arrival
@@ -67,15 +68,14 @@ class SamplingError(ComponentError):
         super().__init__(reason)
 
 
+@takes_run
 @np.errstate(over="ignore", invalid="ignore")
 def sample(
     system: PolynomialSystem,
     component: WitnessSet,
     count: int,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> Samples:
     """``count`` random points of ``component``, accurate to rounding.
 
@@ -87,9 +87,7 @@ def sample(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         count: how many.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
+        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
 
     Returns:
         The points, complex of shape ``(count, n)``, with their residual and accuracy.
@@ -105,9 +103,9 @@ def sample(
     >>> found.points.shape, found.residual < 1e-12
     ((5, 2), True)
     """
-    check_component(system, component, seed, threads, settings)
+    check_component(system, component)
     check_whole(count, "count")
-    rng = np.random.default_rng([seed, 3])
+    rng = run.random(3)
     if not component.dimension:
         drawn = rng.integers(len(component.points), size=count)
         at, evaluator = component.points[drawn], Evaluator.of(system.polynomials, system.n)
@@ -118,11 +116,10 @@ def sample(
     system = natural.system(system)
     component = carry_component(component, natural, system)
     fibres = component_fibres(system, component)
-    tracker = Tracker(settings, threads)
     evaluator = Evaluator.of(system.polynomials, system.n)
     points, radii = np.zeros((count, system.n), dtype=complex), np.zeros((count, system.n))
     for k in range(count):
-        _, there = at_random(fibres, component.slice.rows, rng, tracker)
+        _, there = at_random(fibres, component.slice.rows, rng, run)
         x = there.x
         if not (len(x) and there.accuracy < SHARP and evaluator.residuals(x).max(initial=0.0) < ON):
             some = _samples(evaluator, points[:k], radii[:k], natural)
@@ -132,7 +129,7 @@ def sample(
 
 
 def at_random(
-    fibres: Sequence[Fibre], rows: np.ndarray, rng: np.random.Generator, tracker: Tracker
+    fibres: Sequence[Fibre], rows: np.ndarray, rng: np.random.Generator, run: Run
 ) -> tuple[np.ndarray, Arrival]:
     """A random slice, and what became of a random point of the fibres on its way there."""
     chosen = int(rng.integers(sum(map(len, fibres))))
@@ -142,7 +139,7 @@ def at_random(
         chosen -= len(fibre)
     one = fibre.only(np.arange(len(fibre)) == chosen)
     target = random_rows(rng, len(rows), fibre.cut.n) / fibre.sizes
-    return target, arrival([one], rows, target, rng, tracker, endgame=False)
+    return target, arrival([one], rows, target, rng, run, endgame=False)
 
 
 def _samples(

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from nag.algebra.given import check_error, check_listed, check_running, check_type
+from nag.algebra.given import check_error, check_listed, check_type
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.numerics.read_only import fixed_array
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
     from nag.witness.fibres import Fibre
@@ -208,13 +209,13 @@ class WitnessSet:
             )
         return self.system
 
+    @takes_run
     def sample(
         self,
         rng: np.random.Generator | int,
         count: int = 1,
         *,
-        threads: int = 1,
-        settings: str = "default",
+        run: Run = DEFAULT_RUN,
     ) -> np.ndarray:
         """Independent random points of the component, accurate to rounding.
 
@@ -243,17 +244,15 @@ class WitnessSet:
         """
         from nag.witness.at_prompt import sampled
 
-        check_running(0, threads, settings)
-        return sampled(self._known_system(), self, rng, count, threads, settings)
+        return sampled(self._known_system(), self, rng, count, run)
 
+    @takes_run
     def contains(
         self,
         point: Any,
         *,
         accuracy: float | None = None,
-        seed: int = 0,
-        threads: int = 1,
-        settings: str = "default",
+        run: Run = DEFAULT_RUN,
     ) -> bool:
         """Whether a point lies on the component.
 
@@ -281,22 +280,20 @@ class WitnessSet:
         from nag.witness.at_prompt import contains
 
         check_error(accuracy, "accuracy")
-        check_running(seed, threads, settings)
         return contains(
             self._known_system(),
             self,
             point,
             accuracy,
-            {"seed": seed, "threads": threads, "settings": settings},
+            run,
         )
 
+    @takes_run
     def project(
         self,
         coordinates: Sequence[int | str],
         *,
-        seed: int = 0,
-        threads: int = 1,
-        settings: str = "default",
+        run: Run = DEFAULT_RUN,
     ) -> Projection:
         """Dimension and degree of the closure of a coordinate projection, and of its fibres.
 
@@ -317,8 +314,7 @@ class WitnessSet:
         """
         from nag.witness.projection import project
 
-        system, options = self._known_system(), {"threads": threads, "settings": settings}
-        return project(system, self, coordinates, seed=seed, **options)
+        return project(self._known_system(), self, coordinates, run=run)
 
 
 @dataclass(frozen=True)
@@ -349,7 +345,7 @@ class Decomposition:
     Attributes:
         system: the exact system.
         components: by falling dimension, then rising degree.
-        paths: what the tracker did.
+        paths: what the run did.
         seed: seed of the random numbers.
         settings: name of the tracking settings.
         order: indices of the equations in the order in which they were intersected, among those
