@@ -28,7 +28,6 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import NAMES
 from nag.decomposition import decompose, intersect_components, intersect_equations
-from nag.decomposition.intersection import Intersection
 from nag.numerics.zero_values import ON
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -132,7 +131,7 @@ def chosen(
 
 def intersected(
     pair: Pair, powers: Sequence[int], seed: int, equations: bool
-) -> Intersection | str:
+) -> Decomposition | str:
     """The intersection in units; why there is none if the components were not found."""
     names = NAMES[: pair.n]
     first, second = in_units(pair.first, powers), in_units(pair.second, powers)
@@ -149,7 +148,7 @@ def intersected(
     return intersect_components(system, *components, seed=seed)
 
 
-def verdict(found: Intersection | str, right: Counter[int]) -> tuple[str, str]:
+def verdict(found: Decomposition | str, right: Counter[int]) -> tuple[str, str]:
     """One word, and what was found."""
     if isinstance(found, str):
         return "open", found

@@ -20,14 +20,15 @@ from nag.decomposition import (
     memberships,
     sample,
 )
-from nag.decomposition.intersection import Intersection, IntersectionError
+from nag.decomposition.intersection import IntersectionError
 from nag.files.cases import read_case
 from nag.witness.membership import Membership
+from nag.witness.witness import Decomposition
 
 CASES = Path(__file__).parent.parent / "cases"
 
 
-def kinds(found: Intersection, accuracy: float = 1e-12) -> Counter[tuple[int, int]]:
+def kinds(found: Decomposition, accuracy: float = 1e-12) -> Counter[tuple[int, int]]:
     assert found.complete and not found.notes
     assert all(c.residual < 1e-12 and c.accuracy < accuracy for c in found.components)
     return Counter((c.dimension, c.degree) for c in found.components)

@@ -80,6 +80,7 @@ def test_packages_import_only_what_is_before_them(package: str) -> None:
         for file in (NAG / package).rglob("*.py")
         for given in read(file)
         if ".".join(given.module.split(".")[:2]) in later
+        and not (file == NAG / "witness/witness.py" and (given.later or given.only_for_types))
     ]
     assert backwards == []
 

@@ -10,7 +10,7 @@ from typing import Any
 from nag.algebra.given import check_listed, check_type, shown
 from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
-from nag.text.table import LINE, counted, html_table, printable, shortened
+from nag.text.table import LINE, counted, html_table, one_line, printable, shortened
 
 # Of longer systems the first equations are shown.
 MOST_LINES, MOST_ROWS = 4, 40
@@ -84,7 +84,9 @@ class PolynomialSystem:
         """The polynomials as text."""
         return [f.text(self.variables) for f in self.polynomials]
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         """Five lines: what it is, and its first equations."""
         lines = [f"PolynomialSystem of {system_line(self)}"]
         shown = len(self.polynomials) if len(self.polynomials) <= MOST_LINES else MOST_LINES - 1

@@ -60,7 +60,7 @@ def discover(
     Args:
         system: as for `nag.decomposition.decompose`.
         starts: number of starting points.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
         symmetries: as for `nag.decomposition.decompose`; what they carry a component to is found
             with it.
 

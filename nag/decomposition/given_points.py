@@ -150,7 +150,7 @@ def components_through_points(
     Args:
         system: the equations.
         starts: for each component at least one point, with the component's dimension there.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
         symmetries: signed permutations that keep the equations; of each orbit of components one is
             worked out.
 

@@ -7,7 +7,7 @@ meet on the diagonal of their product. Neither needs the components to be differ
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -45,42 +45,11 @@ from nag.witness.witness import (
 )
 
 __all__ = [
-    "Intersection",
     "IntersectionError",
     "intersect_components",
     "intersect_equations",
     "intersect_pair",
 ]
-
-
-@dataclass(frozen=True)
-class Intersection:
-    """The irreducible components of an intersection.
-
-    Attributes:
-        system: all equations that are known to hold on it. Its zero set may be larger: components
-            of one system meet where that system's own equations say nothing new. A component's
-            multiplicity is 1 where these equations cut it as a reduced one, else 0, not known.
-        components: by falling dimension, then rising degree.
-        paths: what the run did.
-        seed: seed of the random numbers.
-        settings: name of the tracking settings.
-        complete: whether every component is confirmed and nothing was left undecided.
-        notes: what a reader must know of an incomplete answer.
-    """
-
-    system: PolynomialSystem
-    components: tuple[WitnessSet, ...]
-    paths: PathCounts
-    seed: int
-    settings: str
-    complete: bool
-    notes: tuple[str, ...] = ()
-
-    @property
-    def dimension(self) -> int:
-        """Largest dimension of a component; -1 for the empty set."""
-        return max((c.dimension for c in self.components), default=-1)
 
 
 @takes_run
@@ -91,16 +60,19 @@ def intersect_components(
     second: WitnessSet,
     *,
     run: Run = DEFAULT_RUN,
-) -> Intersection:
+) -> Decomposition:
     """The irreducible components of the intersection of two components, as sets.
 
-    They meet on the diagonal of their product (Sommese, Verschelde & Wampler 2004).
+    They meet on the diagonal of their product (Sommese, Verschelde & Wampler 2004). The answer's
+    system are all equations that are known to hold on it; its zero set may be larger: components of
+    one system meet where that system's own equations say nothing new. A component's multiplicity is
+    1 where these equations cut it as a reduced one, else 0, not known.
 
     Args:
         system: the equations that ``first`` was found from.
         first: one of the components of a `nag.Decomposition`.
         second: one of the same system, or of one in the same variables that it knows.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
@@ -122,7 +94,7 @@ def intersect_components(
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def intersect_factors(first: Factor, second: Factor, *, run: Run) -> Intersection:
+def intersect_factors(first: Factor, second: Factor, *, run: Run) -> Decomposition:
     """`intersect_components` for components whose equations have been looked at before.
 
     Raises:
@@ -145,12 +117,12 @@ def intersect_factors(first: Factor, second: Factor, *, run: Run) -> Intersectio
 
 
 def _carry_back(
-    result: Intersection,
+    result: Decomposition,
     components: Sequence[WitnessSet],
     system: PolynomialSystem,
     natural: NaturalCoordinates,
     run: Run,
-) -> Intersection:
+) -> Decomposition:
     """An answer with these components, in the coordinates that were given."""
     return replace(
         result,
@@ -171,7 +143,7 @@ def intersect_equations(
     equations: PolynomialSystem,
     *,
     run: Run = DEFAULT_RUN,
-) -> Intersection:
+) -> Decomposition:
     """The irreducible components of the intersection of a component with a zero set.
 
     The equations are met one by one, from the component's witness set (u-generation: Duff, Leykin
@@ -181,7 +153,7 @@ def intersect_equations(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         equations: further equations in the same variables.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
         IntersectionError: if the variables differ, or witness points are none.
@@ -281,15 +253,16 @@ def _intersection(
     notes: Sequence[str],
     rng: np.random.Generator,
     run: Run,
-) -> Intersection:
+) -> Decomposition:
     """The points of all dimensions, split into irreducible components."""
     found = assembled(points, reduction, rng, run, Known(scheme=False))
-    return Intersection(
+    return Decomposition(
         system=reduction.system,
         components=found.components,
         paths=counts + found.counts,
         seed=0,
         settings=run.settings,
+        order=(),
         complete=found.complete and not notes,
         notes=(*notes, *found.notes),
     )
@@ -330,7 +303,7 @@ def _with_cuts(
 @np.errstate(over="ignore", invalid="ignore")
 def intersect_pair(
     decomposition: Decomposition, first: int, second: int, **options: object
-) -> Intersection:
+) -> Decomposition:
     """The intersection of two components of a decomposition, given by their indices.
 
     Args:

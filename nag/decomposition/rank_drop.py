@@ -28,7 +28,7 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.smoothness import is_regular_everywhere
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.intersection import Intersection, intersect_equations
+from nag.decomposition.intersection import intersect_equations
 from nag.decomposition.reduction import Reduction
 from nag.numerics.coincidence import clusters
 from nag.numerics.local_dimension import local_dimension
@@ -242,7 +242,7 @@ class _Search:
             again.sets, again.notes = self.sets + points, self.notes + again.notes
         return again
 
-    def _judge(self, found: Intersection, one: WitnessSet) -> None:
+    def _judge(self, found: Decomposition, one: WitnessSet) -> None:
         """Keep a set of pairs if the rank of all equations is not known to be the usual one."""
         n = self.own.n
         image: WitnessSet | Projection = one

@@ -132,7 +132,7 @@ def singular_parameters(
         system: a complete intersection in its variables, for general parameters. Singular points
             where something vanishes that must not, `PolynomialSystem.nonzero`, do not count.
         count: how many of the variables are parameters.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Returns:
         For each set of parameters that is irreducible over the rational numbers its equations, and

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from nag.algebra.given import check_running
 from nag.algebra.symmetry import SymmetryError
 from nag.interface.problem import problem_of, symmetries_in
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
     from nag.witness.witness import Decomposition
 
 
+@takes_run
 def decompose(
     system: Any,
     variables: Any = None,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
-    progress: Callable[[str, int, int], None] | None = None,
+    run: Run = DEFAULT_RUN,
     symmetries: Iterable[Any] | None = None,
 ) -> Decomposition:
     """The irreducible components over the complex numbers of what satisfies the equations.
@@ -33,10 +31,7 @@ def decompose(
         system: a `nag.Mechanism`, a `nag.model`, a `nag.Case`, a `nag.PolynomialSystem`, or
             equations as `nag.system` takes them: texts, sympy's expressions, one or a list.
         variables: of equations, their names in order; see `nag.system`.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
-        progress: called with a stage's name, the step reached and the number of steps.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
         symmetries: signed permutations of the variables that keep the equations, each a
             `nag.SignedPermutation`, a dict ``{"x": "-x", "y": "z", "z": "y"}`` or a sign for each
             variable. Of the components that they carry into each other one is reported, with the
@@ -58,13 +53,11 @@ def decompose(
     """
     problem = problem_of(system, variables)
     kept = symmetries_in(symmetries, problem)
-    check_running(seed, threads, settings, progress)
 
     from nag.decomposition.components import decompose as decompose_system
     from nag.mechanism.parts_decomposition import decompose_parts
 
-    options: dict[str, Any] = {"seed": int(seed), "threads": int(threads), "settings": settings}
-    options |= {"progress": progress, "symmetries": kept}
+    options: dict[str, Any] = {**run.short, "symmetries": kept}
     try:
         if problem.parts is not None:
             return decompose_parts(problem.parts, **options)

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from nag.algebra.given import check_running
 from nag.interface.problem import Problem, problem_of
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
     from nag.solving.solutions import SolveResult
-    from nag.tracking.settings import Settings
 
 
+@takes_run
 def solve(
     system: Any,
     variables: Any = None,
     *,
     start: str = "auto",
-    seed: int = 0,
-    threads: int = 1,
-    settings: Settings | str = "default",
-    progress: Callable[[str, int, int], None] | None = None,
+    run: Run = DEFAULT_RUN,
 ) -> SolveResult:
     """All isolated solutions of equations, each once, with their multiplicities.
 
@@ -37,10 +33,7 @@ def solve(
         start: ``"auto"`` (the family's solutions where their number is known, else the least
             work), ``"total"``, ``"multihomogeneous"``, ``"polyhedral"``, ``"monodromy"``, or
             ``"parameter"`` for loops of the parameters of a case's family.
-        seed: of the random numbers; the same seed gives the same answer for any ``threads``.
-        threads: number of threads.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
-        progress: called with a stage, the work done and the whole work.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Returns:
         The solutions; ``.points`` has shape ``(k, n)``, ``.real`` are the real ones.
@@ -56,22 +49,19 @@ def solve(
     [[-0.707107, -0.707107], [0.707107, 0.707107]]
     """
     problem = problem_of(system, variables)
-    check_running(seed, threads, settings, progress)
 
-    options: dict[str, Any] = {"seed": int(seed), "threads": int(threads), "settings": settings}
-    options["progress"] = progress
     if start == "parameter" or (start == "auto" and problem.family and problem.family.solutions):
-        return _by_family(problem, start == "auto", options)
+        return _by_family(problem, start == "auto", run)
 
     from nag.solving.solve import solve as solve_system
 
-    return solve_system(problem.system, start=start, **options)
+    return solve_system(problem.system, start=start, run=run)
 
 
-def _by_family(problem: Problem, exact_first: bool, options: dict[str, Any]) -> SolveResult:
+def _by_family(problem: Problem, exact_first: bool, run: Run) -> SolveResult:
     from nag.errors import StartError
     from nag.solving.parameter import solve_member
 
     if problem.family is None:
         raise StartError("parameter: the system has no [family]; leave out start")
-    return solve_member(problem.system, problem.family, exact_first=exact_first, **options)
+    return solve_member(problem.system, problem.family, exact_first=exact_first, run=run)

@@ -13,6 +13,7 @@ from typing import Any
 from nag.algebra.number import Irrational, Number, square_root, to_mpf
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import conjugate, multiply, rotate
+from nag.text.table import one_line
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,9 @@ class Configuration:
         object.__setattr__(self, "euler", MappingProxyType(dict(self.euler)))
         object.__setattr__(self, "position", MappingProxyType(dict(self.position)))
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         from nag.mechanism.shown import configuration_text
 
         return configuration_text(self)

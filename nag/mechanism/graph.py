@@ -13,6 +13,7 @@ from nag.algebra.given import check_listed, check_type, is_a, shown
 from nag.algebra.number import Number, is_zero, number_text
 from nag.errors import MechanismError
 from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS
+from nag.text.table import one_line
 
 if TYPE_CHECKING:
     import networkx
@@ -226,7 +227,9 @@ class Mechanism:
 
         return graph_of(self)
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         from nag.mechanism.shown import mechanism_text
 
         return mechanism_text(self)

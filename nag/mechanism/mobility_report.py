@@ -15,7 +15,7 @@ from typing import Literal
 
 from nag.mechanism.bonds import Bonds
 from nag.numerics.local_dimension import LocalDimension
-from nag.text.table import html_table
+from nag.text.table import LINE, html_table, shortened
 from nag.witness.witness import WitnessSet
 
 # What must be the same of components in two formulations.
@@ -164,7 +164,7 @@ class MobilityReport:
         return _sentence(self)
 
     def __repr__(self) -> str:
-        return str(self)
+        return shortened(f"<MobilityReport: {self.sentence}", LINE - 1) + ">"
 
     def _repr_html_(self) -> str:
         return html_table("MobilityReport", [["", ""], *map(list, self.rows())])

@@ -35,7 +35,7 @@ from nag.mechanism.planar import PlanarModel
 from nag.mechanism.projection import projected
 from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
-from nag.text.table import counted
+from nag.text.table import counted, one_line
 
 __all__ = ["Model", "ModelError", "formulations", "model"]
 
@@ -117,7 +117,9 @@ class Model:
         """The mobility that counting predicts for the whole mechanism."""
         return gruebler_kutzbach(self.mechanism)
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         from nag.mechanism.shown import model_text
 
         return model_text(self)

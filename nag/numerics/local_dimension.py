@@ -28,7 +28,8 @@ from nag.algebra.given import check_error, check_type, check_whole
 from nag.algebra.number import Irrational, Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
-from nag.numerics.read_only import fixed_array
+from nag.numerics.read_only import equal_values, fixed_array
+from nag.text.table import one_line
 
 # Relative error that a point of doubles is taken to have.
 ROUNDED = 1e-8
@@ -69,10 +70,14 @@ class LocalDimension:
     reason: str
     digits: tuple[tuple[str, str], ...] = ()
 
+    __eq__ = equal_values
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "point", fixed_array(self.point))
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         from nag.numerics.shown import local_dimension_text
 
         return local_dimension_text(self)

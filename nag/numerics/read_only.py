@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -28,6 +29,26 @@ def _can_be_written(array: np.ndarray) -> bool:
             return True
         owner = owner.base
     return False
+
+
+def equal_values(one: object, other: object) -> bool:
+    """Whether two results of one class agree in all fields that are compared, arrays by value.
+
+    Of arrays entries that are not numbers are equal to each other.
+    """
+    if type(one) is not type(other) or not is_dataclass(one):
+        return False
+    return all(
+        _equal(getattr(one, each.name), getattr(other, each.name))
+        for each in fields(one)
+        if each.compare
+    )
+
+
+def _equal(one: object, other: object) -> bool:
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return one.dtype == other.dtype and np.array_equal(one, other, equal_nan=True)
+    return bool(one == other)
 
 
 class FixedMapping(Mapping[Key, Value]):

@@ -80,7 +80,7 @@ def solve_generic(
             ``"auto"`` means for a symmetric family.
         count: with ``"parameter"``, the known number of solutions; without it an answer is not
             called complete, as loops prove nothing.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
         StartError: if there would be too many paths, or loops have nothing to begin with.
@@ -157,7 +157,7 @@ def solve_member(
         member: which one of which family it is. Where no number of solutions is known, an answer
             is complete only if exact algebra gives it.
         exact_first: whether exact algebra is asked before paths are tracked.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
         StartError: if loops have nothing to begin with, there would be too many paths, or the

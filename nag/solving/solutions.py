@@ -7,8 +7,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.read_only import fixed_array
+from nag.numerics.read_only import equal_values, fixed_array
 from nag.solving.larger_sets import LargerSets
+from nag.text.table import one_line
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +37,8 @@ class Solution:
     condition: float
     precision: int
     radii: np.ndarray | None = None
+
+    __eq__ = equal_values
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "point", fixed_array(self.point, np.complex128))
@@ -112,6 +115,8 @@ class SolveResult:
     on_excluded: np.ndarray | None = None
     on_doubtful: np.ndarray | None = None
 
+    __eq__ = equal_values
+
     def __post_init__(self) -> None:
         for name in ("on_components", "undecided", "on_excluded", "on_doubtful"):
             points = getattr(self, name)
@@ -144,7 +149,9 @@ class SolveResult:
         """Whether it has such points, or may have."""
         return self.positive_dimensional or len(self.on_doubtful) > 0
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         from nag.solving.shown import result_text
 
         return result_text(self)

@@ -99,6 +99,18 @@ def lines_of(title: str, rows: Sequence[tuple[str, str]]) -> str:
     return "\n".join(shortened(printable(line)) for line in lines)
 
 
+def one_line(shown: object) -> str:
+    """What is printed in several lines, in one: its answer, or what it is and its first line."""
+    title, *rows = (line.strip() for line in str(shown).splitlines())
+    name = type(shown).__name__
+    answers = [row.split("  ", 1)[1].strip() for row in rows if row.startswith("answer  ")]
+    if answers:
+        text = f"{name}: {answers[0]}"
+    else:
+        text = ": ".join([title if title.startswith(name) else f"{name} {title}", *rows[:1]])
+    return shortened(f"<{text}", LINE - 1) + ">"
+
+
 def shortened(text: str, width: int = LINE) -> str:
     """``text`` cut to ``width`` characters, with dots where something is missing."""
     return text if len(text) <= width else text[: width - 3].rstrip() + "..."

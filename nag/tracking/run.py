@@ -43,6 +43,8 @@ class Run:
 
     def __post_init__(self) -> None:
         check_running(self.seed, self.threads, self.settings, self.progress)
+        object.__setattr__(self, "seed", int(self.seed))
+        object.__setattr__(self, "threads", int(self.threads))
 
     @property
     def short(self) -> dict[str, Any]:

@@ -16,8 +16,9 @@ from nag.algebra.from_python import variable_indices
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError, NagError
 from nag.numerics.coincidence import clusters
-from nag.numerics.read_only import fixed_array
+from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import SINGULAR
+from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import (
     carry_component,
@@ -68,10 +69,14 @@ class Projection:
     points: np.ndarray
     accuracy: float
 
+    __eq__ = equal_values
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", fixed_array(self.points))
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         from nag.witness.shown import projection_text
 
         return projection_text(self)
@@ -127,7 +132,7 @@ def project(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         coordinates: the variables to project to, by index or name, at least one, each once.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Returns:
         Dimensions and degrees, with a slice and the points on it, shape

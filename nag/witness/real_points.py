@@ -18,8 +18,9 @@ from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.numerics.coincidence import coincident
-from nag.numerics.read_only import fixed_array
+from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import LEAST, ON
+from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
@@ -61,11 +62,15 @@ class RealPoints:
     undecided: int = 0
     reason: str = ""
 
+    __eq__ = equal_values
+
     def __post_init__(self) -> None:
         for name in ("points", "distances", "stationary"):
             object.__setattr__(self, name, fixed_array(getattr(self, name)))
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         from nag.witness.shown import real_points_text
 
         return real_points_text(self)
@@ -98,7 +103,7 @@ def real_points_near(
         component: one of the components of a `nag.Decomposition`.
         near: real, shape ``(n,)``.
         starts: number of starting points; the first is ``near`` itself.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Returns:
         The points, real of shape ``(count, n)``, the nearest first.

@@ -12,8 +12,9 @@ from nag.algebra.given import check_whole
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.natural_coordinates import NaturalCoordinates
-from nag.numerics.read_only import fixed_array
+from nag.numerics.read_only import equal_values, fixed_array
 from nag.numerics.zero_values import ON
+from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_component, carry_points, coordinates_of
 from nag.witness.component_equations import component_fibres
@@ -42,10 +43,14 @@ class Samples:
     residual: float
     accuracy: float
 
+    __eq__ = equal_values
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", fixed_array(self.points))
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         from nag.witness.shown import samples_text
 
         return samples_text(self)
@@ -87,7 +92,7 @@ def sample(
         system: the equations that ``component`` was found from.
         component: one of the components of a `nag.Decomposition`.
         count: how many.
-        run: a `nag.Run`; its fields may be given one by one: ``seed=1``.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Returns:
         The points, complex of shape ``(count, n)``, with their residual and accuracy.

@@ -13,12 +13,15 @@ from nag.algebra.given import check_error, check_listed, check_type
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
-from nag.numerics.read_only import fixed_array
+from nag.numerics.read_only import equal_values, fixed_array
+from nag.text.table import one_line
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
+    from nag.decomposition.curve_genus import Genus
     from nag.witness.fibres import Fibre
     from nag.witness.projection import Projection
+    from nag.witness.real_points import RealPoints
 
 
 # Decimal digits of doubles.
@@ -57,6 +60,8 @@ class Slice:
     A: np.ndarray
     b: np.ndarray
 
+    __eq__ = equal_values
+
     def __post_init__(self) -> None:
         for name in ("A", "b"):
             try:
@@ -68,11 +73,6 @@ class Slice:
                 f"A, b: arrays of shapes {self.A.shape} and {self.b.shape} are given; give (d, n) "
                 "and (d,)"
             )
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Slice):
-            return NotImplemented
-        return np.array_equal(self.A, other.A) and np.array_equal(self.b, other.b)
 
     @property
     def dimension(self) -> int:
@@ -127,7 +127,9 @@ class WitnessSet:
     note: str = ""
     images: tuple[SignedPermutation, ...] = ()
     fibres: tuple[Fibre, ...] = ()
-    system: PolynomialSystem | None = None
+    system: PolynomialSystem | None = field(default=None, compare=False)
+
+    __eq__ = equal_values
 
     def __post_init__(self) -> None:
         check_type(self.slice, Slice, "slice", "a nag.Slice")
@@ -145,22 +147,6 @@ class WitnessSet:
         if self.multidegree is not None:
             object.__setattr__(self, "multidegree", fixed_array(self.multidegree, int))
         object.__setattr__(self, "fibres", tuple(fibre.fixed for fibre in self.fibres))
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, WitnessSet):
-            return NotImplemented
-        plain = ("multiplicity", "status", "residual", "corank", "orbit", "note", "images")
-        if (self.multidegree is None) != (other.multidegree is None):
-            return False
-        return (
-            all(getattr(self, name) == getattr(other, name) for name in plain)
-            and self.slice == other.slice
-            and np.array_equal(self.points, other.points)
-            and np.array_equal(self.radii, other.radii)
-            and np.array_equal(self.digits, other.digits)
-            and self.fibres == other.fibres
-            and (self.multidegree is None or np.array_equal(self.multidegree, other.multidegree))
-        )
 
     @property
     def dimension(self) -> int:
@@ -289,6 +275,69 @@ class WitnessSet:
         )
 
     @takes_run
+    def move_to(self, target: Slice, *, run: Run = DEFAULT_RUN) -> WitnessSet:
+        """The component on another slice, its points where they come to.
+
+        See `nag.decomposition.witness_at`.
+
+        >>> import nag
+        >>> circle = nag.decompose(["x^2 + y^2 = 1"]).components[0]
+        >>> moved = circle.move_to(nag.Slice([[1, 0]], [0.6]))
+        >>> sorted(moved.points[:, 1].real.round(12).tolist())
+        [-0.8, 0.8]
+        """
+        from nag.witness.moving import witness_at
+
+        return witness_at(self._known_system(), self, target, run=run)
+
+    @takes_run
+    def real_points_near(self, near: Any, *, run: Run = DEFAULT_RUN, **options: int) -> RealPoints:
+        """Real points of the component near a real point, the nearest first.
+
+        See `nag.decomposition.real_points_near`, which has ``options``.
+
+        >>> import nag
+        >>> circle = nag.decompose(["x^2 + y^2 = 1"]).components[0]
+        >>> circle.real_points_near([3, 0]).points.round(12).tolist()[0]
+        [1.0, 0.0]
+        """
+        from nag.witness.real_points import real_points_near
+
+        return real_points_near(self._known_system(), self, near, run=run, **options)
+
+    @takes_run
+    def intersect(
+        self, other: WitnessSet | PolynomialSystem, *, run: Run = DEFAULT_RUN
+    ) -> Decomposition:
+        """The components of the intersection with another component, or with what equations cut.
+
+        See `nag.decomposition.intersect_components` and `nag.decomposition.intersect_equations`.
+
+        >>> import nag
+        >>> plane, bowl = nag.decompose(["(x^2 + y^2 - z)*(x - y)"]).components
+        >>> [(c.dimension, c.degree) for c in plane.intersect(bowl).components]
+        [(1, 2)]
+        >>> [(c.dimension, c.degree) for c in bowl.intersect(nag.system("z", "x y z")).components]
+        [(1, 1), (1, 1)]
+        """
+        from nag.decomposition.intersection import intersect_components, intersect_equations
+
+        met = intersect_components if isinstance(other, WitnessSet) else intersect_equations
+        return met(self._known_system(), self, other, run=run)
+
+    @takes_run
+    def genus(self, *, run: Run = DEFAULT_RUN) -> Genus:
+        """The genus of the component, a reduced curve, see `nag.decomposition.genus`.
+
+        >>> import nag
+        >>> nag.decompose(["y^2 = x^3 - x"]).components[0].genus().genus
+        1
+        """
+        from nag.decomposition.curve_genus import genus
+
+        return genus(self._known_system(), self, run=run)
+
+    @takes_run
     def project(
         self,
         coordinates: Sequence[int | str],
@@ -381,7 +430,9 @@ class Decomposition:
         """Largest dimension of a component; -1 for the empty set."""
         return max((c.dimension for c in self.components), default=-1)
 
-    def __repr__(self) -> str:
+    __repr__ = one_line
+
+    def __str__(self) -> str:
         from nag.witness.shown import decomposition_text
 
         return decomposition_text(self)

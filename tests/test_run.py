@@ -1,0 +1,55 @@
+"""How something is worked out stands in one object, whose fields may be given one by one."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import nag
+from nag.decomposition import sample
+
+EQUATIONS = ["(x^2 + y^2 - 1)*(x^2 + x*y + 3*y^2 - 2)"]
+
+
+def test_a_run_and_its_fields_give_the_same_bytes() -> None:
+    run = nag.Run(seed=5, threads=2, settings="careful")
+    one, other = nag.decompose(EQUATIONS, run=run), nag.decompose(EQUATIONS, **run.short)
+    assert one == other == nag.decompose(EQUATIONS, run=nag.Run(5, 1, "careful"))
+    assert (one.seed, one.settings) == (5, "careful")
+    assert nag.solve(["x^2 + y^2 - 1", "x - y"], run=run).seed == 5
+    curve = one.components[0]
+    found, again = (sample(curve.system, curve, 2, **how) for how in ({"run": run}, run.short))
+    assert found == again and found != sample(curve.system, curve, 2, seed=6)
+
+
+@pytest.mark.parametrize(
+    "how",
+    [{"seed": -1}, {"threads": 0}, {"settings": "quick"}, {"progress": 3}, {"seed": 1.5}],
+)
+def test_runs_that_make_no_sense_are_refused_where_they_are_made(how) -> None:
+    with pytest.raises(nag.NagError, match=next(iter(how))):
+        nag.Run(**how)
+    with pytest.raises(nag.NagError, match=next(iter(how))):
+        nag.decompose(EQUATIONS, **how)
+
+
+def test_a_run_beside_one_of_its_fields_is_refused() -> None:
+    with pytest.raises(nag.NagError, match="seed: is given beside run"):
+        nag.decompose(EQUATIONS, run=nag.Run(), seed=1)
+
+
+def test_results_compare_by_value_and_survive_pickles_and_copies() -> None:
+    whole, solved = nag.decompose(EQUATIONS), nag.solve(["x^2 + y^2 - 1", "x - y"])
+    curve = whole.components[0]
+    results = (
+        *(whole, curve, curve.slice, solved, solved.solutions[0]),
+        *(curve.project(["x"]), curve.genus(), curve.real_points_near(np.array([2.0, 0.0]))),
+        *(curve.intersect(whole.components[1]), sample(curve.system, curve, 2), nag.Run(seed=3)),
+        nag.local_dimension(nag.system("x^3 = y^2"), (0, 0)),
+    )
+    for each in results:
+        assert pickle.loads(pickle.dumps(each)) == each
+        assert copy.deepcopy(each) == each
+    assert solved != nag.solve(["x^2 + y^2 - 1", "x - 2*y"])
+    assert solved.solutions[0] != solved.solutions[1]
