@@ -61,7 +61,7 @@ def test_what_was_found_is_kept_when_one_membership_is_undecided(monkeypatch) ->
     answers = iter([MEMBER, UNDECIDED, FOREIGN])
 
     def find_members(point, accuracy, sets, *_, **__):
-        return [next(answers) for _ in sets], PathCounts(tracked=1)
+        return [(next(answers), False) for _ in sets], PathCounts(tracked=1)
 
     monkeypatch.setattr(membership_module, "find_members", find_members)
     planes = decompose(system("x y z", "x*y*z"))

@@ -111,7 +111,7 @@ def system(
     Floats in sympy's expressions and in ``parameters`` stand for their shortest decimals.
 
     >>> import nag
-    >>> nag.system(["x^2 + y^2 = 1", "x = a*y"], parameters={"a": 0.5})
+    >>> print(nag.system(["x^2 + y^2 = 1", "x = a*y"], parameters={"a": 0.5}))
     PolynomialSystem of 2 variables (x, y), 2 equations: 1 of degree 1, 1 of degree 2
       x^2 + y^2 - 1 = 0
       x - 1/2*y = 0

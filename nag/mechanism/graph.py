@@ -201,7 +201,7 @@ class Mechanism:
         'A'
         >>> G.add_edge("left", "top", "B", type="revolute", axis=(0, 0, 1), point=(0, 1, 0))
         'B'
-        >>> nag.Mechanism.from_graph(G, ground="base")
+        >>> print(nag.Mechanism.from_graph(G, ground="base"))
         Mechanism of 3 bodies (base, left, top), ground base
           A  revolute, base - left, point (0, 0, 0), axis (0, 0, 1)
           B  revolute, left - top, point (0, 1, 0), axis (0, 0, 1)
