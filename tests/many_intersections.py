@@ -27,7 +27,8 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import NAMES
-from nag.decomposition import decompose, intersect_components, intersect_equations
+from nag.decomposition import intersect_components, intersect_equations
+from nag.decomposition.components import decompose
 from nag.numerics.zero_values import ON
 from nag.witness.witness import Decomposition, WitnessSet
 

@@ -27,7 +27,7 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import FAR_COORDINATES, changed, in_far_coordinates
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.files.cases import Truth, read_case
 from nag.files.problem import symmetries_of
 from nag.mechanism.assembly import AssemblyModel

@@ -10,14 +10,7 @@ import pytest
 
 import nag
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import (
-    genus,
-    intersect_pair,
-    project,
-    sample,
-    singular_locus,
-    witness_at,
-)
+from nag.decomposition import genus, project, sample, singular_locus, witness_at
 from nag.decomposition.trace import linear_traces
 from nag.interpolation.precise_samples import samples, source_of_component
 from nag.numerics.digits import number
@@ -60,7 +53,8 @@ def decomposed(name: str, power: int) -> Decomposition:
 def test_components_meet_alike_wherever_the_origin_lies(
     name: str, right: list[tuple[int, int]], power: int
 ) -> None:
-    found = intersect_pair(decomposed(name, power), 0, 1, seed=1)
+    first, second = decomposed(name, power).components[:2]
+    found = first.intersect(second, seed=1)
     assert [(c.dimension, c.degree) for c in found.components] == right
     assert found.complete
     assert max(c.residual for c in found.components) < 1e-12

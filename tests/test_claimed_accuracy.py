@@ -16,7 +16,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.families import FAMILIES
 from nag.bench.reference import Reference
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.files.certificate_export import solutions_document
 from nag.numerics.certified_points import CertifiedPoints

@@ -19,7 +19,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import NAMES, Coordinates, mixed
 from nag.bench.reference import Reference
 from nag.cli import main
-from nag.decomposition import decompose, project
+from nag.decomposition import project
+from nag.decomposition.components import decompose
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 
 CASES = Path(__file__).parents[1] / "cases"

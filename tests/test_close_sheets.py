@@ -10,7 +10,8 @@ import pytest
 
 import nag
 from nag.bench.atlas.curves import close_skew_lines
-from nag.decomposition import decompose, witness_at
+from nag.decomposition import witness_at
+from nag.decomposition.components import decompose
 from nag.files.export import read_decomposition, write_decomposition
 from nag.tracking.paths import Ball
 from nag.witness.close_points import Fine, distance, in_words, rated, zero_from

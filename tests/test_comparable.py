@@ -12,13 +12,8 @@ import pytest
 import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import (
-    decompose,
-    discover,
-    intersect_equations,
-    intersect_pair,
-    singular_locus,
-)
+from nag.decomposition import discover, intersect_equations, singular_locus
+from nag.decomposition.components import decompose
 from nag.witness.component_equations import component_fibres
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -80,7 +75,7 @@ def test_operations_on_components_do_not_depend_on_units(power: int) -> None:
     for seed in range(2):
         both = decompose(surfaces, seed=seed)
         found = {
-            "pair": intersect_pair(both, 0, 1, seed=seed),
+            "pair": both.components[0].intersect(both.components[1], seed=seed),
             "equations": intersect_equations(surfaces, both.components[0], plane, seed=seed),
             "discovered": discover(surfaces, starts=6, seed=seed),
         }
@@ -103,7 +98,9 @@ def test_operations_on_components_do_not_depend_on_units(power: int) -> None:
 def test_intersections_come_back_in_the_units_that_were_given() -> None:
     plain = nag.decompose("(x^2 + y^2 - z)*(x - y*z + 1)")
     large = nag.decompose("(10^16*x^2 + y^2 - z)*(10^8*x - y*z + 1)")
-    curves = [intersect_pair(both, 0, 1).components[0] for both in (plain, large)]
+    curves = [
+        both.components[0].intersect(both.components[1]).components[0] for both in (plain, large)
+    ]
     assert curves[0].contains([0, 1, 1]) and curves[1].contains([0, 1, 1])
     for x in curves[1].sample(0, 3):
         assert curves[1].contains(x) and curves[0].contains(x * [1e8, 1, 1])
@@ -118,6 +115,6 @@ def test_components_whose_slices_were_drawn_in_different_units_meet() -> None:
     # The plane says nothing of the units of z and w, the quadric nothing of that of x.
     plain = nag.system("(9*y*z - y^2 - 2*y*w - 9*z^2 + 6*z)*(77*x + 9/8*y - 1)", "x y z w")
     whole = decompose(in_units(plain, (10, -7, -7, 8)))
-    found = intersect_pair(whole, 0, 1)
+    found = whole.components[0].intersect(whole.components[1])
     assert found.complete
     assert [(c.dimension, c.degree) for c in found.components] == [(2, 2)]

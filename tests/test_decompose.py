@@ -13,7 +13,7 @@ from systems import kinds, system
 import nag
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.report.agreement import Verdict, compare

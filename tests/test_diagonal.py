@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from systems import system
 
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.decomposition.diagonal import Intersected, intersected
 from nag.decomposition.factor import Factor
 from nag.decomposition.intersection import intersect_components

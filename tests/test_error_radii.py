@@ -12,7 +12,8 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.families import FAMILIES
 from nag.bench.reference import Reference
-from nag.decomposition import decompose, witness_at
+from nag.decomposition import witness_at
+from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.witness.exact_points import sharpened
 from nag.witness.fibres import Fibre

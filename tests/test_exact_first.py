@@ -12,7 +12,8 @@ from systems import system
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import components_through, decompose, intersect_components, sample
+from nag.decomposition import components_through, intersect_components, sample
+from nag.decomposition.components import decompose
 from nag.files.export import read_decomposition, write_decomposition
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.solving.solutions import SolveResult

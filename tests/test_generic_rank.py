@@ -9,7 +9,8 @@ from linkages import general_loop
 from nag.algebra.linear_algebra import is_dependent
 from nag.algebra.number import Irrational
 from nag.algebra.polynomial import Polynomial
-from nag.decomposition import decompose, isolated
+from nag.decomposition import isolated
+from nag.decomposition.components import decompose
 from nag.decomposition.isolated import is_finite
 from nag.mechanism.framework import placed_framework
 from nag.mechanism.framework_model import framework_model

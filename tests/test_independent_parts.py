@@ -8,8 +8,7 @@ from linkages import case
 from systems import system
 
 from nag.algebra.symmetry import SignedPermutation
-from nag.decomposition import decompose
-from nag.decomposition.components import METHODS
+from nag.decomposition.components import METHODS, decompose
 from nag.decomposition.independent_parts import independent_variables
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model

@@ -12,17 +12,11 @@ from solved import components_of
 from systems import system
 
 import nag
-from nag.decomposition import (
-    decompose,
-    intersect_components,
-    intersect_equations,
-    intersect_pair,
-    memberships,
-    sample,
-)
+from nag.decomposition import intersect_components, intersect_equations, sample
+from nag.decomposition.components import decompose
 from nag.decomposition.intersection import IntersectionError
 from nag.files.cases import read_case
-from nag.witness.membership import Membership
+from nag.witness.membership import Membership, memberships
 from nag.witness.witness import Decomposition
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -58,7 +52,7 @@ def test_two_components_meet_where_algebra_says(equations, expected, seed: int) 
     names = "x y" if "z" not in "".join(equations) and len(equations) == 1 else "x y z"
     both = decompose(system(names, *equations), seed=seed)
     assert len(both.components) == 2
-    assert kinds(intersect_pair(both, 0, 1, seed=seed)) == Counter(expected)
+    assert kinds(both.components[0].intersect(both.components[1], seed=seed)) == Counter(expected)
 
 
 @pytest.mark.parametrize("seed", [0, 1])
@@ -83,7 +77,7 @@ def test_double_components_meet_where_simple_ones_would(equations, expected, see
     names = "x y z" if "z" in "".join(equations) else "x y"
     both = decompose(system(names, *equations), seed=seed)
     assert len(both.components) == 2 and any(c.multiplicity > 1 for c in both.components)
-    found = intersect_pair(both, 0, 1, seed=seed)
+    found = both.components[0].intersect(both.components[1], seed=seed)
     assert kinds(found, SINGULAR) == Counter(expected)
     if expected == {(0, 1): 1}:
         assert np.abs(found.components[0].points).max() < SINGULAR
@@ -94,8 +88,11 @@ def test_the_curves_of_two_rhombi_with_common_bars_meet_in_twelve_poses() -> Non
     curves = components_of(case.system)
     assert sorted(c.multiplicity for c in curves.components) == [1, 1, 1, 1, 2, 2]
     for i in range(6):
-        assert kinds(intersect_pair(curves, i, i)) == {(1, 2): 1}
-    meetings = [kinds(intersect_pair(curves, i, j), SINGULAR) for i, j in combinations(range(6), 2)]
+        assert kinds(curves.components[i].intersect(curves.components[i])) == {(1, 2): 1}
+    meetings = [
+        kinds(curves.components[i].intersect(curves.components[j]), SINGULAR)
+        for i, j in combinations(range(6), 2)
+    ]
     assert sorted(meetings, key=len) == [Counter()] * 3 + [Counter({(0, 1): 1})] * 12
 
 
@@ -103,7 +100,7 @@ def test_the_curves_of_two_rhombi_with_common_bars_meet_in_twelve_poses() -> Non
 def test_a_set_that_deflation_does_not_reach_leaves_the_answer_open() -> None:
     case = read_case(CASES / "literature" / "adjacent-minors-3x4.toml")
     minors = components_of(case.system)
-    found = intersect_pair(minors, 1, 5)
+    found = minors.components[1].intersect(minors.components[5])
     assert not found.complete
     assert any("could not be made regular" in note for note in found.notes)
 
@@ -114,7 +111,7 @@ def test_a_set_that_deflation_does_not_reach_leaves_the_answer_open() -> None:
 def test_a_component_meets_itself_in_itself(equations) -> None:
     decomposition = decompose(system("x y z", *equations))
     (component,) = decomposition.components
-    assert kinds(intersect_pair(decomposition, 0, 0)) == {
+    assert kinds(decomposition.components[0].intersect(decomposition.components[0])) == {
         (component.dimension, component.degree): 1
     }
 
@@ -160,7 +157,7 @@ def test_only_the_component_is_met_and_not_its_whole_system() -> None:
 
 def test_what_an_intersection_finds_can_be_worked_with() -> None:
     both = decompose(system("x y z", f"({SPHERE})*(z - 1/2)"))
-    (circle,) = intersect_pair(both, 0, 1).components
+    (circle,) = both.components[0].intersect(both.components[1]).components
     x = sample(both.system, circle, 5).points
     assert np.abs(x[:, 2] - 0.5).max() < 1e-14
     assert np.abs(x[:, 0] ** 2 + x[:, 1] ** 2 - 0.75).max() < 1e-13
@@ -172,7 +169,7 @@ def test_the_curves_of_the_rhombus_cross_in_its_flat_poses() -> None:
     assert len(rhombus.components) == 3
     poses = []
     for i, j in combinations(range(3), 2):
-        found = intersect_pair(rhombus, i, j)
+        found = rhombus.components[i].intersect(rhombus.components[j])
         assert kinds(found) == {(0, 1): 1}
         (pose,) = found.components[0].points
         rounded = np.round(pose.real)
@@ -188,7 +185,10 @@ def test_the_curves_of_the_rhombus_cross_in_its_flat_poses() -> None:
 
 def test_the_same_seed_gives_the_same_intersection_for_any_number_of_threads() -> None:
     both = decompose(system("x y z", f"({SPHERE})*(z - 1/2)"))
-    first, second = (intersect_pair(both, 0, 1, seed=3, threads=threads) for threads in (1, 2))
+    first, second = (
+        both.components[0].intersect(both.components[1], seed=3, threads=threads)
+        for threads in (1, 2)
+    )
     assert first == second
 
 
@@ -234,7 +234,7 @@ def test_components_beside_each_other_are_never_said_to_be_one(
 ) -> None:
     whole = nag.decompose(equations, seed=seed)
     assert whole.complete and len(whole.components) == 2
-    found = intersect_pair(whole, 0, 1, seed=seed)
+    found = whole.components[0].intersect(whole.components[1], seed=seed)
     larger = max(c.dimension for c in whole.components)
     assert not (found.complete and any(c.dimension == larger for c in found.components))
 
@@ -242,7 +242,7 @@ def test_components_beside_each_other_are_never_said_to_be_one(
 def test_components_whose_linear_equations_contradict_each_other_do_not_meet() -> None:
     whole = nag.decompose(["y*(x^2 - 1)", "y*(y - 1/10^20)"])
     assert [c.dimension for c in whole.components] == [1, 0, 0]
-    found = intersect_pair(whole, 0, 1)
+    found = whole.components[0].intersect(whole.components[1])
     assert found.complete and not found.components
 
 
@@ -250,7 +250,7 @@ def test_components_whose_linear_equations_contradict_each_other_do_not_meet() -
 @pytest.mark.parametrize("seed", [0, 1])
 def test_concentric_circles_do_not_meet_however_close_they_are(digits: int, seed: int) -> None:
     whole = nag.decompose(f"(x^2 + y^2 - 1)*(x^2 + y^2 - 1 - 1/10^{digits})", seed=seed)
-    found = intersect_pair(whole, 0, 1, seed=seed)
+    found = whole.components[0].intersect(whole.components[1], seed=seed)
     assert found.complete and not found.components
 
 
@@ -266,7 +266,7 @@ def test_components_that_are_close_to_each_other_meet_where_they_cross(
     f, g = "2*x^2 - 3*x*y + y^2 + x - 5", "x + 4*y - 2"
     whole = nag.decompose(equation.format(f=f, g=g, k=digits))
     assert whole.complete and [c.degree for c in whole.components] == [2, 2]
-    found = intersect_pair(whole, 0, 1)
+    found = whole.components[0].intersect(whole.components[1])
     assert kinds(found, SINGULAR) == {(0, 1): 2}
     right = [c.points[0] for c in nag.decompose([f, g]).components]
     near = [min(np.abs(x - c.points[0]).max() for x in right) for c in found.components]
@@ -278,7 +278,7 @@ def test_sheets_of_one_component_meet_a_line_in_as_many_points(digits: int) -> N
     whole = nag.decompose(f"(y^2 - (x + 2)/10^{2 * digits})*(x - 2)")
     assert whole.complete and [c.degree for c in whole.components] == [1, 2]
     for found in (
-        intersect_pair(whole, 0, 1),
+        whole.components[0].intersect(whole.components[1]),
         intersect_equations(whole.system, whole.components[1], system("x y", "x - 2")),
     ):
         points = [c.points[0, 1].real * 10**digits for c in found.components]

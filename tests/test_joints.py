@@ -8,7 +8,7 @@ from solved import components_of
 
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.errors import MechanismError
 from nag.mechanism.axes import space_of
 from nag.mechanism.euler import euler_parameters, prime_component

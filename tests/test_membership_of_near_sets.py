@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import nag
-from nag.decomposition import memberships, witness_at
-from nag.witness.membership import Membership
+from nag.decomposition import witness_at
+from nag.witness.membership import Membership, memberships
 
 PAIRS = {
     "parabolas": ("y - x^2", "y - x^2 - {0}", (2, 4)),

@@ -13,7 +13,7 @@ from linkages import case, general_loop, loops_of_all_joints
 from solved import components_of
 
 import nag
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.mechanism.coordinates import euler_decomposition
 from nag.mechanism.graph import Body, Joint, Mechanism
 from nag.mechanism.model import ModelError, formulations, model

@@ -14,6 +14,8 @@ import pytest
 
 import nag
 import nag.decomposition as D
+from nag.decomposition.components import decompose
+from nag.witness.membership import memberships
 
 ROOT = Path(__file__).parent.parent
 NAN = float("nan")
@@ -86,7 +88,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
         lambda: nag.local_dimension(None, (0,)),
         lambda: nag.decompose(graph()),
         lambda: nag.solve(None),
-        lambda: D.decompose("x*y"),
+        lambda: decompose("x*y"),
         lambda: D.sample(None, line(), 2),
         lambda: D.project(answer(), line(), [0]),
         lambda: D.discover("x*y"),
@@ -106,14 +108,14 @@ ODD: dict[str, list[Callable[[], Any]]] = {
         lambda: nag.model(mechanism()).lift(None),
         lambda: line().contains(3),
         lambda: line().contains({"x": 1}),
-        lambda: D.memberships(answer(), None),
-        lambda: D.memberships(answer(), [1]),
+        lambda: memberships(answer(), None),
+        lambda: memberships(answer(), [1]),
         lambda: system()([1]),
     ],
     "point[1]": [
         lambda: line().contains([1, NAN]),
         lambda: D.components_through(answer(), [1, float("inf")]),
-        lambda: D.memberships(answer(), [1, "x"]),
+        lambda: memberships(answer(), [1, "x"]),
     ],
     "accuracy": [
         lambda: line().contains([1.0, 2.0], accuracy=NAN),
@@ -121,7 +123,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
         lambda: line().contains([1, 2], accuracy="high"),
         lambda: nag.local_dimension(system(), (1, 0), accuracy=NAN),
         lambda: nag.local_dimension(system(), (1, 0), accuracy="high"),
-        lambda: D.memberships(answer(), [1, 2], accuracy=float("inf")),
+        lambda: memberships(answer(), [1, 2], accuracy=float("inf")),
         lambda: D.components_through(answer(), [1, 2], accuracy=-3),
     ],
     "coordinates": [
@@ -135,7 +137,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
     "symmetries": [
         lambda: nag.decompose("x*y", symmetries=5),
         lambda: nag.decompose("x*y", symmetries={"x": "-x"}),
-        lambda: D.decompose(system(), symmetries=4),
+        lambda: decompose(system(), symmetries=4),
         lambda: D.discover(system(), symmetries=[3]),
     ],
     "symmetries[0]": [
@@ -149,7 +151,7 @@ ODD: dict[str, list[Callable[[], Any]]] = {
         lambda: line().project([0], seed=1.5),
         lambda: line().contains([1, 0], seed=True),
         lambda: D.sample(system(), line(), 2, seed=None),
-        lambda: D.decompose(system(), seed=-1),
+        lambda: decompose(system(), seed=-1),
     ],
     "threads": [
         lambda: nag.mobility(mechanism(), threads=0),
@@ -170,10 +172,9 @@ ODD: dict[str, list[Callable[[], Any]]] = {
     "decomposition": [
         lambda: nag.write_decomposition(None, "x.json"),
         lambda: nag.write_decomposition(roots(), "x.json"),
-        lambda: D.memberships(None, [1, 2]),
+        lambda: memberships(None, [1, 2]),
         lambda: D.components_through(line(), [1, 2]),
         lambda: D.singular_locus(None),
-        lambda: D.intersect_pair(None, 0, 1),
     ],
     "result": [lambda: nag.write_solutions(answer(), "x.json")],
     "title": [lambda: nag.write_solutions(roots(), "x.json", 3)],
@@ -195,12 +196,9 @@ ODD: dict[str, list[Callable[[], Any]]] = {
     ],
     "first": [
         lambda: D.intersect_components(system(), 3, line()),
-        lambda: D.intersect_pair(answer(), "a", 1),
     ],
     "second": [
         lambda: D.intersect_components(system(), line(), None),
-        lambda: D.intersect_pair(answer(), 0, 9),
-        lambda: D.intersect_pair(answer(), 0, -1),
     ],
     "equations": [
         lambda: D.intersect_equations(system(), line(), "x"),

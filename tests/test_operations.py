@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 from systems import system
 
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import decompose, memberships, project, witness_at
+from nag.decomposition import project, witness_at
+from nag.decomposition.components import decompose
 from nag.witness import membership as membership_module
-from nag.witness.membership import Membership, UndecidedError, components_through
+from nag.witness.membership import Membership, UndecidedError, components_through, memberships
 from nag.witness.moving import SliceError
 from nag.witness.slices import random_rows, to_slice
 from nag.witness.witness import PathCounts, Slice, Status, WitnessSet

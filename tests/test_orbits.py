@@ -11,7 +11,7 @@ from systems import system
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation, SymmetryError
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.decomposition.monodromy import places_among
 from nag.decomposition.orbits import Action, irreducible_orbits
 from nag.decomposition.superset import Ambient, witness_superset

@@ -12,12 +12,13 @@ from systems import system
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import decompose, discover, memberships, real_points_near, sample
+from nag.decomposition import discover, real_points_near, sample
+from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.witness import moving
 from nag.witness.frame import expanded
-from nag.witness.membership import Membership
+from nag.witness.membership import Membership, memberships
 from nag.witness.sampling import SamplingError
 from nag.witness.witness import Decomposition, Status
 

@@ -14,7 +14,7 @@ from systems import system
 import nag
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import decompose
+from nag.decomposition.components import decompose
 from nag.errors import StartError
 from nag.files.cases import read_case
 from nag.mechanism.model import model

@@ -10,7 +10,8 @@ import pytest
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition import decompose, superset
+from nag.decomposition import superset
+from nag.decomposition.components import decompose
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.tracking.run import Run
 from nag.witness.close_to_sets import Meant

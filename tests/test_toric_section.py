@@ -17,7 +17,8 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.turns import looped_turns
 from nag.cli.command_line import main
-from nag.decomposition import decompose, several_equations
+from nag.decomposition import several_equations
+from nag.decomposition.components import decompose
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Superset
 from nag.decomposition.toric_section import paths_at_once, section_at_once

@@ -48,12 +48,9 @@ from typing import Any
 _HOME = {
     "discover": "nag.decomposition.discovery",
     "components_through": "nag.witness.membership",
-    "decompose": "nag.decomposition.components",
     "genus": "nag.decomposition.curve_genus",
     "intersect_components": "nag.decomposition.intersection",
     "intersect_equations": "nag.decomposition.intersection",
-    "intersect_pair": "nag.decomposition.intersection",
-    "memberships": "nag.witness.membership",
     "project": "nag.witness.projection",
     "real_points_near": "nag.witness.real_points",
     "sample": "nag.witness.sampling",

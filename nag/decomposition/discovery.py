@@ -58,10 +58,10 @@ def discover(
     decomposition, but others may be missing: ``complete`` is False, whatever was found.
 
     Args:
-        system: as for `nag.decomposition.decompose`.
+        system: as for `nag.decompose`.
         starts: number of starting points.
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
-        symmetries: as for `nag.decomposition.decompose`; what they carry a component to is found
+        symmetries: as for `nag.decompose`; what they carry a component to is found
             with it.
 
     Returns:

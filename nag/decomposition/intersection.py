@@ -31,7 +31,7 @@ from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import NEARLY_SINGULAR, Equations, numerical_corank
 from nag.witness.fibres import Fibre, admit
-from nag.witness.given_component import check_component, check_index, check_system
+from nag.witness.given_component import check_component, check_system
 from nag.witness.moving import orthonormal_rows
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
@@ -48,7 +48,6 @@ __all__ = [
     "IntersectionError",
     "intersect_components",
     "intersect_equations",
-    "intersect_pair",
 ]
 
 
@@ -298,33 +297,3 @@ def _with_cuts(
             continue
         lost += not admit(x, LEAST, fibres, equations, rows, rng, deflate=True)
     return fibres, lost
-
-
-@np.errstate(over="ignore", invalid="ignore")
-def intersect_pair(
-    decomposition: Decomposition, first: int, second: int, **options: object
-) -> Decomposition:
-    """The intersection of two components of a decomposition, given by their indices.
-
-    Args:
-        decomposition: as `nag.decompose` returns it.
-        first, second: indices of its components.
-        options: seed, threads, settings and progress, as for `intersect_components`.
-
-    Raises:
-        IntersectionError: if witness points are none.
-        ValueError: if an argument makes no sense; the message says which, and what would.
-
-    >>> import nag
-    >>> from nag.decomposition import intersect_pair
-    >>> crossing = intersect_pair(nag.decompose("x*(y - 1)"), 0, 1)
-    >>> [(c.dimension, c.degree) for c in crossing.components]
-    [(0, 1)]
-    """
-    check_type(decomposition, Decomposition, "decomposition", "what nag.decompose returns")
-    components = decomposition.components
-    for place, index in (("first", first), ("second", second)):
-        check_index(index, place, len(components))
-    return intersect_components(
-        decomposition.system, components[first], components[second], **options
-    )

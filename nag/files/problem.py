@@ -36,7 +36,7 @@ def system_of(case: Case, model: Model | None) -> PolynomialSystem:
 
 
 def decomposed(case: Case, model: Model | None, **options: Any) -> Decomposition:
-    """The components of what a case asks; options as of `nag.decomposition.decompose`."""
+    """The components of what a case asks; options as of `nag.decompose`."""
     options["symmetries"] = symmetries_of(case, model)
     if case.assembly is not None:
         from nag.mechanism.parts_decomposition import decompose_parts

@@ -36,7 +36,7 @@ def decompose_parts(
     progress: Any = None,
     **options: Any,
 ) -> Decomposition:
-    """The components of `parts.system`, as `nag.decomposition.decompose` gives them.
+    """The components of `parts.system`, as `nag.decompose` gives them.
 
     What is not complete when it was carried over is found again in the system's own coordinates.
 

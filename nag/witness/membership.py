@@ -287,7 +287,7 @@ def memberships(
         ValueError: if an argument makes no sense; the message says which, and what would.
 
     >>> import nag
-    >>> from nag.decomposition import memberships
+    >>> from nag.witness.membership import memberships
     >>> [str(found.value) for found in memberships(nag.decompose("x*(y - 1)"), [0, 2])]
     ['member', 'foreign']
     """
