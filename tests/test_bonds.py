@@ -11,7 +11,7 @@ from solved import answer, modelled, shipped
 
 import nag
 from nag.cli import main
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 from nag.mechanism.bonds import Bond, BondError, Bonds, _check_orders, bonds
 
 

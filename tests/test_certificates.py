@@ -24,7 +24,7 @@ from nag.cli import main
 from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.files.export import write_decomposition
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.mechanism.model import model
 from nag.numerics.box_relations import overlaps, real_zeros

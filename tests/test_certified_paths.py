@@ -20,7 +20,7 @@ from nag.cli import main
 from nag.decomposition.components import decompose
 from nag.files.cases import read_case
 from nag.files.export import document, export_of, write_decomposition
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 from nag.files.solutions_export import write_solutions
 from nag.numerics.discs import DiscPolynomials, Discs
 from nag.solving.certified_paths import prove_paths

@@ -13,7 +13,7 @@ import pytest
 
 from nag.cli import main
 from nag.files.export import read_export
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 
 CASES = Path(__file__).parent.parent / "cases"
 

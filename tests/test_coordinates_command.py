@@ -9,7 +9,7 @@ from linkages import CASES
 
 from nag.cli import main
 from nag.files.export import read_decomposition
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 
 BENNETT = str(CASES / "bennett.toml")
 

@@ -14,7 +14,7 @@ from nag.algebra.expression import parse_polynomial
 from nag.algebra.groebner import Ideal, ideal_of
 from nag.algebra.polynomial import Polynomial
 from nag.cli import main
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 from nag.symbolic import bennett, bricard
 from tests.linkages import CASES, exact
 

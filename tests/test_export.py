@@ -26,7 +26,7 @@ from nag.files.export import (
     read_export,
     write_decomposition,
 )
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 from nag.files.written_file import TargetError, check_target, write_target
 from nag.witness.moving import witness_at
 from nag.witness.witness import Decomposition, PathCounts, Slice, Status, WitnessSet
@@ -339,7 +339,10 @@ BROKEN = {
     "dimension": (_broken(_set(*COMPONENT, "dimension", 2)), "components[0].dimension"),
     "pair": (_broken(_set(*COMPONENT, "points", [[1, 2]])), "must be a pair [re, im]"),
     "few radii": (_broken(_set(*COMPONENT, "radii", [[0.1, 0.1]])), "radii: must be as many"),
-    "radius": (_broken(_set(*COMPONENT, "radii", [[0.1, -0.1], [0, 0]])), "numbers from 0 up"),
+    "radius": (
+        _broken(_set(*COMPONENT, "radii", [[0.1, -0.1], [0, 0]])),
+        "must be a number, 0 or more, or null",
+    ),
     "few digits": (_broken(_set(*COMPONENT, "digits", [16])), "digits: must be one number"),
     "no digits": (_broken(_set(*COMPONENT, "digits", [0, 16])), "digits[0]: must be an integer"),
     "short point": (_broken(_set(*COMPONENT, "points", [[[1, 2]]])), "of length 2"),

@@ -18,7 +18,7 @@ from singular_zeros import polynomials
 import nag
 from nag.algebra.expression import parse_number
 from nag.cli import main
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 from nag.numerics.local_dimension import NoSolution
 from nag.numerics.singular_point import Place, analyse
 

@@ -15,7 +15,7 @@ from local_points import sarrus
 import nag
 from nag.cli import main
 from nag.decomposition import components_through
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 from nag.mechanism import mobility_at
 from nag.mechanism.graph import Joint, Mechanism
 from nag.numerics.local_dimension import NoSolution

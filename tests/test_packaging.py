@@ -20,7 +20,7 @@ import nag
 import nag.decomposition
 from nag.cli import main
 from nag.files.export import FORMAT, VERSION
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text("utf-8")

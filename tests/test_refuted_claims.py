@@ -17,7 +17,7 @@ from nag.cli import main
 from nag.decomposition.components import decompose
 from nag.files import export, solutions_export
 from nag.files.export import write_decomposition
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 from nag.numerics.claims import Standing
 from nag.solving.certificate import certify_solutions
 from nag.solving.solve import solve

@@ -22,7 +22,7 @@ from nag.cli import main
 from nag.decomposition.linear_hull import within_hull
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.singular_points import SingularLocus, singular_locus
-from nag.files.json_values import schema
+from nag.files.json_schema import schema
 from nag.numerics.tangent_cone import tangent_cone
 from nag.report.singular import set_lines
 from nag.tracking.run import Run

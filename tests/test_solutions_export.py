@@ -12,7 +12,8 @@ import pytest
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.cli import main
-from nag.files.json_values import ExportError, schema
+from nag.files.json_schema import schema
+from nag.files.json_values import ExportError
 from nag.files.solutions_export import (
     FORMAT,
     VERSION,

@@ -21,22 +21,15 @@ from nag.algebra.symmetry import SignedPermutation, SymmetryError
 from nag.algebra.system import PolynomialSystem
 from nag.files.json_values import (
     ExportError,
-    as_count,
-    as_document,
-    as_double,
-    as_flag,
-    as_list,
-    as_matrix,
-    as_polynomials,
-    as_system,
-    as_table,
-    as_text,
-    as_texts,
-    as_vector,
-    entry,
+    checked_document,
+    complex_matrix,
+    complex_vector,
     lay_out,
     pairs,
+    parse_polynomials,
+    parse_system,
     read_file,
+    real_number,
     real_or_null,
     system_document,
     wrong,
@@ -212,30 +205,31 @@ def _multidegree(value: Any, groups: int, dimension: int, place: str) -> np.ndar
     return array
 
 
-def _cut(value: Any, system: PolynomialSystem, place: str) -> Cut:
-    table = as_table(value, place)
-    names = as_texts(entry(table, "unknowns", place), f"{place}.unknowns")
-    texts = entry(table, "polynomials", place)
-    found = as_polynomials(texts, [*system.variables, *names], f"{place}.polynomials")
+def _cut(table: dict[str, Any], system: PolynomialSystem, place: str) -> Cut:
+    names = table["unknowns"]
+    here = f"{place}.polynomials"
+    found = parse_polynomials(table["polynomials"], [*system.variables, *names], here)
     for i, f in enumerate(found):
         if not f:
-            raise wrong(f"{place}.polynomials[{i}]", "a polynomial that is not zero")
+            raise wrong(f"{here}[{i}]", "a polynomial that is not zero")
     return Cut(system.n, len(names), tuple(found))
 
 
 def _fibres(
-    value: Any, cuts: Sequence[Cut], points: np.ndarray, dimension: int, place: str
+    parts: Sequence[dict[str, Any]],
+    cuts: Sequence[Cut],
+    points: np.ndarray,
+    dimension: int,
+    place: str,
 ) -> tuple[Fibre, ...]:
     found, first = [], 0
-    for i, item in enumerate(as_list(value, place)):
+    for i, table in enumerate(parts):
         here = f"{place}[{i}]"
-        table = as_table(item, here)
-        which = as_count(entry(table, "equations", here), f"{here}.equations")
-        if which >= len(cuts):
+        if table["equations"] >= len(cuts):
             raise wrong(f"{here}.equations", "the index of one of the equations")
-        cut = cuts[which]
-        last = first + as_count(entry(table, "points", here), f"{here}.points")
-        unknowns = as_matrix(entry(table, "unknowns", here), cut.aux, f"{here}.unknowns")
+        cut = cuts[table["equations"]]
+        last = first + table["points"]
+        unknowns = complex_matrix(table["unknowns"], cut.aux, f"{here}.unknowns")
         if last > len(points) or len(unknowns) != last - first:
             raise wrong(f"{here}.unknowns", "one row for each of the points")
         if len(cut.polynomials) != cut.n + cut.aux - dimension:
@@ -249,44 +243,37 @@ def _fibres(
     return tuple(found)
 
 
-def _component(value: Any, system: PolynomialSystem, cuts: Sequence[Cut], place: str) -> WitnessSet:
-    table = as_table(value, place)
-
-    def get(key: str, convert: Any, *arguments: Any) -> Any:
-        return convert(entry(table, key, place), *arguments, f"{place}.{key}")
-
-    cut = get("slice", as_table)
-    b = as_vector(entry(cut, "b", f"{place}.slice"), f"{place}.slice.b")
-    a = as_matrix(entry(cut, "A", f"{place}.slice"), system.n, f"{place}.slice.A")
-    points = get("points", as_matrix, system.n)
-    if len(a) != len(b) or get("dimension", as_count) != len(b):
+def _component(
+    table: dict[str, Any], system: PolynomialSystem, cuts: Sequence[Cut], place: str
+) -> WitnessSet:
+    b = complex_vector(table["slice"]["b"])
+    a = complex_matrix(table["slice"]["A"], system.n, f"{place}.slice.A")
+    points = complex_matrix(table["points"], system.n, f"{place}.points")
+    if len(a) != len(b) or table["dimension"] != len(b):
         raise wrong(f"{place}.dimension", "the number of rows of the slice's A and b")
     if not (np.isfinite(a).all() and np.isfinite(b).all() and a.any(axis=1).all()):
         raise wrong(f"{place}.slice", "of equations with finite coefficients, not all of them 0")
-    if get("degree", as_count) != len(points):
+    if table["degree"] != len(points):
         raise wrong(f"{place}.degree", "the number of points")
-    status = get("status", as_text)
-    if status not in set(Status):
-        raise wrong(f"{place}.status", " or ".join(Status))
-    multidegree = None
-    if "multidegree" in table:
-        multidegree = get("multidegree", _multidegree, len(system.groups), len(b))
+    multidegree = table.get("multidegree")
+    if multidegree is not None:
+        here = f"{place}.multidegree"
+        multidegree = _multidegree(multidegree, len(system.groups), len(b), here)
     radii, digits = _errors(table, points, place)
-    orbit = get("orbit", as_table)
-    size = as_count(entry(orbit, "size", f"{place}.orbit"), f"{place}.orbit.size", 1)
+    orbit = table["orbit"]
     return WitnessSet(
         slice=Slice(a, b),
         points=points,
-        multiplicity=get("multiplicity", as_count),
-        status=Status(status),
-        residual=get("residual", as_double),
+        multiplicity=table["multiplicity"],
+        status=Status(table["status"]),
+        residual=real_number(table["residual"]),
         radii=radii,
         digits=digits,
-        corank=get("corank", as_count),
+        corank=table["corank"],
         multidegree=multidegree,
-        orbit=size,
-        note=get("note", as_text),
-        images=_images(orbit.get("images", []), size, system, f"{place}.orbit.images"),
+        orbit=orbit["size"],
+        note=table["note"],
+        images=_images(orbit.get("images", []), orbit["size"], system, f"{place}.orbit.images"),
         fibres=_fibres(table.get("cut_by", []), cuts, points, len(b), f"{place}.cut_by"),
     )
 
@@ -294,36 +281,26 @@ def _component(value: Any, system: PolynomialSystem, cuts: Sequence[Cut], place:
 def _errors(table: dict[str, Any], points: np.ndarray, place: str) -> tuple[np.ndarray, list[int]]:
     """Error radii and digits of points; those of files without them from the set's accuracy."""
     if "radii" not in table:
-        accuracy = as_double(entry(table, "accuracy", place), f"{place}.accuracy")
+        accuracy = real_number(table["accuracy"])
         radii = np.nan_to_num(even_radii(points, accuracy), nan=np.inf, posinf=np.inf)
         return radii, [DOUBLE] * len(points)
-    here, rows = f"{place}.radii", []
-    for i, row in enumerate(as_list(table["radii"], here)):
-        values = enumerate(as_list(row, f"{here}[{i}]"))
-        rows.append([as_double(value, f"{here}[{i}][{j}]") for j, value in values])
-    if [len(row) for row in rows] != [points.shape[1]] * len(points):
-        raise wrong(here, "as many numbers as the points have, in as many rows")
-    here = f"{place}.digits"
-    items = enumerate(as_list(entry(table, "digits", place), here))
-    digits = [as_count(value, f"{here}[{i}]", 1) for i, value in items]
+    if [len(row) for row in table["radii"]] != [points.shape[1]] * len(points):
+        raise wrong(f"{place}.radii", "as many numbers as the points have, in as many rows")
+    here, digits = f"{place}.digits", table["digits"]
     if len(digits) != len(points):
         raise wrong(here, "one number for each of the points")
     if max(digits, default=0) > np.iinfo(np.int64).max:
         raise wrong(here, "numbers of at most 64 bits")
-    radii = np.array(rows, dtype=float).reshape(points.shape)
+    radii = np.array(table["radii"], dtype=float).reshape(points.shape)
     radii[np.isnan(radii)] = np.inf
-    if (radii < 0).any():
-        raise wrong(f"{place}.radii", "numbers from 0 up")
     return radii, digits
 
 
 def _images(
-    value: Any, size: int, system: PolynomialSystem, place: str
+    maps: Sequence[dict[str, str]], size: int, system: PolynomialSystem, place: str
 ) -> tuple[SignedPermutation, ...]:
     found = []
-    for i, item in enumerate(as_list(value, place)):
-        table = as_table(item, f"{place}[{i}]")
-        texts = {key: as_text(text, f"{place}[{i}].{key}") for key, text in table.items()}
+    for i, texts in enumerate(maps):
         try:
             found.append(SignedPermutation.of_map(texts, system.variables))
         except SymmetryError as error:
@@ -339,41 +316,31 @@ def export_of(value: Any) -> Export:
     Raises:
         ExportError: if it is not one.
     """
-    table = as_document(value, FORMAT, VERSION, 1)
-
-    def get(key: str, convert: Any) -> Any:
-        return convert(entry(table, key, "the file"), key)
-
-    system = get("system", as_system)
-    paths = get("paths", as_table)
-    order = [as_count(v, f"order[{i}]") for i, v in enumerate(get("order", as_list))]
-    parts = as_list(table.get("equations", []), "equations")
-    cuts = [_cut(v, system, f"equations[{i}]") for i, v in enumerate(parts)]
+    table = checked_document(value, FORMAT, VERSION, 1)
+    system = parse_system(table["system"], "system")
+    # Files of version 1 have none.
+    cuts = [_cut(v, system, f"equations[{i}]") for i, v in enumerate(table.get("equations", []))]
     components = [
-        _component(v, system, cuts, f"components[{i}]")
-        for i, v in enumerate(get("components", as_list))
+        _component(v, system, cuts, f"components[{i}]") for i, v in enumerate(table["components"])
     ]
     decomposition = Decomposition(
         system=system,
         components=tuple(components),
-        paths=PathCounts(
-            *(as_count(entry(paths, k, "paths"), f"paths.{k}") for k in PathCounts.__match_args__)
-        ),
-        seed=get("seed", as_count),
-        settings=get("settings", as_text),
-        order=tuple(order),
-        complete=get("complete", as_flag),
-        notes=tuple(get("notes", as_texts)),
-        method=as_text(table.get("method", ""), "method"),
+        paths=PathCounts(*(table["paths"][name] for name in PathCounts.__match_args__)),
+        seed=table["seed"],
+        settings=table["settings"],
+        order=tuple(table["order"]),
+        complete=table["complete"],
+        notes=tuple(table["notes"]),
+        method=table.get("method", ""),
     )
-    if table.get("case") is None:
+    case = table["case"]
+    if case is None:
         return Export(decomposition)
-    case = as_table(table["case"], "case")
-    known = {
-        key: as_text(entry(case, key, "case"), f"case.{key}") for key in ("title", "file", "kind")
-    }
-    model = {k: table[k] for k in ("formulation", "reason") if table.get(k) is not None}
-    return Export(decomposition, Origin(**known, **{k: as_text(v, k) for k, v in model.items()}))
+    place = {key: case[key] for key in ("title", "file", "kind")}
+    return Export(
+        decomposition, Origin(**place, **{k: table[k] for k in ("formulation", "reason")})
+    )
 
 
 def read_export(path: str | os.PathLike[str]) -> Export:
@@ -421,38 +388,27 @@ def close_document(fine: Mapping[int, Fine]) -> list[dict[str, Any]]:
     ]
 
 
-def close_points(value: Any, points: np.ndarray, place: str) -> dict[int, Fine]:
+def close_points(
+    value: Sequence[dict[str, Any]], points: np.ndarray, place: str
+) -> dict[int, Fine]:
     """What `close_document` wrote of points of shape ``(P, n + aux)``.
 
     Raises:
         nag.files.json_values.ExportError: if it does not fit them.
     """
     found: dict[int, Fine] = {}
-    for k, item in enumerate(as_list(value, place)):
+    shape = points.shape[1], 2, WORDS
+    for k, table in enumerate(value):
         here = f"{place}[{k}]"
-        table = as_table(item, here)
-        i = as_count(entry(table, "point", here), f"{here}.point")
+        i = table["point"]
         if i >= len(points) or i in found:
             raise wrong(f"{here}.point", "the index of a point, once")
-        words = _words(entry(table, "coordinates", here), points.shape[1], f"{here}.coordinates")
-        curvature = as_double(entry(table, "curvature", here), f"{here}.curvature")
+        words = np.array(table["coordinates"], dtype=float)
+        if words.shape != shape:
+            each = f"{WORDS} numbers for the real and the imaginary part of each of {shape[0]}"
+            raise wrong(f"{here}.coordinates", each)
+        curvature = real_number(table["curvature"])
         found[i] = Fine(words, curvature if np.isfinite(curvature) else np.inf)
         if not np.allclose(found[i].rounded, points[i], rtol=ROUNDED, atol=1e-300):
             raise wrong(f"{here}.coordinates", "those of the point in more digits")
     return found
-
-
-def _words(value: Any, count: int, place: str) -> np.ndarray:
-    rows = [
-        [
-            [as_double(x, f"{place}[{j}]") for x in as_list(part, f"{place}[{j}]")]
-            for part in as_list(parts, f"{place}[{j}]")
-        ]
-        for j, parts in enumerate(as_list(value, place))
-    ]
-    shapes = [[len(part) for part in parts] for parts in rows]
-    if shapes != [[WORDS, WORDS]] * count:
-        raise wrong(
-            place, f"{WORDS} numbers for the real and the imaginary part of each of {count}"
-        )
-    return np.array(rows, dtype=float).reshape(count, 2, WORDS)

@@ -2,8 +2,7 @@
 
 Complex arrays are written as pairs, one line for each key and each point. Every function that reads
 takes the value and its place in the document, returns it in our own type, and raises `ExportError`
-with the place and what it must be. The JSON Schemas of the exports are in the folder ``schema``
-beside this module.
+with the place and what it must be. Exports are checked by their schemas as a whole first.
 """
 
 from __future__ import annotations
@@ -12,7 +11,6 @@ import json
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -23,6 +21,7 @@ from nag.algebra.given import check_path
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import InputError, NagError
+from nag.files.json_schema import find_problem, schema
 
 
 def real_or_null(value: float) -> float | None:
@@ -122,12 +121,6 @@ def as_count(value: Any, place: str, least: int = 0) -> int:
     return value
 
 
-def as_flag(value: Any, place: str) -> bool:
-    if not isinstance(value, bool):
-        raise wrong(place, "true or false")
-    return value
-
-
 def as_double(value: Any, place: str) -> float:
     if value is None:
         return math.nan
@@ -139,26 +132,39 @@ def as_double(value: Any, place: str) -> float:
         raise wrong(place, "a number in the range of doubles") from None
 
 
-def as_vector(value: Any, place: str) -> np.ndarray:
-    numbers = []
-    for i, pair in enumerate(as_list(value, place)):
-        if not isinstance(pair, list) or len(pair) != 2:
-            raise wrong(f"{place}[{i}]", "a pair [re, im]")
-        numbers.append([as_double(x, f"{place}[{i}]") for x in pair])
-    return np.array(numbers, dtype=float).reshape(-1, 2).view(complex)[:, 0]
+def real_number(value: float | None) -> float:
+    """A number of a checked document, not-a-number where it is null."""
+    return math.nan if value is None else float(value)
 
 
-def as_matrix(value: Any, columns: int, place: str) -> np.ndarray:
-    rows = [as_vector(row, f"{place}[{i}]") for i, row in enumerate(as_list(value, place))]
-    for i, row in enumerate(rows):
+def complex_vector(value: list[Any]) -> np.ndarray:
+    """The array that `pairs` wrote of one dimension."""
+    return np.array(value, dtype=float).reshape(-1, 2).view(complex)[:, 0]
+
+
+def complex_matrix(value: list[Any], columns: int, place: str) -> np.ndarray:
+    """The array that `pairs` wrote of two dimensions.
+
+    Raises:
+        ExportError: if it has another number of columns.
+    """
+    for i, row in enumerate(value):
         if len(row) != columns:
             raise wrong(f"{place}[{i}]", f"of length {columns}, one entry for each variable")
-    return np.array(rows, dtype=complex).reshape(len(rows), columns)
+    doubles = np.array(value, dtype=float).reshape(len(value), columns, 2)
+    return doubles.view(complex)[..., 0]
 
 
-def as_polynomials(value: Any, variables: Sequence[str], place: str) -> list[Polynomial]:
+def parse_polynomials(
+    texts: Sequence[str], variables: Sequence[str], place: str
+) -> list[Polynomial]:
+    """The polynomials that texts spell.
+
+    Raises:
+        ExportError: if one spells none.
+    """
     found = []
-    for i, text in enumerate(as_texts(value, place)):
+    for i, text in enumerate(texts):
         try:
             found.append(parse_polynomial(text, variables))
         except ValueError as error:
@@ -166,22 +172,25 @@ def as_polynomials(value: Any, variables: Sequence[str], place: str) -> list[Pol
     return found
 
 
-def as_system(value: Any, place: str) -> PolynomialSystem:
-    table = as_table(value, place)
-    variables = as_texts(entry(table, "variables", place), f"{place}.variables")
+def parse_system(table: Mapping[str, Any], place: str) -> PolynomialSystem:
+    """The system that `system_document` wrote.
+
+    Raises:
+        ExportError: if there is none such.
+    """
+    variables = table["variables"]
     index = {name: i for i, name in enumerate(variables)}
-    groups = []
-    for i, names in enumerate(as_list(entry(table, "groups", place), f"{place}.groups")):
-        here = f"{place}.groups[{i}]"
-        if unknown := [name for name in as_texts(names, here) if name not in index]:
+    for i, names in enumerate(table["groups"]):
+        if unknown := [name for name in names if name not in index]:
+            here = f"{place}.groups[{i}]"
             raise ExportError(f"{here}: {unknown[0]!r} is not one of the variables")
-        groups.append([index[name] for name in names])
-    parts = {
-        key: as_polynomials(entry(table, key, place), variables, f"{place}.{key}")
+    groups = [[index[name] for name in names] for names in table["groups"]]
+    parts = [
+        parse_polynomials(table[key], variables, f"{place}.{key}")
         for key in ("polynomials", "nonzero")
-    }
+    ]
     try:
-        return PolynomialSystem(variables, parts["polynomials"], parts["nonzero"], groups)
+        return PolynomialSystem(variables, *parts, groups)
     except ValueError as error:
         raise ExportError(f"{place}: {error}") from None
 
@@ -194,6 +203,20 @@ def as_document(value: Any, name: str, *versions: int) -> dict[str, Any]:
     if table.get("version") not in versions:
         known = " or ".join(str(version) for version in sorted(versions))
         raise wrong("version", f"{known}, which this program reads")
+    return table
+
+
+def checked_document(value: Any, name: str, *versions: int) -> dict[str, Any]:
+    """The whole document, which fits the schema of its version of the format.
+
+    Raises:
+        ExportError: if it does not.
+    """
+    table = as_document(value, name, *versions)
+    problem = find_problem(table, schema(name, table["version"]))
+    if problem is not None:
+        place, what = problem
+        raise ExportError(f"{place.removeprefix('.') or 'the file'}: {what}")
     return table
 
 
@@ -223,16 +246,6 @@ def read_file(path: str | os.PathLike[str], convert: Callable[[Any], T]) -> T:
         raise ExportError(f"{file}: is not an export: lists are nested too deep") from None
     except ValueError as error:
         raise ExportError(f"{file}: is not JSON: {error}") from None
-
-
-def schema(name: str, version: int = 1) -> dict[str, Any]:
-    """The JSON Schema of a format, such as ``"nag-decomposition"``.
-
-    >>> schema("nag-decomposition", 2)["properties"]["format"]["const"]
-    'nag-decomposition'
-    """
-    file = resources.files("nag.files") / "schema" / f"{name}-{version}.json"
-    return json.loads(file.read_text("utf-8"))
 
 
 # What a document says that follows from the rest of it; relative difference that rounding makes.

@@ -12,21 +12,14 @@ from typing import Any
 
 from nag.algebra.given import check_path, check_type
 from nag.files.json_values import (
-    as_count,
-    as_document,
-    as_double,
-    as_flag,
-    as_list,
-    as_matrix,
-    as_system,
-    as_table,
-    as_text,
-    as_texts,
-    as_vector,
-    entry,
+    checked_document,
+    complex_matrix,
+    complex_vector,
     lay_out,
     pairs,
+    parse_system,
     read_file,
+    real_number,
     real_or_null,
     system_document,
     wrong,
@@ -122,30 +115,13 @@ def write_solutions(
     write_target(path, export_text(result, title, file))
 
 
-def _solution(value: Any, n: int, place: str) -> Solution:
-    table = as_table(value, place)
-
-    def get(key: str, convert: Any, *arguments: Any) -> Any:
-        return convert(entry(table, key, place), f"{place}.{key}", *arguments)
-
-    point = get("point", as_vector)
+def _solution(table: dict[str, Any], n: int, place: str) -> Solution:
+    point = complex_vector(table["point"])
     if len(point) != n:
         raise wrong(f"{place}.point", f"of length {n}, one entry for each variable")
-    return Solution(
-        point=point,
-        multiplicity=get("multiplicity", as_count, 1),
-        real=get("real", as_flag),
-        residual=get("residual", as_double),
-        accuracy=get("accuracy", as_double),
-        condition=get("condition", as_double),
-        precision=get("precision", as_count, 1),
-    )
-
-
-def _excluded(table: dict[str, Any], n: int) -> tuple[Solution, ...]:
-    """The solutions that were left out, where the file has them; earlier files do not."""
-    values = as_list(table.get("excluded_solutions", []), "excluded_solutions")
-    return tuple(_solution(v, n, f"excluded_solutions[{i}]") for i, v in enumerate(values))
+    numbers = {key: real_number(table[key]) for key in ("residual", "accuracy", "condition")}
+    facts = {key: table[key] for key in ("multiplicity", "real", "precision")}
+    return Solution(point=point, **facts, **numbers)
 
 
 def solutions_of(value: Any) -> SolutionsExport:
@@ -154,46 +130,36 @@ def solutions_of(value: Any) -> SolutionsExport:
     Raises:
         ExportError: if it is not one.
     """
-    table = as_document(value, FORMAT, VERSION)
+    table = checked_document(value, FORMAT, VERSION)
+    system = parse_system(table["system"], "system")
 
-    def get(key: str, convert: Any) -> Any:
-        return convert(entry(table, key, "the file"), key)
+    def get_solutions(key: str) -> tuple[Solution, ...]:
+        # Earlier files do not have all of them.
+        return tuple(
+            _solution(v, system.n, f"{key}[{i}]") for i, v in enumerate(table.get(key, []))
+        )
 
-    system = get("system", as_system)
-    paths = get("paths", as_table)
-    points = {}
-    for key in ("on_components", "undecided"):
-        points[key] = as_matrix(entry(table, key, "the file"), system.n, key)
-    # Earlier files do not have these.
-    for key in ("on_excluded", "on_doubtful"):
-        points[key] = as_matrix(table.get(key, []), system.n, key)
     result = SolveResult(
         system=system,
-        solutions=tuple(
-            _solution(v, system.n, f"solutions[{i}]")
-            for i, v in enumerate(get("solutions", as_list))
-        ),
-        excluded=get("excluded", as_count),
-        paths=PathStatistics(
-            *(
-                as_count(entry(paths, f.name, "paths"), f"paths.{f.name}")
-                for f in fields(PathStatistics)
-            )
-        ),
-        start=get("start", as_text),
-        reason=get("reason", as_text),
-        seed=get("seed", as_count),
-        settings=get("settings", as_text),
-        complete=get("complete", as_flag),
-        notes=tuple(get("notes", as_texts)),
-        excluded_solutions=_excluded(table, system.n),
-        **points,
+        solutions=get_solutions("solutions"),
+        excluded=table["excluded"],
+        paths=PathStatistics(*(table["paths"][f.name] for f in fields(PathStatistics))),
+        start=table["start"],
+        reason=table["reason"],
+        seed=table["seed"],
+        settings=table["settings"],
+        complete=table["complete"],
+        notes=tuple(table["notes"]),
+        excluded_solutions=get_solutions("excluded_solutions"),
+        **{
+            key: complex_matrix(table.get(key, []), system.n, key)
+            for key in ("on_components", "on_excluded", "on_doubtful", "undecided")
+        },
     )
-    if table.get("case") is None:
+    case = table["case"]
+    if case is None:
         return SolutionsExport(result)
-    case = as_table(table["case"], "case")
-    title, file = (as_text(entry(case, key, "case"), f"case.{key}") for key in ("title", "file"))
-    return SolutionsExport(result, title, file)
+    return SolutionsExport(result, case["title"], case["file"])
 
 
 def read_solutions(path: str | os.PathLike[str]) -> SolutionsExport:
