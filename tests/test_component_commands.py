@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import re
 import shlex
@@ -272,3 +273,31 @@ def test_the_commands_of_the_readme_run(tmp_path, monkeypatch, capsys) -> None:
     assert "on 1 of 3 components; local dimension 1" in printed[1]
     assert len(json.loads((tmp_path / "points.json").read_text())["points"]) == 100
     assert "1 component of dimension 0, degree 1" in printed[3]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["solve", "{case}"],
+        ["local", "{case}", "right"],
+        ["member", "{export}", "--at", "x = 1, y = 0"],
+        ["sample", "{export}"],
+        ["intersect", "{export}", "--components", "1", "2"],
+        ["certify", "{export}"],
+    ],
+)
+def test_every_answer_is_printed_even_if_its_document_cannot_be_written(
+    case, export, words, tmp_path, capsys, monkeypatch
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    words = [word.format(case=case, export=export) for word in words]
+    quiet = [] if words[0] == "certify" else ["--quiet"]
+    main([*words, *quiet])
+    expected = capsys.readouterr().out
+    monkeypatch.setattr("nag.files.written_file.os.fsync", full)
+    assert main([*words, *quiet, "--json", str(tmp_path / "answer.json")]) == 2
+    out, err = capsys.readouterr()
+    assert err.endswith("answer.json: cannot be written: No space left on device\n")
+    assert out.splitlines()[:-1] == expected.splitlines()[:-1]
