@@ -83,10 +83,25 @@ def test_what_lies_beside_the_excluded_is_kept() -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("exponent", [16, 20, 24, 40])
-def test_two_points_where_curves_nearly_touch_are_told_apart(exponent: int, seed: int) -> None:
-    curves = decompose(system("x y", f"(x^2 + y^2 - 1)*(x - 1 - 1/10^{exponent})"), seed=seed)
+@pytest.mark.parametrize("exponent", [16, 20, 40])
+@pytest.mark.parametrize(
+    ("text", "which", "place"),
+    [
+        ("(x^2 + y^2 - 1)*(x - 1 - 1/10^{})", 1, 2**0.5),
+        ("(y - x^2)*(y + x^2 - 1/10^{})", 0, 0.5**0.5),
+    ],
+)
+def test_two_points_where_curves_nearly_touch_are_told_apart(
+    text: str, which: int, place: float, exponent: int, seed: int
+) -> None:
+    curves = decompose(system("x y", text.format(exponent)), seed=seed)
     found = intersect_components(curves.system, *curves.components, seed=seed)
     assert found.complete and [(c.dimension, c.degree) for c in found.components] == [(0, 1)] * 2
-    both = np.sort([c.points[0, 1].imag for c in found.components])
-    assert np.allclose(both, [-(2**0.5), 2**0.5] * np.array(10 ** (-exponent / 2)), rtol=1e-6)
+    both = np.array([c.points[0, which] for c in found.components]) * 10 ** (exponent / 2)
+    assert np.allclose(np.sort(both.real + both.imag), [-place, place], rtol=1e-6)
+
+
+def test_components_that_meet_in_a_small_place_have_slices_in_its_units() -> None:
+    lines = decompose(system("x y", "x*y*(x + y - 1/10^20)"))
+    for c in lines.components:
+        assert np.abs(c.points).max() < 1e-17

@@ -7,7 +7,8 @@ root is one of the certified balls that FLINT's complex root isolation gives.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -94,6 +95,16 @@ class AlgebraicZero:
     @property
     def real(self) -> bool:
         return bool(self.root.imag.is_zero())
+
+    def scale_and_shift(
+        self, scales: Sequence[Fraction], origin: Sequence[Fraction]
+    ) -> AlgebraicZero:
+        """The zero with coordinates ``scales[i] x_i + origin[i]``."""
+        moved = tuple(
+            c * flint.fmpq(*s.as_integer_ratio()) + flint.fmpq(*b.as_integer_ratio())
+            for c, s, b in zip(self.coordinates, scales, origin, strict=True)
+        )
+        return replace(self, coordinates=moved, known={})
 
     def value(self, f: Polynomial) -> Any:
         """An exact polynomial at the zero, as a polynomial in the algebraic number."""

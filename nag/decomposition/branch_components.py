@@ -1,4 +1,8 @@
-"""Components of systems that fall apart exactly: those of the branches, joined without repeats."""
+"""Components of systems that fall apart exactly: those of the branches, joined without repeats.
+
+The branches are decomposed and joined in coordinates that suit the whole system: only in these can
+slices and distances be of use for all of its components.
+"""
 
 from __future__ import annotations
 
@@ -26,11 +30,11 @@ from nag.numerics.branch_union import (
     find_repeats,
     multiplicities_in_scheme,
 )
-from nag.numerics.natural_coordinates import scale_coordinates
+from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import ON, SINGULAR, WRITTEN, vanishes_at_all, widened
 from nag.tracking.run import Run
-from nag.witness.change_of_coordinates import coordinates_of
+from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
 from nag.witness.confirm import vanishing
 from nag.witness.cutting import Cut, numerical_corank
@@ -162,27 +166,60 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     zeros = algebraic_zeros(system) if apart is None else None
     if apart is None and zeros is None:
         return None
+    given, natural = system, NaturalCoordinates.identity(system.n)
+    if apart:
+        natural = _suitable_coordinates(system, symmetries)
+        system = natural.system(system)
     rng = run.random(11)
     if zeros is not None:
         parts = [_algebraic(system, zeros)]
     else:
-        systems = [b.system(system) for b in apart]
+        systems = [natural.system(b.system(given)) for b in apart]
         used = symmetries if len(systems) == 1 and _keep(symmetries, systems[0]) else ()
         parts = [_part(task.of_part(each, used), others, rng) for each in systems]
     joined, notes, counts = _join(parts, rng, run)
     components = [c.witness for c in joined]
     if apart is not None:
         components = _in_scheme(system, joined)
+    exact = {id(c): each.zero for c, each in zip(components, joined, strict=True) if each.zero}
     if symmetries and not used and components:
         try:
             components = _orbits(system, components, symmetries, run)
         except ValueError as error:
             notes.append(f"orbits of the symmetries are not known: {error}")
     components.sort(key=lambda c: (-c.dimension, c.degree))
+    back = natural.inverse
+    components = [_carry_back(c, back, given, exact.get(id(c))) for c in components]
     answers = [part.answer for part in parts if part.answer is not None]
     notes += [note for answer in answers for note in answer.notes]
     paths = sum((answer.paths for answer in answers), counts)
-    return judged(system, components, paths, run.settings, notes, seed=run.seed)
+    return judged(given, components, paths, run.settings, notes, seed=run.seed)
+
+
+def _suitable_coordinates(
+    system: PolynomialSystem, symmetries: Sequence[SignedPermutation]
+) -> NaturalCoordinates:
+    """The coordinates that suit a system, if its symmetries are the same there."""
+    natural = coordinates_of(system)
+    if natural.is_identity or _keep(symmetries, natural.system(system)):
+        return natural
+    return NaturalCoordinates.identity(system.n)
+
+
+def _carry_back(
+    component: WitnessSet,
+    natural: NaturalCoordinates,
+    system: PolynomialSystem,
+    zero: AlgebraicZero | None,
+) -> WitnessSet:
+    """A component of a system in the coordinates that were given, where it may be an exact zero."""
+    if natural.is_identity:
+        return component
+    there = carry_component(component, natural, system, back=True)
+    if zero is None:
+        return there
+    x = zero.scale_and_shift(natural.inverse.scales, natural.inverse.origin).point[None]
+    return replace(there, points=x, radii=np.finfo(float).eps * np.abs(x))
 
 
 def _keep(symmetries: Sequence[SignedPermutation], system: PolynomialSystem) -> bool:

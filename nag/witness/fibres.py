@@ -34,7 +34,7 @@ from nag.witness.cutting import (
     regular_on,
     sharpen,
 )
-from nag.witness.slices import even_rows, padded
+from nag.witness.slices import balance_rows, even_rows, padded
 from nag.witness.witness import PathCounts
 
 # Newton's constant of points that are close, over their inverse distance.
@@ -227,13 +227,17 @@ def move(
         through: an exact point that the target passes through. Where sheets cross, a slice that is
             rounded beside the crossing meets them in as many points as near to each other.
         sizes: those of a fibre of the set that rows are to be of comparable norms in, where not all
-            of its fibres are moved at once; else those of the first.
+            of its fibres are moved at once, and nearby; else those of the first.
     """
     if not fibres:
         return []
+    alone = sizes is None
     sizes = fibres[0].sizes if sizes is None else sizes
-    rows = even_rows(source, sizes), even_rows(target, sizes)
-    return [_move_scaled(fibre, *rows, gamma, run, endgame, through) for fibre in fibres]
+    first, last = even_rows(source, sizes), even_rows(target, sizes)
+    if alone:
+        n = first.shape[1] - 1
+        last = balance_rows(first, last, np.vstack([fibre.points[:, :n] for fibre in fibres]))
+    return [_move_scaled(fibre, first, last, gamma, run, endgame, through) for fibre in fibres]
 
 
 def _move_scaled(

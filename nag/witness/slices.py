@@ -6,6 +6,10 @@ import numpy as np
 
 from nag.witness.witness import Slice
 
+# What a slice's terms at points may be beside those of one that the points move to: a third of the
+# digits that a path's parameter has near to 1.
+UNEVEN = 2.0**-16
+
 
 def unit_complex(rng: np.random.Generator, size: int | tuple[int, ...] = ()) -> np.ndarray:
     """Random complex numbers of absolute value one."""
@@ -58,6 +62,28 @@ def even_rows(rows: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     further = np.ones(rows.shape[1] - len(sizes))
     norms = np.linalg.norm(rows * np.concatenate([sizes, further]), axis=1, keepdims=True)
     return rows / 2.0 ** np.rint(np.log2(norms))
+
+
+def balance_rows(source: np.ndarray, target: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """The target slice by rows that do not outweigh those of the source at points of it.
+
+    A slice that cuts a set in a far smaller or a far larger part than another is 0 to rounding
+    beside it at points there: a path from one to the other would be over before it begins, as a
+    parameter tells nothing nearer to 1 than it is rounded, and all there is to tell near to 0.
+
+    Args:
+        points: affine, shape ``(P, n)``; of all that are to move as one.
+    """
+    sizes = np.abs(points[:, None, : source.shape[1] - 1])
+    largest = [
+        np.maximum(np.abs(rows[:, 0]), (np.abs(rows[:, 1:]) * sizes).max(axis=2, initial=0.0))
+        for rows in (source, target)
+    ]
+    ratios = (largest[0] / largest[1]).min(axis=0, initial=1.0)
+    # A point may be where all terms of its own slice vanish.
+    uneven = (ratios < UNEVEN) & (ratios > 0.0)
+    powers = np.rint(np.log2(np.where(uneven, ratios, 1.0)))
+    return 2.0 ** powers[:, None] * target
 
 
 def to_slice(rows: np.ndarray) -> Slice:
