@@ -319,7 +319,7 @@ witness.real_points.STATIONARY              1e-10   Part of the distance that ca
                                                     at a nearest point.
 witness.real_points.ALMOST                  1e-5    The same at a point that may be a nearest one,
                                                     and is said to be almost.
-witness.slices.UNEVEN                       2^-16   Terms of a slice at points, over those of one
+witness.slices.UNEVEN                       1e-5    Terms of a slice at points, over those of one
                                                     that these move to, below which the latter is
                                                     scaled: else paths begin nearer to 1 than their
                                                     parameter is told from it.

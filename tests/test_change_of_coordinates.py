@@ -131,3 +131,15 @@ def test_points_far_from_the_origin_are_sampled_to_many_digits() -> None:
             assert all(z.contains(0) for z in values)
             assert max(sizes) < 1e-40
             assert np.abs(found.x - [complex(z) for z in point]).max() < 1e-9
+
+
+@pytest.mark.parametrize("exponent", [-20, -8, 8, 20])
+def test_slices_move_to_parts_of_a_set_of_any_size(exponent: int) -> None:
+    parabola = nag.decompose("y - x^2").components[0]
+    size = 10.0**exponent
+    small = nag.Slice(np.array([[0.6j, 1.0]]) * [size, 1.0], np.array([(0.8 - 0.3j) * size**2]))
+    there = witness_at(parabola.system, parabola, small)
+    assert there.degree == 2 and np.abs(there.points[:, 0]).max() < 10 * size
+    back = witness_at(parabola.system, there, parabola.slice)
+    for x in parabola.points:
+        assert np.abs(back.points - x).max(axis=1).min() < 1e-12

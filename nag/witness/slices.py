@@ -8,7 +8,7 @@ from nag.witness.witness import Slice
 
 # What a slice's terms at points may be beside those of one that the points move to: a third of the
 # digits that a path's parameter has near to 1.
-UNEVEN = 2.0**-16
+UNEVEN = 1e-5
 
 
 def unit_complex(rng: np.random.Generator, size: int | tuple[int, ...] = ()) -> np.ndarray:
