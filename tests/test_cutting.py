@@ -52,3 +52,15 @@ def test_doubles_are_enough_to_see_that_no_other_zero_is_near(monkeypatch) -> No
 @pytest.mark.parametrize("k", range(5, 15))
 def test_zeros_that_are_close_to_others_are_not_alone(k: int) -> None:
     assert not is_alone(Fraction(1, 10**k))
+
+
+def test_a_number_for_an_unknown_does_not_change_the_sizes_of_the_others(monkeypatch) -> None:
+    x, y = Polynomial.variables(2)
+    cut = Cut(2, 0, (2**80 * x**2 + y**2 - 1, x * 2**40 - y))
+    with_number = cut.numbered
+    alone = Cut(2, 1, with_number.polynomials)
+    assert cut.powers.tolist() == [-40, 0]
+    monkeypatch.setattr("nag.witness.cutting.variable_scales", None)
+    assert with_number.powers.tolist() == [-40, 0, 0]
+    monkeypatch.undo()
+    assert alone.powers.tolist() == [-40, 0, 0]

@@ -78,3 +78,15 @@ def test_last_coefficients_are_those_of_values_at_power_series() -> None:
         assert np.abs(evaluator.last_coefficients(series[..., :k]) - expected).max() < 1e-12
     alone = Evaluator.of(system("x y", "4").polynomials, 2)
     assert np.abs(alone.last_coefficients(series)).max() == 0
+
+
+def test_balanced_jacobians_of_many_points_are_those_of_each() -> None:
+    x, y = Polynomial.variables(2)
+    evaluator = Evaluator.of([x**3 * y - 2, x - 3 * y**2], 2)
+    rng = np.random.default_rng(0)
+    near = rng.normal(size=(3, 2)) * np.array([[1], [10], [1e5]]) + 1j
+    for points in (near, np.vstack([near, [[1e60, 1j]]]), near[:0]):
+        found = evaluator.balanced_jacobians(points)
+        assert found.shape == (len(points), 2, 2)
+        for each, point in zip(found, points, strict=True):
+            assert np.allclose(each, evaluator.balanced_jacobian(point), rtol=1e-14)

@@ -200,6 +200,18 @@ class Evaluator:
             return scaled.jacobian(np.asarray(point) / size)
         return self.jacobian(point) / size ** (self.degrees - 1)[:, None]
 
+    @np.errstate(over="ignore", invalid="ignore")
+    def balanced_jacobians(self, points: np.ndarray) -> np.ndarray:
+        """The same at many points of shape ``(P, n)``: shape ``(P, rows, n)``."""
+        points = np.asarray(points, dtype=complex)
+        sizes = np.abs(points).max(axis=1, initial=1.0)
+        shape = len(points), len(self.coefficients), self.n
+        if self._slopes is None or not sizes.max(initial=1.0) <= HUGE:
+            return np.array([self.balanced_jacobian(x) for x in points]).reshape(shape)
+        powers, *_ = self._derivatives
+        slopes = (powers(points) @ self._slopes).reshape(shape)
+        return slopes / (sizes[:, None] ** (self.degrees - 1))[:, :, None]
+
 
 @dataclass(frozen=True, eq=False)
 class PlacedDerivatives:

@@ -95,8 +95,8 @@ def _coranks(
     have.
     """
     d, result, regular = len(rows), [], not fibre.cut.deflated
-    matrices = [equations.evaluator.balanced_jacobian(point) for point in fibre.x]
-    singular = np.linalg.svd(np.array(matrices), compute_uv=False)
+    matrices = equations.evaluator.balanced_jacobians(fibre.x)
+    singular = np.linalg.svd(matrices, compute_uv=False)
     for i, (point, s) in enumerate(zip(fibre.x, singular, strict=True)):
         if regular and i in fibre.fine:
             result.append(d)

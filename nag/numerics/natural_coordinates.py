@@ -16,7 +16,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from math import comb, gcd, isqrt, lcm, log2, prod
+from math import comb, gcd, inf, isqrt, lcm, log2, prod
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,7 @@ import numpy as np
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.scaling import magnitude, scaled_terms, variable_scales
+from nag.numerics.scaling import Logarithms, magnitude, scaled_terms, variable_scales
 
 # Least distance from 0, in radii of where the zeros lie, that makes a new origin worth its digits.
 FAR = 8.0
@@ -189,7 +189,7 @@ def natural_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoo
     if not any(origin) and all(map(_is_even, curved)):
         return nothing
     origin, moved, powers = _accepted_origin(curved, origin)
-    if np.abs(powers).max(initial=0) < log2(LEAST_SCALE):
+    if _are_small(powers):
         return nothing if not any(origin) else replace(nothing, origin=origin)
     return NaturalCoordinates(_scales(moved, powers), origin)
 
@@ -205,7 +205,7 @@ def scale_coordinates(polynomials: Sequence[Polynomial], n: int) -> NaturalCoord
     ['1/1024', '1']
     """
     powers = variable_scales(polynomials, n)
-    if np.abs(powers).max(initial=0) < log2(LEAST_SCALE):
+    if _are_small(powers):
         return NaturalCoordinates.identity(n)
     return NaturalCoordinates(tuple(Fraction(2) ** int(k) for k in powers), (Fraction(0),) * n)
 
@@ -263,33 +263,37 @@ def _accepted_origin(
     Also the polynomials about that origin, and their `variable_scales`.
     """
     n = len(origin)
-    before = variable_scales(polynomials, n)
+    given = Logarithms.of(polynomials, n)
+    before = given.best_scales()
     nothing = (Fraction(0),) * n, polynomials, before
     if not any(origin):
         return nothing
     moved = [shift_polynomial(f, origin) for f in polynomials]
     vanishing = [len(f.terms) - len(g.terms) for f, g in zip(polynomials, moved, strict=True)]
-    sizes = np.array([magnitude(b) if b else -np.inf for b in origin])
+    sizes = [magnitude(b) if b else -inf for b in origin]
     # That more terms vanish than numbers were chosen is no accident.
-    translated = sum(vanishing) > np.isfinite(sizes).sum()
+    translated = sum(vanishing) > sum(map(bool, origin))
     # Else no equation may be denser for it. Zeros that are far from their origin make their
     # coordinates as large as it is.
-    if not translated and (min(vanishing) < 0 or not (sizes > before - log2(FAR)).any()):
+    far = (b > k - log2(FAR) for b, k in zip(sizes, before.tolist(), strict=True))
+    if not translated and (min(vanishing) < 0 or not any(far)):
         return nothing
     # Scales that the equations leave free, as those of a cone, are any: to have them is a gain only
     # where terms vanish for it. Else they are what they were.
-    after = variable_scales(moved, n, near=0.0 if sum(vanishing) > 0 else before)
-    kept = translated | (after <= before + LARGER) | (sizes <= before)
-    gain = (sizes - after)[kept].max(initial=-np.inf)
-    several = translated and _largest_spread(moved, after) > SEVERAL_SIZES
+    there = Logarithms.of(moved, n)
+    after = there.best_scales(near=0.0 if sum(vanishing) > 0 else before)
+    each = list(zip(sizes, before.tolist(), after.tolist(), strict=True))
+    kept = [translated or k <= old + LARGER or b <= old for b, old, k in each]
+    gain = max((b - k for (b, _, k), keep in zip(each, kept, strict=True) if keep), default=-inf)
+    several = translated and there.spread(after) > SEVERAL_SIZES
     if gain <= log2(FAR) and not several:
         return nothing
     # What is gained in distance must not be lost in coefficients that no scales make comparable.
-    if not translated and gain <= _unevenness(moved, after) - _unevenness(polynomials, before):
+    if not translated and gain <= there.unevenness(after) - given.unevenness(before):
         return nothing
     accepted = tuple(
-        _simple(b, int(k)) if keep else Fraction(0)
-        for b, k, keep in zip(origin, after, kept, strict=True)
+        _simple(b, k) if keep else Fraction(0)
+        for b, k, keep in zip(origin, after.tolist(), kept, strict=True)
     )
     if accepted == origin:
         return origin, moved, after
@@ -297,30 +301,15 @@ def _accepted_origin(
     return accepted, moved, variable_scales(moved, n)
 
 
+def _are_small(powers: np.ndarray) -> bool:
+    """Whether scales bring nothing."""
+    return max(map(abs, powers.tolist()), default=0) < log2(LEAST_SCALE)
+
+
 def _is_even(f: Polynomial) -> bool:
     """Whether no coefficients differ by the scales that are worth it."""
     sizes = [abs(c) for c in f.whole[0].values()]
     return max(sizes) <= LEAST_SCALE * min(sizes)
-
-
-def _largest_spread(polynomials: Sequence[Polynomial], powers: np.ndarray) -> float:
-    """Most binary orders between two coefficients of an equation, at scales."""
-    return max(float(np.ptp(_sizes(f, powers))) for f in polynomials)
-
-
-def _sizes(f: Polynomial, powers: np.ndarray) -> np.ndarray:
-    """Binary logarithms of the coefficients of an equation, at scales."""
-    sizes = np.array([magnitude(c) for c in f.terms.values()])
-    return sizes + np.array(list(f.terms)) @ powers
-
-
-def _unevenness(polynomials: Sequence[Polynomial], powers: np.ndarray) -> float:
-    """Binary orders between a coefficient and the median one of its equation: the median of all."""
-    off = []
-    for f in polynomials:
-        sizes = _sizes(f, powers)
-        off.append(np.abs(sizes - np.median(sizes)))
-    return float(np.median(np.concatenate(off)))
 
 
 def _simple(b: Fraction, power: int) -> Fraction:
@@ -348,7 +337,8 @@ def _origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
         if sum(_terms_of_shift(f, origin) for f in polynomials) > MOST_TERMS:
             return (Fraction(0),) * n
         moved = [shift_polynomial(f, origin) for f in polynomials]
-        rows = [_conditions(f, level) for f in moved]
+        variables = sorted({i for way in directions for i in way})
+        rows = [_conditions(f, level, variables) for f in moved]
         step, directions = _solve_rows(rows, directions, moved)
         for i, b in step.items():
             origin[i] += b
@@ -393,11 +383,11 @@ def _terms_of_shift(f: Polynomial, origin: Sequence[Fraction]) -> int:
     return sum(prod(1 + e[i] for i in places) for e in f.terms)
 
 
-def _conditions(f: Polynomial, level: int) -> list[tuple[Row, int]]:
+def _conditions(f: Polynomial, level: int, variables: Sequence[int]) -> list[tuple[Row, int]]:
     """Linear equations for a shift by which the form ``level`` degrees below the first vanishes.
 
-    For shifts that change no form above it; each a row and a right side, times the common
-    denominator of the coefficients.
+    For shifts of some variables that change no form above it; each a row and a right side, times
+    the common denominator of the coefficients.
     """
     top, rows = f.degree, dict[Exponents, Row]()
     if level > top:
@@ -405,7 +395,8 @@ def _conditions(f: Polynomial, level: int) -> list[tuple[Row, int]]:
     terms, _ = f.whole
     for e, c in terms.items():
         if sum(e) == top - level + 1:
-            for i, k in enumerate(e):
+            for i in variables:
+                k = e[i]
                 if k:
                     row = rows.setdefault((*e[:i], k - 1, *e[i + 1 :]), {})
                     row[i] = row.get(i, 0) + k * c

@@ -6,7 +6,9 @@ Reference: Meintjes & Morgan, A methodology for solving chemical equilibrium sys
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import accumulate
 from math import floor, log2
 from operator import mul
@@ -35,50 +37,101 @@ def magnitude(c: Number | complex) -> float:
     return float(np.log2(abs(complex(c))))
 
 
-def variable_scales(
-    polynomials: Sequence[Polynomial], n: int, near: np.ndarray | float = 0.0
-) -> np.ndarray:
+@dataclass(frozen=True, eq=False)
+class Logarithms:
+    """The terms of equations that have several, as exponents and logarithms of coefficients.
+
+    Attributes:
+        exponents: of all terms, those of each equation together, shape ``(T, n)``.
+        sizes: binary logarithms of the coefficients' absolute values, shape ``(T,)``.
+        counts: numbers of terms of each equation.
+        alone: number of the equations of one term, which are not among these.
+    """
+
+    exponents: np.ndarray
+    sizes: np.ndarray
+    counts: tuple[int, ...]
+    alone: int
+
+    @classmethod
+    def of(cls, polynomials: Sequence[Polynomial], n: int) -> Logarithms:
+        """Those of polynomials in ``n`` variables, none of them zero."""
+        several = [f.terms for f in polynomials if len(f.terms) > 1]
+        exponents = np.array([e for terms in several for e in terms], dtype=float)
+        sizes = np.array([magnitude(c) for terms in several for c in terms.values()])
+        counts = tuple(map(len, several))
+        exponents = exponents.reshape(len(sizes), n)
+        return cls(exponents, sizes, counts, len(polynomials) - len(several))
+
+    @cached_property
+    def first(self) -> list[int]:
+        """The index of each equation's first term."""
+        return [0, *accumulate(self.counts[:-1])]
+
+    def best_scales(self, near: np.ndarray | float = 0.0) -> np.ndarray:
+        """Integers k, shape ``(n,)``, as `variable_scales` gives them."""
+        first, exponents, sizes = self.first, self.exponents, self.sizes
+        n = exponents.shape[1]
+        if not self.counts:
+            return np.full(n, near).astype(np.int64)
+        weights = np.ones(len(sizes))
+        for _ in range(SWEEPS + 1):
+            # The normal equations, with the size of each equation at its best for these weights:
+            # exponents are small whole numbers, and inertia keeps them regular.
+            total = np.add.reduceat(weights, first)
+            weighted = weights[:, None] * exponents
+            sums = np.add.reduceat(weighted, first)
+            size_sums = np.add.reduceat(weights * sizes, first)
+            matrix = weighted.T @ exponents - (sums.T / total) @ sums
+            matrix.flat[:: n + 1] += INERTIA**2
+            right = (size_sums / total) @ sums - sizes @ weighted + INERTIA**2 * near
+            solution = np.linalg.solve(matrix, right)
+            off = sizes + exponents @ solution
+            if self._largest_range(off) <= ODD:
+                break
+            weights = 1 / np.maximum(np.abs(self._beside_medians(off)), 1.0)
+        return np.rint(solution).clip(-LARGEST, LARGEST).astype(np.int64)
+
+    def spread(self, powers: np.ndarray) -> float:
+        """Most binary orders between two coefficients of an equation, at scales."""
+        return self._largest_range(self._at(powers)) if self.counts else 0.0
+
+    def unevenness(self, powers: np.ndarray) -> float:
+        """Binary orders between a coefficient and the median one of its equation: their median."""
+        off = self._beside_medians(self._at(powers)) if self.counts else self.sizes
+        return float(_median([*map(abs, off.tolist()), *[0.0] * self.alone]))
+
+    def _at(self, powers: np.ndarray) -> np.ndarray:
+        """The logarithms of the coefficients at scales."""
+        return self.sizes + self.exponents @ powers
+
+    def _largest_range(self, values: np.ndarray) -> float:
+        ranges = np.maximum.reduceat(values, self.first) - np.minimum.reduceat(values, self.first)
+        return float(ranges.max())
+
+    def _beside_medians(self, values: np.ndarray) -> np.ndarray:
+        """What is left of the values without the median of their equation."""
+        parts = zip(self.first, self.counts, strict=True)
+        medians = [_median(values[a : a + k].tolist()) for a, k in parts]
+        return values - np.repeat(medians, self.counts)
+
+
+def _median(values: list[float]) -> float:
+    ordered = sorted(values)
+    return (ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
+
+
+def variable_scales(polynomials: Sequence[Polynomial], n: int) -> np.ndarray:
     """Integers k, shape ``(n,)``: with ``x_i = 2^k_i y_i`` the coefficients vary the least.
 
     The least squares problem of the logarithms of all coefficients, the equations free to be
     scaled too. Where that leaves some far off, their absolute values count and not their squares
     (by weights from step to step): a few odd coefficients, as the small constant that two sheets
-    close together have, do not decide.
-
-    Args:
-        near: where the equations leave scales free, as ``x^2 y - 1`` does along ``(1, -2)``, those
-            nearest to these are taken.
+    close together have, do not decide. Scales that the equations leave free, as those of
+    ``x^2 y - 1`` along ``(1, -2)``, are the nearest to 0; of `Logarithms.best_scales`, to any
+    that are given.
     """
-    several = [f.terms for f in polynomials if len(f.terms) > 1]
-    if not several:
-        return np.full(n, near).astype(np.int64)
-    exponents = np.array([e for terms in several for e in terms], dtype=float)
-    sizes = np.array([magnitude(c) for terms in several for c in terms.values()])
-    counts = [len(terms) for terms in several]
-    first = [0, *accumulate(counts[:-1])]
-    of_equation = np.repeat(np.arange(len(several)), counts)
-    weights = np.ones(len(sizes))
-    for _ in range(SWEEPS + 1):
-        # The normal equations, with the size of each equation at its best for these weights:
-        # exponents are small whole numbers, and inertia keeps them regular.
-        total = np.add.reduceat(weights, first)
-        weighted = weights[:, None] * exponents
-        sums, size_sums = np.add.reduceat(weighted, first), np.add.reduceat(weights * sizes, first)
-        matrix = weighted.T @ exponents - (sums.T / total) @ sums
-        matrix.flat[:: n + 1] += INERTIA**2
-        right = (size_sums / total) @ sums - sizes @ weighted + INERTIA**2 * near
-        solution = np.linalg.solve(matrix, right)
-        off = sizes + exponents @ solution
-        if (np.maximum.reduceat(off, first) - np.minimum.reduceat(off, first)).max() <= ODD:
-            break
-        off = np.abs(off - _medians(off, first, counts)[of_equation])
-        weights = 1 / np.maximum(off, 1.0)
-    return np.clip(np.rint(solution), -LARGEST, LARGEST).astype(np.int64)
-
-
-def _medians(values: np.ndarray, first: Sequence[int], counts: Sequence[int]) -> np.ndarray:
-    """The median of each equation's values."""
-    return np.array([np.median(values[a : a + k]) for a, k in zip(first, counts, strict=True)])
+    return Logarithms.of(polynomials, n).best_scales()
 
 
 def scaled_terms(f: Polynomial, scales: np.ndarray) -> dict[Exponents, Number]:

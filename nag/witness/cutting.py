@@ -67,12 +67,14 @@ class Cut:
         aux: number of unknowns that deflation added; they come after the variables.
         polynomials: the rows, in ``n + aux`` variables.
         levels: the deflation steps that define the added unknowns.
+        plain: what this cut is with a number for the last unknown, if it is such a one.
     """
 
     n: int
     aux: int
     polynomials: tuple[Polynomial, ...]
     levels: tuple[Level, ...] = ()
+    plain: Cut | None = None
 
     @cached_property
     def rows(self) -> CompiledRows:
@@ -88,6 +90,8 @@ class Cut:
 
         Zero where sizes are not very unequal.
         """
+        if self.plain is not None:
+            return np.append(self.plain.powers, 0)
         powers = variable_scales(self.polynomials, self.n + self.aux)
         return powers if np.ptp([*powers, 0]) > UNEQUAL else np.zeros_like(powers)
 
@@ -104,7 +108,7 @@ class Cut:
         total = self.n + self.aux + 1
         u = Polynomial.variable(total, total - 1)
         rows = [f.with_variables(total, range(total - 1)) for f in self.polynomials]
-        return Cut(self.n, self.aux + 1, (*rows, u**3 - u), self.levels)
+        return Cut(self.n, self.aux + 1, (*rows, u**3 - u), self.levels, plain=self)
 
     @property
     def deflated(self) -> bool:
