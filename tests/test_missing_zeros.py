@@ -9,11 +9,13 @@ from math import log10
 
 import numpy as np
 import pytest
+from random_small import far_system
 from systems import system
 
 import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
+from nag.decomposition.components import decompose
 from nag.decomposition.isolated import counted
 from nag.numerics.coincidence import conjugates_present
 from nag.solving.solutions import SolveResult
@@ -149,3 +151,11 @@ def test_points_close_together_are_conjugates_each_of_one() -> None:
         rest = np.full(6, 1e-15), np.ones(6, dtype=int), np.zeros(6, dtype=bool)
         assert conjugates_present(points, *rest)
         assert not conjugates_present(points[:5], *(r[:5] for r in rest))
+
+
+def test_a_branch_that_lacks_zeros_leaves_the_whole_incomplete() -> None:
+    # Two of the 30 zeros lie at 1e25 in all coordinates: paths to them seem to lead to infinity.
+    of = far_system(7, 6573).system
+    answer = decompose(of)
+    found = sum(c.degree * c.multiplicity for c in answer.components)
+    assert found == 30 if answer.complete else "zeros were found" in " ".join(answer.notes)

@@ -165,6 +165,8 @@ def counted(answer: Decomposition, scheme: bool) -> Decomposition:
     system = answer.system
     if answer.dimension > 0 or system.nonzero or len(system.polynomials) < system.n:
         return answer
+    # At points that are regular the scheme of the system is simple, whatever is asked for.
+    scheme = scheme or all(c.corank == 0 for c in answer.components)
     zeros = sum((c.multiplicity if scheme else 1) * c.degree * c.orbit for c in answer.components)
     count = most_zeros(system.polynomials, zeros, not answer.complete)
     if count is None or (count.bound > zeros and not (count.exact and scheme)):
