@@ -83,6 +83,8 @@ class NaturalCoordinates:
     @cached_property
     def inverse(self) -> NaturalCoordinates:
         """The way back: ``y_i = (x_i - origin[i]) / scales[i]``."""
+        if self.is_identity:
+            return self
         scales = tuple(1 / s for s in self.scales)
         return NaturalCoordinates(
             scales, tuple(-b * s for b, s in zip(self.origin, scales, strict=True))
