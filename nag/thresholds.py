@@ -412,7 +412,7 @@ ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROU
 decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; decomposition.power_sums:
 EQUATIONS, ROUNDING, EVEN; decomposition.zero_sums: SPARE;
 interpolation.precise_samples: ROUNDED; mechanism.bonds: NEAR, NEARER, LEAST_SIZE;
-mechanism.parts_decomposition: ROUNDED; files.export: ROUNDED; files.json_values: AGREES;
+mechanism.framework_decomposition: ROUNDED; files.export: ROUNDED; files.json_values: AGREES;
 check.four_way: ROUNDING; report.singular: NOTHING; cli.bench: PATIENCE; cli.bench_decompose:
 PATIENCE; cli.running: INTERVAL.
 """

@@ -29,10 +29,9 @@ from nag.algebra.system import PolynomialSystem
 from nag.bench.atlas.changes import FAR_COORDINATES, changed, in_far_coordinates
 from nag.decomposition.components import decompose
 from nag.files.cases import Truth, read_case
-from nag.files.problem import symmetries_of
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.model import model
-from nag.mechanism.parts_decomposition import decompose_parts
+from nag.mechanism.problem import problem_of
 from nag.report.agreement import Verdict, compare
 from nag.witness.shown import in_words, kinds
 from nag.witness.witness import Status
@@ -89,7 +88,7 @@ def subject(path: Path, formulation: str | None, symmetric: bool) -> Subject:
         name += f" ({formulation})"
     else:
         formulation = None
-    symmetries = tuple(symmetries_of(case, chosen)) if symmetric else ()
+    symmetries = problem_of(case if chosen is None else chosen).symmetries if symmetric else ()
     return Subject(name, system, tuple(case.truth), formulation, symmetries, case.assembly)
 
 
@@ -116,7 +115,7 @@ def decomposed(of: Subject, seed: int, threads: int, settings: str) -> Result:
     begin = time.process_time()
     try:
         if of.parts is not None:
-            answer = decompose_parts(of.parts, **options)
+            answer = problem_of(of.parts).decompose(**options)
         else:
             answer = decompose(of.system, **options)
     except Exception as error:  # A run of hours is not to end with one seed.

@@ -21,7 +21,6 @@ from unittest.mock import patch
 
 import numpy as np
 
-import nag
 from nag.algebra import high_precision
 from nag.algebra.evaluation import Evaluator
 from nag.decomposition import (  # noqa: F401
@@ -34,7 +33,7 @@ from nag.decomposition import (  # noqa: F401
 )
 from nag.decomposition.components import decompose
 from nag.files.cases import read_case
-from nag.files.problem import system_of
+from nag.mechanism.problem import problem_of
 from nag.numerics import coincidence, local_structure, zero_values
 from nag.numerics.null_space import Digits
 from nag.solving import isolated_zero, judged_ends
@@ -302,7 +301,7 @@ def main() -> None:
     with watch(measured):
         for file in options.case or files(options.decompose):
             case = read_case(file)
-            system = system_of(case, nag.model(case.mechanism) if case.mechanism else None)
+            system = problem_of(case).system
             for seed in range(*map(int, options.seeds.split(":"))):
                 if options.decompose:
                     result = decompose(system, seed=seed)

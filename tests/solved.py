@@ -10,8 +10,8 @@ from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.files.cases import Case, read_case
-from nag.files.problem import decomposed, symmetries_of, system_of
 from nag.mechanism.model import Model, model
+from nag.mechanism.problem import problem_of
 from nag.witness.witness import Decomposition
 
 
@@ -36,7 +36,7 @@ def components_of(
 
 @cache
 def answer(name: str, formulation: str = "auto") -> Decomposition:
-    case, made = shipped(name), modelled(name, formulation)
-    if case.assembly is not None:
-        return decomposed(case, made)
-    return components_of(system_of(case, made), tuple(symmetries_of(case, made)))
+    problem = problem_of(shipped(name), formulation=formulation)
+    if problem.parts is not None:
+        return problem.decompose()
+    return components_of(problem.system, problem.symmetries)

@@ -60,11 +60,11 @@ class Engine:
         self.through: list[int] = [0, 1]
         self.error: BaseException | None = None
 
-    def decompose(self, system, **options: object) -> Decomposition:
-        self.calls.append(options)
+    def decompose(self, system, run: nag.Run, **options: object) -> Decomposition:
+        self.calls.append({**run.short, **options})
         if self.error is not None:
             raise self.error
-        return two_lines(system, **{"seed": options["seed"], **self.changes})
+        return two_lines(system, **{"seed": run.seed, **self.changes})
 
     def components_through(self, decomposition, point, **options: object) -> list[int]:
         assert point.tolist() == [0, 0]

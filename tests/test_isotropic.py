@@ -14,7 +14,7 @@ from nag.decomposition.through import through_points
 from nag.mechanism.framework import Framework, placed_framework
 from nag.mechanism.framework_model import framework_model
 from nag.mechanism.isotropic import isotropic_system
-from nag.mechanism.parts_decomposition import decompose_parts
+from nag.mechanism.problem import problem_of
 from nag.witness.frame import expanded
 
 
@@ -62,7 +62,7 @@ def test_components_carried_over_to_the_plane_are_those_found_there(name, seed):
     made = framework_model(placed_in_plane(*MOVING[name]))
     assert made.smaller is not None and made.smaller.paths < made.paths
     options = {"seed": seed, "symmetries": made.symmetries}
-    answers = [decompose_parts(made, **options), decompose(made.system, **options)]
+    answers = [problem_of(made).decompose(**options), decompose(made.system, **options)]
     assert all(a.complete for a in answers)
     kinds = [
         sorted((c.dimension, c.degree, c.multiplicity, c.orbit) for c in a.components)

@@ -72,7 +72,6 @@ ODD: dict[str, list[Callable[[], Any]]] = {
         lambda: nag.gruebler_kutzbach(None),
         lambda: nag.gruebler_kutzbach(graph()),
         lambda: nag.mobility(graph()),
-        lambda: nag.mobility(case()),
         lambda: nag.mobility(system()),
         lambda: nag.mobility("bennett"),
     ],

@@ -13,8 +13,8 @@ import nag
 from nag.decomposition.components import decompose
 from nag.decomposition.through import Through, through_points
 from nag.files.cases import read_case
-from nag.files.problem import system_of
 from nag.mechanism.model import model
+from nag.mechanism.problem import problem_of
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -63,8 +63,7 @@ def test_points_of_a_conjugate_factor_are_points_of_one_line() -> None:
 )
 def test_loops_whose_equations_collapse_need_no_path(name: str, multidegree: list[int]) -> None:
     case = read_case(CASES / f"{name}.toml")
-    made = model(case.mechanism) if case.mechanism else None
-    answer = decompose(system_of(case, made))
+    answer = decompose(problem_of(case).system)
     assert answer.complete and answer.paths.tracked == 0
     (component,) = answer.components
     assert component.multidegree.tolist() == multidegree

@@ -12,7 +12,6 @@ from nag.decomposition.components import decompose
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Ambient, intersection_order, witness_superset
 from nag.files.cases import read_case
-from nag.files.problem import system_of
 from nag.tracking.run import Run
 from nag.tracking.settings import Settings
 from nag.witness.slices import random_rows
@@ -22,7 +21,7 @@ SPATIAL = Path(__file__).parent.parent / "cases" / "spatial"
 
 @pytest.mark.parametrize("seed", [0, 3])
 def test_ends_that_ask_for_more_digits_are_reached_at_the_first_attempt(seed: int) -> None:
-    reduction = Reduction.of(system_of(read_case(SPATIAL / "spherical-pair-6r.toml"), None))
+    reduction = Reduction.of(read_case(SPATIAL / "spherical-pair-6r.toml").system)
     reduced, rng = reduction.reduced, np.random.default_rng(seed)
     equations = [reduced.polynomials[i] for i in intersection_order(reduced.polynomials)]
     flag = random_rows(rng, reduced.n, reduced.n, 0.3)

@@ -11,10 +11,10 @@ from solved import components_of
 from nag.algebra.number import is_zero
 from nag.cli import main
 from nag.files.cases import read_case
-from nag.files.dh_case import in_formulation
 from nag.files.export import read_export
 from nag.mechanism.dh import DHModel
 from nag.mechanism.dh_euler import dh_euler_model, euler_closings
+from nag.mechanism.problem import problem_of
 
 # Those that Euler parameters decompose within a second; tests/many_seeds.py has the others.
 TABLES = [
@@ -68,9 +68,9 @@ def test_an_exact_closing_is_an_exact_one_in_euler_parameters() -> None:
 
 def test_a_known_answer_is_that_of_its_own_formulation() -> None:
     case = read_case(CASES / "spatial" / "bennett.toml")
-    assert in_formulation(case, "H") is case
-    other = in_formulation(case, "E")
-    assert case.truth and other.truth == ()
+    assert problem_of(case, formulation="H").system is case.system
+    other = problem_of(case, formulation="E")
+    assert case.known_in("H") and case.known_in(other.formulation) == ()
     assert other.system.n == 8 and len(other.symmetries) == 3
 
 

@@ -8,12 +8,28 @@ from functools import cached_property
 from typing import Any
 
 from nag.algebra.given import check_listed, check_type, shown
+from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
 from nag.text.table import LINE, counted, html_table, one_line, printable, shortened
 
 # Of longer systems the first equations are shown.
 MOST_LINES, MOST_ROWS = 4, 40
+
+
+@dataclass(frozen=True)
+class NamedPoint:
+    """A point of interest, one coordinate for each variable of the system.
+
+    Attributes:
+        name: by which it is asked for.
+        at: its coordinates, exact.
+        called: what it is called in a sentence, if not by its name.
+    """
+
+    name: str
+    at: tuple[Number, ...]
+    called: str = ""
 
 
 @dataclass(frozen=True)

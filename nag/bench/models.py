@@ -17,8 +17,8 @@ from nag.mechanism.dh_euler import table_alternatives, table_model
 from nag.mechanism.graph import Mechanism
 from nag.mechanism.model import model
 from nag.mechanism.parts_coordinates import coordinates_of_parts
-from nag.mechanism.parts_decomposition import decompose_parts
 from nag.mechanism.path_estimates import fewest_estimated_paths
+from nag.mechanism.problem import problem_of
 from nag.witness.witness import Decomposition
 
 Parts = Mechanism | DHLoop | AssemblyModel
@@ -168,7 +168,7 @@ def _decomposed(
 def _of_parts(parts: AssemblyModel, coordinates: str) -> Decomposition:
     each = next(c for c in coordinates_of_parts(parts) if c.formulation == coordinates)
     if each.taken:
-        return decompose_parts(parts, symmetries=parts.symmetries)
+        return problem_of(parts).decompose()
     return decompose(each.parts.system, symmetries=each.parts.symmetries)
 
 

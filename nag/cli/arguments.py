@@ -12,7 +12,7 @@ from nag.mechanism.formulation_names import FORMULATIONS
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
-    from nag.mechanism.model import Model
+    from nag.mechanism.problem import Problem
 
 SETTINGS = ("fast", "default", "careful")
 MOST_THREADS = 256
@@ -142,45 +142,32 @@ def read_case_file(path: str, values: Sequence[tuple[str, str]] = ()) -> Case:
         raise UsageError(f"{path}: {error.strerror or error}") from None
 
 
-def read_problem(arguments: argparse.Namespace) -> tuple[Case, Model | None]:
-    """The case, and its model if it is a mechanism."""
+def read_problem(arguments: argparse.Namespace) -> tuple[Case, Problem]:
+    """The case, and the problem that it describes in the formulation that is asked for."""
     case = read_case_file(arguments.case, getattr(arguments, "set", ()))
-    if case.mechanism is None and arguments.formulation is not None:
-        return _table_in(arguments.formulation, arguments.case, case), None
-    return case, model_of(case, arguments.formulation or "auto")
+    return case, problem_of_case(case, arguments.formulation or "auto")
 
 
-def model_of(case: Case, formulation: str = "auto") -> Model | None:
-    """The model of a case that is a mechanism.
+def problem_of_case(case: Case, formulation: str = "auto") -> Problem:
+    """The problem that a case describes.
 
     Raises:
-        UsageError: if it has none in that formulation.
+        UsageError: if it has no such formulation, or nothing to decompose.
     """
-    if case.mechanism is None:
-        return None
-    from nag.mechanism.model import ModelError, model
+    from nag.errors import MechanismError
+    from nag.mechanism.problem import FormulationError, problem_of
 
     try:
-        return model(case.mechanism, formulation)
-    except ModelError as error:
+        return problem_of(case, formulation=formulation)
+    except FormulationError:
+        raise only_assembled(case, "--formulation") from None
+    except MechanismError as error:
         raise UsageError(f"{case.path}: {error}") from None
 
 
-def _table_in(formulation: str, file: str, case: Case) -> Case:
-    from nag.files.dh_case import in_formulation
-    from nag.mechanism.dh import DHError
-
-    if not case.is_table:
-        raise only_assembled(file, case, "--formulation")
-    try:
-        return in_formulation(case, formulation)
-    except DHError as error:
-        raise UsageError(f"{file}: {error}") from None
-
-
-def only_assembled(file: str, case: Case, option: str) -> UsageError:
+def only_assembled(case: Case, option: str) -> UsageError:
     """The error that an option is for mechanisms in a reference configuration."""
     what = "is a polynomial system"
-    if case.assembly is not None:
+    if case.kind != "system":
         what = f'is of kind "{case.kind}", whose parts are not assembled'
-    return UsageError(f"{file}: {what}; {option} is for assembled mechanisms")
+    return UsageError(f"{case.path}: {what}; {option} is for assembled mechanisms")

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from nag.cli import bench_decompose, bench_models
-from nag.cli.arguments import UsageError, model_of, read_case_file, whole
+from nag.cli.arguments import UsageError, problem_of_case, read_case_file, whole
 from nag.cli.running import Answer
 
 FOLDER = Path("cases") / "benchmarks"
@@ -102,16 +102,14 @@ def run(options: argparse.Namespace) -> Answer:
     from nag.bench.peers import installed, run_peer
     from nag.bench.table import table
     from nag.errors import StartError
-    from nag.files.problem import truth_of
 
     cases = []
     for path in files(options.case, options.folder):
         case = read_case_file(path)
-        made = model_of(case)
-        known = [t for t in truth_of(case, made) if t.dimension == 0]
-        system = made.system if made else case.system
+        problem = problem_of_case(case)
+        known = [t for t in case.known_in(problem.formulation) if t.dimension == 0]
         expected = sum(t.count for t in known) if known else None
-        cases.append((path, system, expected, case.family))
+        cases.append((path, problem.system, expected, problem.family))
     rate = flop_rate()
     programs = installed() if options.peers else []
     rows, peers = [], {}

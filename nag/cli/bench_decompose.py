@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import UsageError, model_of, read_case_file
+from nag.cli.arguments import UsageError, problem_of_case, read_case_file
 from nag.cli.running import Answer
 
 if TYPE_CHECKING:
@@ -90,7 +90,6 @@ def run(options: argparse.Namespace) -> Answer:
 
 def _cases(options: argparse.Namespace) -> tuple[list[Decomposed], dict[str, PeerDecomposed]]:
     from nag.bench.decomposition import macaulay2, macaulay2_installed, measure_decomposition
-    from nag.files.problem import formulation_of, system_of, truth_of
 
     known = []
     for name in options.case or NAMES:
@@ -98,13 +97,13 @@ def _cases(options: argparse.Namespace) -> tuple[list[Decomposed], dict[str, Pee
         if not path.is_file():
             raise UsageError(f"--case: {name}: there is no {path}; name a case file")
         case = read_case_file(path)
-        known.append((path, case, model_of(case)))
+        known.append((path, case, problem_of_case(case)))
     rows, peers = [], {}
-    for path, case, made in known:
+    for path, case, problem in known:
         if not options.quiet:
             print(f"{path.stem} ...", file=sys.stderr, flush=True)
-        system, truth = system_of(case, made), truth_of(case, made)
-        formulation = formulation_of(case, made)
+        system, formulation = problem.system, problem.formulation
+        truth = case.known_in(formulation)
         rows.append(measure_decomposition(path.stem, system, truth, formulation=formulation))
         if options.peers and macaulay2_installed():
             peers[path.stem] = macaulay2(system, truth, PATIENCE)

@@ -51,12 +51,12 @@ def run(options: argparse.Namespace) -> Answer:
         if not options.quiet:
             print(f"{path.stem} ...", file=sys.stderr, flush=True)
         try:
-            if case.mechanism is None and not case.is_table:
-                rows += measure_parts(path.stem, case.assembly, options.patience)
-            elif case.mechanism is None:
-                rows += measure_table(path.stem, case.assembly.loop, options.patience)
-            else:
+            if case.mechanism is not None:
                 rows += measure_models(path.stem, case.mechanism, options.patience)
+            elif case.assembly.formulation is None:
+                rows += measure_parts(path.stem, case.assembly, options.patience)
+            else:
+                rows += measure_table(path.stem, case.assembly.loop, options.patience)
         except ModelError as error:
             raise UsageError(f"{path}: {error}") from None
     document = {"format": "nag-bench-models", "rows": [r.document() for r in rows]}

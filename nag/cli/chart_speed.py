@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nag.cli.arguments import UsageError, model_of, read_case_file, whole
+from nag.cli.arguments import UsageError, problem_of_case, read_case_file, whole
 from nag.cli.chart_files import check_targets, write_picture, write_text
 from nag.cli.running import Answer
 
@@ -131,14 +131,12 @@ def _subject(name: str) -> Subject:
         problem = cluster((3, 2, 8), np.random.default_rng(0))
         return Subject(name, problem.system, False, ((0, 1, 16),))
 
-    from nag.files.problem import truth_of
-
     path = Path(name)
     if not name.endswith(".toml"):
         found = [folder / f"{name}.toml" for folder in FOLDERS]
         path = next((p for p in found if p.is_file()), found[0])
     case = read_case_file(path)
-    made = model_of(case)
-    degrees = tuple((t.dimension, t.degree, t.count) for t in truth_of(case, made))
-    system = made.system if made else case.system
-    return Subject(path.stem, system, any(d for d, _, _ in degrees), degrees)
+    problem = problem_of_case(case)
+    known = case.known_in(problem.formulation)
+    degrees = tuple((t.dimension, t.degree, t.count) for t in known)
+    return Subject(path.stem, problem.system, any(d for d, _, _ in degrees), degrees)

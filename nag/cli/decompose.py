@@ -21,7 +21,7 @@ from nag.cli.sweep import sweep_of
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
-    from nag.mechanism.model import Model
+    from nag.mechanism.problem import Problem
     from nag.witness.witness import Decomposition
 
 MOST_STARTS = 10**6
@@ -83,38 +83,36 @@ def run(arguments: argparse.Namespace) -> Answer:
         return run_sweep(arguments)
     if arguments.starts is not None and arguments.method != "sampling":
         raise UsageError("--starts: is for --method sampling")
-    case, model = read_problem(arguments)
-    model = _in_coordinates(arguments, case, model)
+    case, problem = read_problem(arguments)
+    problem = _in_coordinates(arguments, case, problem)
     if arguments.modes == "all":
         return _all_modes(arguments, case)
     from nag.decomposition.through import accounted, through_points
-    from nag.files.export import document
-    from nag.files.problem import origin, points_of
+    from nag.files.export import Origin, document
     from nag.report.answer import answer_lines
     from nag.witness.frame import expanded
 
-    case, model, decomposition = _decomposed(arguments, case, model)
+    problem, decomposition = _decompose(arguments, problem)
     if arguments.expand:
         decomposition = expanded(decomposition)
-    points = through_points(decomposition, points_of(case, model), arguments.threads)
+    points = through_points(decomposition, problem.named, arguments.threads)
     decomposition = accounted(decomposition, points)
     return Answer(
-        answer_lines(decomposition, case, model, points, run_row(arguments)),
+        answer_lines(decomposition, case, problem, points, run_row(arguments)),
         decomposition.complete,
-        lambda: document(decomposition, origin(case, model)),
+        lambda: document(decomposition, Origin.of(case, problem)),
         proof_asked_for(arguments, decomposition),
     )
 
 
-def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | None) -> Model | None:
-    """The model that is decomposed, in the coordinates that were asked for."""
-    known = case.assembly if model is None and case.is_table else model
-    for option, value in (("coordinates", None), ("modes", "reference")):
-        given = getattr(arguments, option) != value
-        if given and model is None and (known is None or option == "modes"):
-            raise only_assembled(arguments.case, case, f"--{option}")
-    if known is None:
-        return None
+def _in_coordinates(arguments: argparse.Namespace, case: Case, problem: Problem) -> Problem:
+    """The problem that is decomposed, in the coordinates that were asked for."""
+    if arguments.coordinates is not None and problem.formulation is None:
+        raise only_assembled(case, "--coordinates")
+    if arguments.modes != "reference" and problem.mechanism is None:
+        raise only_assembled(case, "--modes")
+    if problem.formulation is None:
+        return problem
     others = {
         "--expand": arguments.expand,
         "--method sampling": arguments.method == "sampling",
@@ -126,42 +124,29 @@ def _in_coordinates(arguments: argparse.Namespace, case: Case, model: Model | No
         raise UsageError(f"{option}: is not for --modes all")
     if arguments.coordinates == "euler" and others["--method sampling"]:
         raise UsageError("--coordinates euler: --method sampling finds no other; use --formulation")
-    if arguments.coordinates != "joint" or known.formulation != "E":
-        return model
+    if arguments.coordinates != "joint" or problem.formulation != "E":
+        return problem
     if arguments.formulation is not None:
-        raise UsageError(
-            f"--coordinates joint: formulation {known.formulation} has none; use --formulation H"
-        )
+        raise UsageError("--coordinates joint: formulation E has none; use --formulation H")
     arguments.formulation = "H"
     return read_problem(arguments)[1]
 
 
-def _decomposed(
-    arguments: argparse.Namespace, case: Case, model: Model | None
-) -> tuple[Case, Model | None, Decomposition]:
-    """The components, and the case or the model in whose coordinates they are."""
-    from nag.files.problem import decomposed, symmetries_of, system_of
-
+def _decompose(arguments: argparse.Namespace, problem: Problem) -> tuple[Problem, Decomposition]:
+    """The components, and the problem in whose coordinates they are."""
     options = {**as_chosen(arguments), "progress": arguments.progress}
     if arguments.method == "sampling":
         from nag.decomposition.discovery import discover
 
         starts = {} if arguments.starts is None else {"starts": arguments.starts}
-        starts["symmetries"] = symmetries_of(case, model)
-        return case, model, discover(system_of(case, model), **options, **starts)
-    decomposition = decomposed(case, model, **options)
-    known = model if case.assembly is None else case.assembly
-    if arguments.coordinates != "euler" or known is None or known.formulation == "E":
-        return case, model, decomposition
-    if model is None:
-        from nag.files.dh_case import in_formulation
-        from nag.mechanism.dh_euler import euler_closings
+        starts["symmetries"] = problem.symmetries
+        return problem, discover(problem.system, **options, **starts)
+    decomposition = problem.decompose(**options)
+    if arguments.coordinates != "euler" or problem.formulation is None:
+        return problem, decomposition
+    from nag.mechanism.problem import carry_to_euler
 
-        _, answer = euler_closings(case.assembly, decomposition, threads=arguments.threads)
-        return in_formulation(case, "E"), None, answer
-    from nag.mechanism.coordinates import euler_decomposition
-
-    return case, *euler_decomposition(model, decomposition, threads=arguments.threads)
+    return carry_to_euler(problem, decomposition, threads=arguments.threads)
 
 
 def _all_modes(arguments: argparse.Namespace, case: Case) -> Answer:

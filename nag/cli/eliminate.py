@@ -23,9 +23,10 @@ from nag.cli.witness_input import (
 if TYPE_CHECKING:
     import numpy as np
 
+    from nag.files.cases import Case
     from nag.interpolation.point_cloud import Ambient, Cloud
     from nag.interpolation.precise_samples import Source
-    from nag.mechanism.model import Model
+    from nag.mechanism.problem import Problem
     from nag.witness.witness import WitnessSet
 
 FORMAT = "nag-elimination"
@@ -166,21 +167,22 @@ def _cloud(options: argparse.Namespace) -> Begun:
 
     rng = np.random.default_rng([options.seed, 4])
     run = Run(options.seed, options.threads, options.settings)
-    model, top = None, []
+    problem, top = None, []
     if not is_export(options.case):
         if options.component is None and options.formulation is None:
             options.formulation = _euler(options)
-        case, model = read_problem(options)
-        top = body_rows(model) if model is not None else []
-        if options.at is not None or (model is not None and options.component is None):
-            return _through_point(options, case, model, rng, run, top)
+        case, problem = read_problem(options)
+        top = body_rows(problem)
+        assembled = problem.mechanism is not None
+        if options.at is not None or (assembled and options.component is None):
+            return _through_point(options, case, problem, rng, run, top)
     elif options.at is not None:
         raise UsageError("--at: is for cases; of an export name a --component")
     found = given(options)
     number = options.component or 1
     component = component_of(found, number, "--component")
     system = found.decomposition.system
-    ambient = _ambient(model) if model is not None else Ambient.itself(system)
+    ambient = Ambient.itself(system) if problem is None else _ambient(problem)
     if component.dimension == 0:
         raise SourceError("the component is a point; there is nothing to eliminate from")
     top = [numbered_row(number, component), *top]
@@ -203,19 +205,17 @@ def _euler(options: argparse.Namespace) -> str | None:
 
 def _through_point(
     options: argparse.Namespace,
-    case: Any,
-    model: Model | None,
+    case: Case,
+    problem: Problem,
     rng: np.random.Generator,
     run: Any,
     top: Labelled,
 ) -> Begun:
-    from nag.files.problem import points_of, system_of
-    from nag.interpolation.point_cloud import Ambient, Cloud
+    from nag.interpolation.point_cloud import Cloud
     from nag.interpolation.precise_samples import SourceError, source_at
 
-    system = system_of(case, model)
-    ambient = Ambient.itself(system) if model is None else _ambient(model)
-    points = dict(points_of(case, model)) if model is None else {"reference": model.reference}
+    ambient = _ambient(problem)
+    points = {point.name: point.at for point in problem.points}
     name = options.at or "reference"
     if name in points:
         point = tuple(points[name])
@@ -225,7 +225,7 @@ def _through_point(
         if any(f(point) != x for f, x in zip(ambient.images, whole, strict=True)):
             raise UsageError("--at: the point does not satisfy the equations")
     try:
-        source = source_at(system, point, rng)
+        source = source_at(problem.system, point, rng)
     except SourceError as error:
         what = "the reference configuration: " if name == "reference" else "--at: "
         raise UsageError(f"{options.case}: {what}{error}; or name a --component") from None
@@ -234,12 +234,13 @@ def _through_point(
     return name_case(case), Cloud(source, ambient, rng, run), top, [], {}
 
 
-def _ambient(model: Model) -> Ambient:
-    """All variables of a model, where linear equations left only some in its system."""
+def _ambient(problem: Problem) -> Ambient:
+    """All variables of a mechanism, where linear equations left only some in its system."""
     from nag.interpolation.point_cloud import Ambient
 
-    elimination = getattr(model.form, "elimination", None)
-    if elimination is None or elimination.system.variables != model.system.variables:
-        return Ambient.itself(model.system)
+    made = problem.mechanism
+    elimination = None if made is None else getattr(made.form, "elimination", None)
+    if elimination is None or elimination.system.variables != problem.system.variables:
+        return Ambient.itself(problem.system)
     names, kept = elimination.original_variables, elimination.kept
-    return Ambient.of(model.system, names, kept, elimination.images)
+    return Ambient.of(problem.system, names, kept, elimination.images)

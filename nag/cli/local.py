@@ -13,8 +13,7 @@ from nag.cli.witness_input import Points, add_point, named_point, point_at
 if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.algebra.system import PolynomialSystem
-    from nag.files.cases import Case
-    from nag.mechanism.model import Model
+    from nag.mechanism.problem import Problem
     from nag.numerics.local_dimension import LocalDimension
 
 FORMAT = "nag-local-dimension"
@@ -34,18 +33,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> Answer:
     """The local dimension at points."""
-    case, model = read_problem(options)
+    case, problem = read_problem(options)
     from nag.algebra.number import number_text
     from nag.decomposition.through import zero_at
     from nag.files.answers_at_points import local_document
-    from nag.files.problem import system_of
     from nag.numerics.shown import local_rows
 
-    system = system_of(case, model)
-    chosen = chosen_points(options, case, model)
+    system = problem.system
+    chosen = chosen_points(options, problem)
     found = {name: judged(system, at, options) for name, at in chosen.items()}
     zeros = {name: zero_at(system, chosen[name], one) for name, one in found.items()}
-    through = _through(system, zeros, case, model, options) if options.check else {}
+    through = _through(problem, zeros, options) if options.check else {}
     complete = all(one.decided for one in found.values())
     blocks = []
     for name, one in found.items():
@@ -69,22 +67,18 @@ def run(options: argparse.Namespace) -> Answer:
 
 
 def chosen_points(
-    options: argparse.Namespace, case: Case, model: Model | None
+    options: argparse.Namespace, problem: Problem
 ) -> Mapping[str, tuple[Number, ...]]:
     """The points that the command line asks for, by name; all named ones if it names none.
 
     Raises:
         UsageError: if there are none, or the asked one does not exist.
     """
-    from nag.files.problem import points_of, system_of
-
     if options.at is not None:
         if options.point is not None:
             raise UsageError("give either the name of a point of the case or --at, and not both")
-        return {"": point_at(options.at, system_of(case, model).variables)}
-    points: Points = dict(points_of(case, model))
-    if model is not None:
-        points = {"reference": tuple(model.reference)}
+        return {"": point_at(options.at, problem.system.variables)}
+    points: Points = {point.name: point.at for point in problem.points}
     if options.point is None and points:
         return points
     return {options.point: named_point(options.case, options.point, points)}
@@ -116,24 +110,15 @@ def _point_text(name: str, at: tuple[Number, ...], system: PolynomialSystem) -> 
 
 
 def _through(
-    system: PolynomialSystem,
+    problem: Problem,
     chosen: Mapping[str, tuple[Number, ...]],
-    case: Case,
-    model: Model | None,
     options: argparse.Namespace,
 ) -> dict[str, Any]:
     """For each point what the components through it say, beside a local dimension."""
-    from nag.decomposition.components import decompose
     from nag.decomposition.through import through_points
-    from nag.files.problem import symmetries_of
     from nag.witness.frame import expanded
 
-    decomposition = decompose(
-        system,
-        **as_chosen(options),
-        progress=options.progress,
-        symmetries=symmetries_of(case, model),
-    )
+    decomposition = problem.decompose(**as_chosen(options), progress=options.progress)
     components = expanded(decomposition).components
     known = through_points(decomposition, list(chosen.items()), options.threads)
 

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
-from contextlib import suppress
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from nag.cli.arguments import (
@@ -22,7 +19,7 @@ if TYPE_CHECKING:
     from nag.algebra.number import Number
     from nag.files.cases import Case
     from nag.mechanism.mobility_report import Alike, MobilityReport
-    from nag.mechanism.model import Model
+    from nag.mechanism.problem import OtherEquations, Problem
 
 FORMAT = "nag-mobility"
 
@@ -59,10 +56,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> Answer:
     """How a mechanism moves at a configuration."""
-    case, made = _mechanism(options)
-    variables = _variables(case, made)
-    at = None if options.at is None else point_at(options.at, variables)
-    if options.check and not _has_another(case, made, at):
+    case, problem = _read_moving(options)
+    at = None if options.at is None else point_at(options.at, problem.system.variables)
+    other, comparable = None, problem is not None
+    if options.check and problem is not None:
+        from nag.mechanism.problem import other_equations
+
+        other = next(other_equations(problem, at), None)
+        comparable = other is not None or (problem.mechanism is not None and at is None)
+    if options.check and not comparable:
         raise UsageError(
             "--check: there is no second formulation: that is for mechanisms with loops at their "
             "reference configuration, for tables in half-angles, linkages and frameworks; one in "
@@ -72,165 +74,95 @@ def run(options: argparse.Namespace) -> Answer:
     from nag.files.answers_at_points import mobility_document
     from nag.mechanism.mobility_report import MobilityStatus
 
-    report = _report(options, case, made.formulation if made else "auto", at)
+    report = _report(options, problem or case, at)
     rows = report.rows()
     complete = report.status is not MobilityStatus.UNDECIDED and not report.open
     complete &= not any(curve.note for curve in report.curves)
     compared: dict[str, Any] | None = None
     if options.check:
-        text, agree, compared = _compared(options, case, report, at)
+        text, agree, compared = _compare(options, report, other)
         rows.append(("check", text))
         complete &= agree
+    here = at or (None if problem is None else problem.reference)
     fields = {
         "format": FORMAT,
-        "configuration": [number_text(x) for x in at or _reference(case, made)],
+        "configuration": [number_text(x) for x in here or ()],
         **mobility_document(report),
         "check": compared,
     }
     return answer_of(options, name_case(case), (), rows, fields, complete)
 
 
-def _mechanism(options: argparse.Namespace) -> tuple[Case, Model | None]:
-    """The case and the model of an assembled mechanism; None if it has no loops.
+def _read_moving(options: argparse.Namespace) -> tuple[Case, Problem | None]:
+    """The case, and its problem; None if it is a mechanism without loops.
 
     Raises:
-        UsageError: if there is no mechanism, or no configuration of it is known or given.
+        UsageError: if nothing moves in it, or no configuration of it is known or given.
     """
+    from nag.mechanism.mobility_at import tree_of
+    from nag.mechanism.problem import in_real_coordinates
+
     case = read_case_file(options.case, options.set)
-    if case.mechanism is None:
-        if case.assembly is None:
-            raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
-        if options.formulation is not None:
-            case, _ = read_problem(options)
-        if options.at is None and case.assembly.reference is None:
-            from nag.mechanism.real_assemblies import obstacle
-
-            reason = obstacle(case.assembly)
-            if reason:
-                raise UsageError(f"{options.case}: its parts have no real assembly: {reason}")
-            if options.local:
-                raise UsageError(
-                    f"{options.case}: its parts are not assembled: give --at, or leave out --local"
-                )
-        return (case if options.at is None else _with_real_coordinates(case)), None
-    from nag.mechanism.loops import loop_structure
-
-    if not loop_structure(case.mechanism).loops:
+    if tree_of(case) is not None:
         if options.at is not None:
             raise UsageError(f"--at: {options.case} has no loop, so that it has no equations")
         return case, None
-    return read_problem(options)
+    case, problem = read_problem(options)
+    if problem.model is None:
+        raise UsageError(f"{options.case}: is a polynomial system; `nag local` is for those")
+    if options.at is not None:
+        return case, in_real_coordinates(problem)
+    if problem.reference is None:
+        from nag.mechanism.real_assemblies import obstacle
 
-
-def _with_real_coordinates(case: Case) -> Case:
-    """A framework that is given by lengths in coordinates in which a placement is real."""
-    from nag.mechanism.framework_model import FrameworkModel, cartesian_model
-
-    if not isinstance(case.assembly, FrameworkModel):
-        return case
-    return replace(case, assembly=cartesian_model(case.assembly.framework))
-
-
-def _has_another(case: Case, made: Model | None, at: tuple[Number, ...] | None) -> bool:
-    """Whether the configuration is known in another formulation as well."""
-    from nag.mechanism.dh import DHModel
-    from nag.mechanism.parts_coordinates import another_model
-
-    if made is not None:
-        return at is None
-    parts = case.assembly
-    if parts is None:
-        return False
-    return isinstance(parts, DHModel) or another_model(parts, at) is not None
-
-
-def _variables(case: Case, made: Model | None) -> tuple[str, ...]:
-    if made is not None:
-        return made.system.variables
-    return () if case.assembly is None else case.assembly.system.variables
-
-
-def _reference(case: Case, made: Model | None) -> tuple[Number, ...]:
-    if made is not None:
-        return tuple(made.reference)
-    return () if case.assembly is None else tuple(case.assembly.reference or ())
+        reason = obstacle(problem.parts)
+        if reason:
+            raise UsageError(f"{options.case}: its parts have no real assembly: {reason}")
+        if options.local:
+            raise UsageError(
+                f"{options.case}: its parts are not assembled: give --at, or leave out --local"
+            )
+    return case, problem
 
 
 def _report(
-    options: argparse.Namespace, case: Case, formulation: str, at: tuple[Number, ...] | None
+    options: argparse.Namespace, given: Case | Problem, at: tuple[Number, ...] | None
 ) -> MobilityReport:
     from nag.mechanism.mobility_at import NoAssembly, mobility
     from nag.numerics.local_dimension import NoSolution
 
-    subject = case.mechanism or case.assembly
-    assert subject is not None
+    detail = "curves" if options.curves else "local" if options.local else "components"
     try:
-        return mobility(
-            subject,
-            at,
-            formulation=formulation,
-            detail="curves" if options.curves else "local" if options.local else "components",
-            **as_chosen(options),
-        )
+        return mobility(given, at, detail=detail, **as_chosen(options))
     except NoAssembly as reason:
         raise UsageError(f"{options.case}: {reason}") from None
     except NoSolution as reason:
         raise UsageError(f"--at: {reason}; it is no configuration of the mechanism") from None
 
 
-def _others(
-    options: argparse.Namespace, case: Case, report: MobilityReport, at: tuple[Number, ...] | None
-) -> Iterator[tuple[str, MobilityReport, Alike]]:
-    """What other formulations say, each with its name and what of the components is the same."""
-    from nag.mechanism.formulation_names import FORMULATIONS
-    from nag.mechanism.model import ModelError
-    from nag.mechanism.parts_coordinates import another_model
-
-    if case.mechanism is None:
-        assert case.assembly is not None
-        another = another_model(case.assembly, at)
-        if another is not None:
-            other = replace(case, assembly=another.parts)
-            found = _report(options, other, "auto", another.at)
-            yield another.name, found, another.alike
-            return
-        from nag.files.dh_case import in_formulation
-
-        other = in_formulation(case, "E")
-        there = None
-        if at is not None:
-            there = tuple(other.assembly.of_half_angles(case.assembly, at))
-        yield "formulation E", _report(options, other, "auto", there), "dimensions"
-        return
-    for formulation in FORMULATIONS:
-        if report.formulation != f"formulation {formulation}":
-            with suppress(ModelError):
-                found = _report(options, case, formulation, None)
-                yield f"formulation {formulation}", found, "dimensions"
-
-
-def _compared(
-    options: argparse.Namespace, case: Case, report: MobilityReport, at: tuple[Number, ...] | None
+def _compare(
+    options: argparse.Namespace, report: MobilityReport, equations: OtherEquations | None
 ) -> tuple[str, bool, dict[str, Any] | None]:
-    """What another formulation says, whether it agrees, and that as a JSON object."""
-    for formulation, other, alike in _others(options, case, report, at):
-        agree = other.same_motion(report, alike)
-        text = (
-            f"{formulation}, {other.equations} equations in {other.variables} "
-            f"unknowns, {'agrees' if agree else 'DISAGREES'}: local dimension "
-            f"{other.local_dimension}, tangent dimension {other.tangent_dimension}"
-            f"{_alike_text(other, alike)}"
-        )
-        if other.open:
-            text += f"; its components are not known: {other.open}"
-        found = {
-            "formulation": formulation.removeprefix("formulation "),
-            "tangent_dimension": other.tangent_dimension,
-            "local_dimension": other.local_dimension,
-            "agrees": agree,
-        }
-        return text, agree and not other.open, found
-    return "no other formulation covers this mechanism", True, None
+    """What other equations say, whether it agrees, and that as a JSON object."""
+    if equations is None:
+        return "no other formulation covers this mechanism", True, None
+    other = _report(options, equations.problem, equations.at)
+    agree = other.same_motion(report, equations.alike)
+    text = (
+        f"{equations.name}, {other.equations} equations in {other.variables} "
+        f"unknowns, {'agrees' if agree else 'DISAGREES'}: local dimension "
+        f"{other.local_dimension}, tangent dimension {other.tangent_dimension}"
+        f"{_alike_text(other, equations.alike)}"
+    )
+    if other.open:
+        text += f"; its components are not known: {other.open}"
+    found = {
+        "formulation": equations.name.removeprefix("formulation "),
+        "tangent_dimension": other.tangent_dimension,
+        "local_dimension": other.local_dimension,
+        "agrees": agree,
+    }
+    return text, agree and not other.open, found
 
 
 def _alike_text(other: MobilityReport, alike: Alike) -> str:

@@ -74,7 +74,7 @@ def run(options: argparse.Namespace) -> Answer:
 def _for_parameters(options: argparse.Namespace) -> Answer:
     """For which parameters there are singular points: they are solved for as well."""
     from nag.decomposition.singular_members import singular_parameters
-    from nag.files.problem import freed_system
+    from nag.files.cases import freed_system
     from nag.report.singular import parameter_rows
     from nag.witness.shown import paths_text
 

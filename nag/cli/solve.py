@@ -32,10 +32,10 @@ def run(options: argparse.Namespace) -> Answer:
     from nag.interface.solve import solve
     from nag.report.solutions import solution_lines
 
-    case, model = read_problem(options)
+    case, problem = read_problem(options)
     try:
         result = solve(
-            case if model is None else model,
+            problem,
             start=options.start,
             **as_chosen(options),
             progress=options.progress,
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> Answer:
     except StartError as error:
         raise UsageError(f"{options.case}: {error}") from None
     return Answer(
-        solution_lines(result, case, model, run_row(options, places=2)),
+        solution_lines(result, case, problem, run_row(options, places=2)),
         result.complete,
         lambda: document(result, *name_case(case)),
         proof_asked_for(options, result),

@@ -70,15 +70,13 @@ def run(arguments: argparse.Namespace) -> Answer:
         arguments.set = [*settings, (asked.name, value)]
         return read_problem(arguments)
 
-    case, model = problem_at(asked.values[0])
-    if model is not None:
-        # One formulation for all values, so that their systems are one family.
-        arguments.formulation = model.formulation
+    case, first = problem_at(asked.values[0])
+    # One formulation for all values, so that their systems are one family.
+    arguments.formulation = first.formulation
 
     from nag.decomposition.sweep import sweep
-    from nag.files.problem import system_of
     from nag.report.sweep import sweep_lines
 
-    swept = sweep(lambda value: system_of(*problem_at(value)), asked.values, **as_chosen(arguments))
+    swept = sweep(lambda value: problem_at(value)[1].system, asked.values, **as_chosen(arguments))
     lines = sweep_lines(case.title, asked.name, swept, run_row(arguments, ()))
     return Answer(lines, all(each.decomposition.complete for each in swept))

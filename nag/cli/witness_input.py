@@ -91,15 +91,11 @@ def given(options: argparse.Namespace, check: Check | None = None) -> Given:
         file = origin.file if origin else Path(options.case).name
         return Given(expanded(export.decomposition), title, file, {}, options.case)
 
-    from nag.files.problem import decomposed, points_of, system_of
-
-    case, model = read_problem(options)
-    points = dict(points_of(case, model))
-    if model is not None:
-        points = {"reference": tuple(model.reference)}
+    case, problem = read_problem(options)
+    points = {point.name: point.at for point in problem.points}
     if check is not None:
-        check(system_of(case, model).variables, points)
-    decomposition = decomposed(case, model, **as_chosen(options), progress=options.progress)
+        check(problem.system.variables, points)
+    decomposition = problem.decompose(**as_chosen(options), progress=options.progress)
     if options.progress is not None:
         options.progress.erase()
     return Given(expanded(decomposition), case.title, Path(case.path).name, points)

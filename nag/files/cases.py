@@ -20,8 +20,9 @@ from nag.algebra.given import check_path
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
-from nag.algebra.system import PolynomialSystem
-from nag.algebra.tokens import is_name, nearest, quote
+from nag.algebra.system import NamedPoint, PolynomialSystem
+from nag.algebra.tokens import is_name, names_in, nearest, quote
+from nag.errors import NagError
 from nag.files.case_table import (
     CaseError,
     ReadNumber,
@@ -83,14 +84,6 @@ _TRUTH_KEYS = (
 
 
 @dataclass(frozen=True)
-class NamedPoint:
-    """A point of interest, one coordinate for each variable of the system."""
-
-    name: str
-    at: tuple[Number, ...]
-
-
-@dataclass(frozen=True)
 class Truth:
     """``count`` irreducible components over the complex numbers that are known to be there.
 
@@ -136,9 +129,18 @@ class Case:
     assembly: AssemblyModel | None = None
 
     @property
-    def is_table(self) -> bool:
-        """Whether it is a table by Denavit and Hartenberg with open angles."""
-        return self.kind == "dh" and self.assembly is not None
+    def described(self) -> Mechanism | AssemblyModel | PolynomialSystem:
+        """What the file describes: a mechanism, parts of one, or equations."""
+        if self.mechanism is not None:
+            return self.mechanism
+        given = self.system if self.assembly is None else self.assembly
+        if given is None:
+            raise NagError("a case without a system and without a mechanism")
+        return given
+
+    def known_in(self, formulation: str | None) -> tuple[Truth, ...]:
+        """What is known of the system in a formulation."""
+        return tuple(t for t in self.truth if t.formulation in (None, formulation))
 
 
 def read_case(
@@ -198,6 +200,42 @@ def read_case(
     )
 
 
+def freed_system(
+    path: str | os.PathLike[str], names: Sequence[str], values: Mapping[str, str] | None = None
+) -> PolynomialSystem:
+    """The equations of a case; the parameters ``names`` are its last variables.
+
+    Args:
+        values: other values of the other parameters, as in a case.
+
+    Raises:
+        CaseError: if the case is no polynomial system, has no such parameters, or has others that
+            depend on them.
+    """
+    case = read_case(path, values)
+    if case.system is None:
+        raise CaseError(f"{path}: is a mechanism; parameters are freed in polynomial systems")
+    for name in names:
+        if name not in case.parameters:
+            raise CaseError(
+                f"{path}: {quote(name)} is no parameter{nearest(name, case.parameters)}; it has "
+                f"{', '.join(case.parameters) or 'none'}"
+            )
+    top = Table(str(path), "", read_toml(Path(path)))
+    for other, text in with_values(top.table("parameters"), values or {}).values.items():
+        used = sorted(names_in(text) & set(names)) if isinstance(text, str) else []
+        if used and other not in names:
+            raise CaseError(f"{path}: parameters: {other}: depends on {used[0]}; free it as well")
+    variables = (*case.system.variables, *names)
+    known = {name: value for name, value in case.parameters.items() if name not in names}
+    budget = Budget()
+    equations = []
+    for i, text in enumerate(top.texts("equations", "equations"), 1):
+        with top.at(f"equations {i}"):
+            equations.append(parse_polynomial(text, variables, known, budget))
+    return PolynomialSystem(variables, tuple(equations))
+
+
 def _read_parts(kind: str, top: Table, number: ReadNumber) -> AssemblyModel | Mechanism:
     """The model of all assemblies, or a mechanism where the case fixes how it is assembled."""
     if kind == "mechanism":
@@ -227,17 +265,20 @@ def _assembly_case(
     of: Mapping[str, Number],
 ) -> Case:
     from nag.mechanism.graph import Mechanism
+    from nag.mechanism.problem import problem_of
 
     if isinstance(made, Mechanism):
         return Case(title, kind, path, of, mechanism=made, truth=truth)
-    points = () if made.reference is None else (NamedPoint("placement", made.reference),)
+    problem = problem_of(made)
+    # What is known of half-angles says nothing of Euler parameters.
+    truth = tuple(replace(t, formulation=t.formulation or problem.formulation) for t in truth)
     return Case(
         title,
         kind,
         path,
         of,
         system=made.system,
-        points=points,
+        points=problem.points,
         truth=truth,
         symmetries=made.symmetries,
         assembly=made,

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from nag.algebra.number import cosine, pi_multiple, sine
 from nag.algebra.tokens import is_name
-from nag.errors import NagError
 from nag.files.case_table import ReadNumber, Table
 from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, assembled, dh_model
 from nag.mechanism.graph import Mechanism
-
-if TYPE_CHECKING:
-    from nag.files.cases import Case
 
 _JOINT_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_half_tangent")
 
@@ -32,24 +26,6 @@ def read_dh(top: Table, number: ReadNumber) -> DHModel | Mechanism:
         if error.joint is None:
             top.fail("joint", error.message)
         tables[error.joint].fail(error.key, error.message)
-
-
-def in_formulation(case: Case, formulation: str) -> Case:
-    """A case of a table with open angles, in half-angles (H) or in Euler parameters (E).
-
-    Raises:
-        DHError: if a table has no such formulation.
-    """
-    from nag.mechanism.dh_euler import table_model
-
-    if not case.is_table:
-        raise NagError("the case is no table with open angles")
-    made = table_model(case.assembly.loop, formulation)  # type: ignore[union-attr]
-    if made.formulation == case.assembly.formulation:  # type: ignore[union-attr]
-        return case
-    # What is known of half-angles says nothing of Euler parameters.
-    truth = tuple(t for t in case.truth if t.formulation == formulation)
-    return replace(case, assembly=made, system=made.system, symmetries=made.symmetries, truth=truth)
 
 
 def _read_row(i: int, table: Table, number: ReadNumber) -> Row:

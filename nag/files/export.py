@@ -12,7 +12,8 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -48,6 +49,10 @@ from nag.witness.witness import (
     even_radii,
 )
 
+if TYPE_CHECKING:
+    from nag.files.cases import Case
+    from nag.mechanism.problem import Problem
+
 FORMAT = "nag-decomposition"
 VERSION = 2
 
@@ -71,6 +76,13 @@ class Origin:
     kind: str
     formulation: str | None = None
     reason: str | None = None
+
+    @classmethod
+    def of(cls, case: Case, problem: Problem) -> Origin:
+        """A case and what of it was decomposed."""
+        made = problem.model
+        kind, reason = ("system", None) if made is None else ("mechanism", made.reason)
+        return cls(case.title, Path(case.path).name, kind, problem.formulation, reason)
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from nag.files.export import Origin
 from nag.files.export import document as decomposition_document
-from nag.files.problem import origin
+from nag.mechanism.problem import problem_of
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
@@ -27,7 +28,7 @@ def document(answer: ModesAnswer, case: Case) -> dict[str, Any]:
             {
                 "modes": [dict(modes) for modes in each.modes.members],
                 "decomposition": decomposition_document(
-                    each.decomposition, origin(case, each.model)
+                    each.decomposition, Origin.of(case, problem_of(each.model))
                 ),
             }
         )

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from nag.algebra.symmetry import SymmetryError
-from nag.interface.problem import problem_of, symmetries_in
+from nag.algebra.given import check_listed
+from nag.algebra.symmetry import SignedPermutation, SymmetryError
+from nag.mechanism.problem import Problem, problem_of
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 
 if TYPE_CHECKING:
@@ -52,15 +53,34 @@ def decompose(
     [(1, 1, 2), (1, 2, 1)]
     """
     problem = problem_of(system, variables)
-    kept = symmetries_in(symmetries, problem)
-
-    from nag.decomposition.components import decompose as decompose_system
-    from nag.mechanism.parts_decomposition import decompose_parts
-
-    options: dict[str, Any] = {**run.short, "symmetries": kept}
+    kept = read_symmetries(symmetries, problem)
     try:
-        if problem.parts is not None:
-            return decompose_parts(problem.parts, **options)
-        return decompose_system(problem.system, **options)
+        return problem.decompose(run=run, symmetries=kept)
     except SymmetryError as error:
         raise SymmetryError(f"symmetries: {error}") from None
+
+
+def read_symmetries(given: Iterable[Any] | None, problem: Problem) -> tuple[SignedPermutation, ...]:
+    """Symmetries given as signed permutations, as maps of names, or as signs of the variables.
+
+    Raises:
+        SymmetryError: if one is none.
+    """
+    if given is None:
+        return problem.symmetries
+    check_listed(given, "symmetries", "a list of them: [{'x': '-x'}, ...]")
+    found = []
+    for i, item in enumerate(given):
+        try:
+            if isinstance(item, SignedPermutation):
+                found.append(item)
+            elif isinstance(item, Mapping):
+                texts = {str(name): str(image) for name, image in item.items()}
+                found.append(SignedPermutation.of_map(texts, problem.system.variables))
+            elif isinstance(item, Iterable) and not isinstance(item, str):
+                found.append(SignedPermutation.of_signs(tuple(int(sign) for sign in item)))
+            else:
+                raise SymmetryError("give a dict like {'x': '-x'}, or a sign for each variable")
+        except (TypeError, ValueError) as error:
+            raise SymmetryError(f"symmetries[{i}]: {error}") from None
+    return tuple(found)

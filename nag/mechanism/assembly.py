@@ -3,43 +3,55 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
 
 from nag.algebra.number import Number
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
+from nag.mechanism.axes import Space
 
 # Imaginary parts of real assemblies, relative to the size of the point.
 REAL = 1e-8
 
 
-class AssemblyModel(Protocol):
-    """A system whose solutions are all assemblies of given parts, real and complex."""
+class AssemblyModel:
+    """A system whose solutions are all assemblies of given parts, real and complex.
 
-    @property
-    def system(self) -> PolynomialSystem:
-        """The equations."""
+    Attributes:
+        system: the equations.
+        reference: an assembly that is known, an exact solution; None if none is.
+        symmetries: reflections and the like that carry assemblies to assemblies.
+        reason: one sentence: what was made of the parts.
+        space: in which the parts move.
+        gruebler_kutzbach: the mobility that counting predicts.
+        described: what the equations are, as text.
+        formulation: its name, where parts have formulations and not only coordinates.
+        freedoms_left_out: freedoms that every assembly has besides, and whose they are.
+        zero_links: which links have length zero.
+        rank: number of closure equations and how many are independent, if that is known.
+        solution: what one solution is called.
+        counted_up_to: what solutions are the same up to, in words after their number.
+        points_of_each: how many solutions each assembly is.
+    """
 
-    @property
-    def reference(self) -> tuple[Number, ...] | None:
-        """An assembly that is known, an exact solution."""
-
-    @property
-    def symmetries(self) -> tuple[SignedPermutation, ...]:
-        """Reflections and the like that carry assemblies to assemblies."""
-
-    @property
-    def reason(self) -> str:
-        """One sentence: what was made of the parts."""
+    system: PolynomialSystem
+    reference: tuple[Number, ...] | None
+    symmetries: tuple[SignedPermutation, ...]
+    reason: str
+    space: Space
+    gruebler_kutzbach: int
+    described: str
+    formulation: str | None = None
+    freedoms_left_out: tuple[tuple[int, str], ...] = ()
+    zero_links: tuple[str, ...] = ()
+    rank: tuple[int, int] | None = None
+    solution = "assembly"
+    counted_up_to = ""
+    points_of_each = 1
 
     def is_real(self, point: Sequence[complex]) -> bool:
-        """Whether a solution is a real assembly, to within rounding."""
+        """Whether a solution is a real assembly, to within rounding.
 
-
-class RealCoordinates:
-    """Models in coordinates that are real exactly where an assembly is."""
-
-    def is_real(self, point: Sequence[complex]) -> bool:
-        """Whether a solution is a real assembly, to within rounding."""
+        So it is here where its coordinates are real.
+        """
         bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
         return all(abs(complex(x).imag) <= bound for x in point)

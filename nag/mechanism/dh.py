@@ -19,7 +19,7 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
-from nag.mechanism.assembly import RealCoordinates
+from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import zero_length
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.loop_product import closing_equations, split_product
@@ -118,7 +118,7 @@ class DHLoop:
 
 
 @dataclass(frozen=True)
-class DHModel(RealCoordinates):
+class DHModel(AssemblyModel):
     """All ways to close a table with open angles.
 
     Attributes:
@@ -143,7 +143,15 @@ class DHModel(RealCoordinates):
 
     reference = None
     symmetries = ()
+    space = "spatial"
     formulation = "H"
+    described = "formulation H of the closed table"
+    solution = "closing"
+
+    @property
+    def gruebler_kutzbach(self) -> int:
+        """The mobility that counting predicts."""
+        return len(self.loop.open) - 6
 
     @property
     def reason(self) -> str:

@@ -22,7 +22,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.given_points import best_lifted
-from nag.mechanism.assembly import RealCoordinates
+from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.configuration import arithmetic_of, as_entries
 from nag.mechanism.coordinates import carried_over
 from nag.mechanism.dh import DHError, DHLoop, DHModel, dh_model, opened
@@ -44,7 +44,7 @@ _IDENTITY: Quaternion = (ONE, ZERO, ZERO, ZERO)
 
 
 @dataclass(frozen=True)
-class DHEulerModel(RealCoordinates):
+class DHEulerModel(AssemblyModel):
     """All ways to close a table, by the Euler parameters of the bodies between its open joints.
 
     Attributes:
@@ -64,7 +64,20 @@ class DHEulerModel(RealCoordinates):
     symmetries: tuple[SignedPermutation, ...]
 
     reference = None
+    space = "spatial"
     formulation = "E"
+    described = "formulation E of the closed table"
+    solution = "closing"
+
+    @property
+    def gruebler_kutzbach(self) -> int:
+        """The mobility that counting predicts."""
+        return len(self.loop.open) - 6
+
+    @property
+    def points_of_each(self) -> int:
+        """How many solutions each closing is: Euler parameters have signs."""
+        return 2 ** len(self.symmetries)
 
     @property
     def reason(self) -> str:

@@ -21,15 +21,15 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.mechanism.assembly import REAL
-from nag.mechanism.axes import cross, difference, dot
+from nag.mechanism.assembly import REAL, AssemblyModel
+from nag.mechanism.axes import Space, cross, difference, dot
 from nag.mechanism.framework import Framework, FrameworkError, Place
 from nag.mechanism.isotropic import conjugates, isotropic_system
 from nag.mechanism.path_estimates import fewest_estimated_paths
 
 
 @dataclass(frozen=True)
-class FrameworkModel:
+class FrameworkModel(AssemblyModel):
     """The realisations of a framework up to motions, as a system.
 
     Attributes:
@@ -51,6 +51,20 @@ class FrameworkModel:
     symmetries: tuple[SignedPermutation, ...]
     smaller: FrameworkModel | None = None
     instead: tuple[str, int] | None = None
+
+    described = "of a framework"
+    solution = "realisation"
+    counted_up_to = " up to motions"
+
+    @property
+    def space(self) -> Space:
+        """In which the points move."""
+        return "planar" if self.framework.dimension == 2 else "spatial"
+
+    @property
+    def gruebler_kutzbach(self) -> int:
+        """The mobility that counting predicts."""
+        return self.framework.freedoms
 
     @property
     def reason(self) -> str:
@@ -78,13 +92,13 @@ class FrameworkModel:
 
     def is_real(self, point: Sequence[complex]) -> bool:
         """Whether a solution is a real realisation, to within rounding."""
+        if not self.coordinates.startswith("z"):
+            return super().is_real(point)
         bound = REAL * (1 + max((abs(x) for x in point), default=0.0))
         if self.coordinates == "z":
             pairs = zip(point, conjugates(self.framework, point), strict=True)
-            return all(abs(complex(z) - complex(w).conjugate()) <= bound for z, w in pairs)
-        if self.coordinates != "zw":
-            return all(abs(complex(x).imag) <= bound for x in point)
-        pairs = zip(point[::2], point[1::2], strict=True)
+        else:
+            pairs = zip(point[::2], point[1::2], strict=True)
         return all(abs(complex(z) - complex(w).conjugate()) <= bound for z, w in pairs)
 
 

@@ -24,7 +24,7 @@ from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
-from nag.mechanism.assembly import RealCoordinates
+from nag.mechanism.assembly import AssemblyModel
 
 Place = tuple[Number, Number]
 
@@ -114,7 +114,7 @@ class Linkage:
 
 
 @dataclass(frozen=True)
-class LinkageModel(RealCoordinates):
+class LinkageModel(AssemblyModel):
     """All assemblies of a linkage as a system.
 
     Attributes:
@@ -133,6 +133,18 @@ class LinkageModel(RealCoordinates):
 
     reference = None
     symmetries = ()
+    space = "planar"
+    described = "of a linkage"
+
+    @property
+    def gruebler_kutzbach(self) -> int:
+        """The mobility that counting predicts."""
+        return self.linkage.gruebler_kutzbach
+
+    @property
+    def freedoms_left_out(self) -> tuple[tuple[int, str], ...]:
+        """The turns of links that close nothing."""
+        return ((len(self.free), "the links that hang on one pin"),) if self.free else ()
 
     @property
     def reason(self) -> str:
@@ -228,7 +240,7 @@ def _ordered(ring: Any, start: tuple[str, str]) -> list[tuple[str, str]]:
 
 
 @dataclass(frozen=True)
-class PinModel:
+class PinModel(AssemblyModel):
     """All assemblies of a linkage as the places of its pins.
 
     Attributes:
@@ -243,15 +255,23 @@ class PinModel:
 
     reference = None
     symmetries = ()
+    space = "planar"
+    described = "of a linkage"
+
+    @property
+    def gruebler_kutzbach(self) -> int:
+        """The mobility that counting predicts."""
+        return self.turns.gruebler_kutzbach
+
+    @property
+    def freedoms_left_out(self) -> tuple[tuple[int, str], ...]:
+        """The turns of links that close nothing."""
+        return self.turns.freedoms_left_out
 
     @property
     def reason(self) -> str:
         """One sentence: what was made of the linkage."""
         return f"planar linkage of {len(self.turns.linkage.links)} links by the places of its pins"
-
-    def is_real(self, point: Sequence[complex]) -> bool:
-        """Whether a solution is a real assembly, to within rounding."""
-        return self.turns.is_real(point)
 
     def at(self, point: Sequence[Number]) -> tuple[Number, ...]:
         """The places of the pins where the moving links have these cosines and sines."""

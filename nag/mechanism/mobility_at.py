@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Literal
 
 from nag.algebra.from_python import coordinates
-from nag.algebra.given import check_choice, check_running
+from nag.algebra.given import check_choice, check_running, is_a
 from nag.algebra.number import Number
-from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.decomposition.components import decompose
 from nag.decomposition.curve_genus import GenusError, genus
 from nag.decomposition.given_points import components_through_points
 from nag.decomposition.through import through_points, zero_at
@@ -19,111 +16,24 @@ from nag.errors import MechanismError, NagError
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
-from nag.mechanism.dh import DHModel
-from nag.mechanism.dh_euler import DHEulerModel
-from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.graph import Mechanism, check_mechanism
 from nag.mechanism.joint_types import freedoms_in
-from nag.mechanism.linkage import LinkageModel, PinModel
 from nag.mechanism.loops import gruebler_kutzbach, loop_structure
 from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
-from nag.mechanism.model import Model, model
-from nag.mechanism.parts_decomposition import decompose_parts
+from nag.mechanism.model import Model
+from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import LocalDimension, local_dimension_near
 from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition, WitnessSet
-
-PARTS = FrameworkModel | LinkageModel | PinModel | DHModel | DHEulerModel
 
 
 class NoAssembly(MechanismError):
     """Parts that cannot be assembled, with the reason."""
 
 
-@dataclass(frozen=True)
-class Subject:
-    """Equations of configurations, and what counting says of them.
-
-    Attributes:
-        system, symmetries: the equations.
-        reference: a known configuration, or None.
-        space: ``"planar"``, ``"spherical"`` or ``"spatial"``.
-        counted: the mobility that counting predicts.
-        formulation: what the equations are, as text.
-        free: freedoms that every configuration has besides, and whose they are.
-        model: what the equations are those of.
-    """
-
-    system: PolynomialSystem
-    symmetries: tuple[SignedPermutation, ...]
-    reference: tuple[Number, ...] | None
-    space: str
-    counted: int
-    formulation: str
-    free: tuple[tuple[int, str], ...]
-    model: Model | AssemblyModel
-
-    @property
-    def freedoms(self) -> int:
-        """How many freedoms every configuration has besides."""
-        return sum(freedoms for freedoms, _ in self.free)
-
-    @property
-    def free_of(self) -> str:
-        """Whose they are, in words."""
-        return " and ".join(f"{freedoms} by {whose}" for freedoms, whose in self.free)
-
-    @property
-    def described(self) -> dict[str, Any]:
-        """What a report says of them, whatever was computed."""
-        return {
-            "space": self.space,
-            "gruebler_kutzbach": self.counted,
-            "formulation": self.formulation,
-            "variables": self.system.n,
-            "equations": len(self.system.polynomials),
-            "free": self.freedoms,
-            "free_of": self.free_of,
-            "zero_links": self.model.zero_links if isinstance(self.model, Model | DHModel) else (),
-        }
-
-    @classmethod
-    def of_model(cls, made: Model) -> Subject:
-        """The equations of a mechanism's model."""
-        return cls(
-            made.system,
-            made.symmetries,
-            tuple(made.reference),
-            space_of(made.mechanism.joints),
-            made.gruebler_kutzbach,
-            f"formulation {made.formulation}",
-            made.freedoms_left_out,
-            made,
-        )
-
-    @classmethod
-    def of_parts(cls, parts: AssemblyModel) -> Subject:
-        """The equations of all assemblies of given parts."""
-        free: tuple[tuple[int, str], ...] = ()
-        if isinstance(parts, FrameworkModel):
-            space = "planar" if parts.framework.dimension == 2 else "spatial"
-            counted, what = parts.framework.freedoms, "of a framework"
-        elif isinstance(parts, LinkageModel | PinModel):
-            turns = parts.turns if isinstance(parts, PinModel) else parts
-            space, counted, what = "planar", turns.linkage.gruebler_kutzbach, "of a linkage"
-            if turns.free:
-                free = ((len(turns.free), "the links that hang on one pin"),)
-        else:
-            space, counted = "spatial", len(parts.loop.open) - 6
-            what = f"formulation {parts.formulation} of the closed table"
-        reference = None if parts.reference is None else tuple(parts.reference)
-        symmetries = tuple(parts.symmetries)
-        return cls(parts.system, symmetries, reference, space, counted, what, free, parts)
-
-
 def mobility(
-    mechanism: Mechanism | AssemblyModel,
+    mechanism: Any,
     point: Sequence[Any] | Mapping[str, Any] | None = None,
     *,
     formulation: str = "auto",
@@ -140,7 +50,8 @@ def mobility(
     2011), and the components through the configuration.
 
     Args:
-        mechanism: assembled, or parts that may be assembled (`nag.Case.assembly`).
+        mechanism: assembled, or parts that may be assembled (`nag.Case.assembly`), or a case or a
+            problem of one of them.
         point: in the model's variables (``nag.model(mechanism).system.variables``), in order or by
             name; exact numbers as `nag.Joint` takes them, or doubles.
         formulation: of a mechanism's model, as for `nag.model`.
@@ -166,38 +77,49 @@ def mobility(
     """
     check_running(seed, threads, settings)
     check_choice(detail, "detail", ("local", "components", "curves"))
-    if not isinstance(mechanism, PARTS):
-        check_mechanism(mechanism, "the parts of a case, case.assembly")
-    if isinstance(mechanism, Mechanism):
-        if not loop_structure(mechanism).loops:
-            return _without_loops(mechanism)
-        subject = Subject.of_model(model(mechanism, formulation))
-    else:
-        subject = Subject.of_parts(mechanism)
-    at = subject.reference
+    tree = tree_of(mechanism)
+    if tree is not None:
+        return _without_loops(tree)
+    problem = problem_of(mechanism, formulation=formulation)
+    if problem.model is None:
+        check_mechanism(problem.system, "the parts of a case, case.assembly")
+    at = problem.reference
     if point is not None:
-        at = coordinates(point, subject.system.variables)
+        at = coordinates(point, problem.system.variables)
     options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
     if at is None:
-        return _in_general(subject, detail, options)
-    return _report(subject, at, detail, options)
+        return _in_general(problem, detail, options)
+    return _report(problem, at, detail, options)
+
+
+def tree_of(given: Any) -> Mechanism | None:
+    """The mechanism that is given, if it has no loops, so that it has no equations.
+
+    Raises:
+        MechanismError: if what is given is no mechanism, no parts and no problem.
+    """
+    mechanism = given.described if is_a(given, "nag.files.cases", "Case") else given
+    if not isinstance(mechanism, Problem | Model | AssemblyModel | PolynomialSystem):
+        check_mechanism(mechanism, "the parts of a case, case.assembly")
+        return None if loop_structure(mechanism).loops else mechanism
+    return None
 
 
 def _report(
-    subject: Subject, at: Sequence[Number], detail: str, options: dict[str, Any]
+    problem: Problem, at: Sequence[Number], detail: str, options: dict[str, Any]
 ) -> MobilityReport:
-    found = local_dimension_near(subject.system, at, seed=options["seed"])
-    free, tangent = subject.freedoms, found.tangent_dimension
-    at = zero_at(subject.system, at, found)
+    found = local_dimension_near(problem.system, at, seed=options["seed"])
+    free, tangent = problem.free, found.tangent_dimension
+    at = zero_at(problem.system, at, found)
     through, doubt = None, ""
     if detail != "local":
-        through, doubt = _components(subject, at, found, **options)
+        through, doubt = _components(problem, at, found, **options)
     motions = []
     if detail == "curves" and through is not None:
-        motions = [_curve(subject, c, **options) for c in through if c.dimension == 1]
+        motions = [_curve(problem, c, **options) for c in through if c.dimension == 1]
     known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
     return MobilityReport(
-        **subject.described,
+        **_counted(problem),
         tangent_dimension=None if tangent is None else tangent + free,
         lower=found.lower + free,
         upper=found.upper + free,
@@ -208,32 +130,32 @@ def _report(
     )
 
 
-def _in_general(subject: Subject, detail: str, options: dict[str, Any]) -> MobilityReport:
+def _in_general(problem: Problem, detail: str, options: dict[str, Any]) -> MobilityReport:
     """The mobility at a general configuration of parts that may be assembled."""
     if detail == "local":
         raise NagError("the parts are not assembled; give a point, an assembly of them")
-    found = _decomposed(subject, **options)
+    found = problem.decompose(**options)
     components = expanded(found).components
     if found.complete and not components:
         raise NoAssembly("its parts cannot be assembled, not even with complex coordinates")
     general = max(components, key=lambda c: (c.dimension, c.corank), default=None)
     known = general if found.complete else None
-    free = subject.freedoms
+    free = problem.free
     curves = [c for c in components if c.dimension == 1] if detail == "curves" else []
-    doubt, parts = "", subject.model
-    if known is not None and known.dimension and not isinstance(parts, Model):
-        doubt = real_doubt(parts, {c.corank for c in components if c.dimension})
+    doubt = ""
+    if known is not None and known.dimension and problem.parts is not None:
+        doubt = real_doubt(problem.parts, {c.corank for c in components if c.dimension})
     return MobilityReport(
-        **subject.described,
+        **_counted(problem),
         tangent_dimension=None if known is None else known.corank + free,
         lower=free + (0 if known is None else known.dimension),
-        upper=free + (subject.system.n if known is None else known.dimension),
+        upper=free + (problem.system.n if known is None else known.dimension),
         components=tuple((c.dimension + free, c.degree) for c in components)
         if found.complete
         else None,
         open="" if found.complete else _incomplete(found),
         local=None,
-        curves=tuple(_curve(subject, c, **options) for c in curves),
+        curves=tuple(_curve(problem, c, **options) for c in curves),
         general=known,
         doubt=doubt,
     )
@@ -247,7 +169,7 @@ def _without_loops(mechanism: Mechanism) -> MobilityReport:
 
 
 def _components(
-    subject: Subject,
+    problem: Problem,
     at: Sequence[Number],
     local: LocalDimension,
     seed: int,
@@ -255,9 +177,9 @@ def _components(
     settings: str,
 ) -> tuple[list[WitnessSet] | None, str]:
     """The components through a point, or why they are not known."""
-    found = _decomposed(subject, seed, threads, settings)
+    found = problem.decompose(seed=seed, threads=threads, settings=settings)
     if not found.complete and local.smooth:
-        return _only_component(subject, local, _incomplete(found), seed, threads, settings)
+        return _only_component(problem, local, _incomplete(found), seed, threads, settings)
     if not found.complete:
         return None, _incomplete(found)
     through = through_points(found, [("the configuration", tuple(at))], threads)[0]
@@ -268,7 +190,7 @@ def _components(
 
 
 def _only_component(
-    subject: Subject,
+    problem: Problem,
     local: LocalDimension,
     doubt: str,
     seed: int,
@@ -281,7 +203,7 @@ def _only_component(
     is found, nothing else matters of what a decomposition left open.
     """
     options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
-    found = components_through_points(subject.system, [(local.lower, local.point)], **options)
+    found = components_through_points(problem.system, [(local.lower, local.point)], **options)
     if found.complete and len(found.components) == 1:
         return list(found.components), ""
     degrees = [c.degree for c in found.components]
@@ -289,12 +211,19 @@ def _only_component(
     return None, f"its degree{least}; {doubt}"
 
 
-def _decomposed(subject: Subject, seed: int, threads: int, settings: str) -> Decomposition:
-    options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
-    options["symmetries"] = subject.symmetries
-    if isinstance(subject.model, FrameworkModel):
-        return decompose_parts(subject.model, **options)
-    return decompose(subject.system, **options)
+def _counted(problem: Problem) -> dict[str, Any]:
+    """What a report says of a problem, whatever was computed."""
+    made = problem.model
+    return {
+        "space": problem.space,
+        "gruebler_kutzbach": made.gruebler_kutzbach,
+        "formulation": made.described,
+        "variables": problem.system.n,
+        "equations": len(problem.system.polynomials),
+        "free": problem.free,
+        "free_of": " and ".join(f"{count} by {whose}" for count, whose in made.freedoms_left_out),
+        "zero_links": made.zero_links,
+    }
 
 
 def _incomplete(found: Decomposition) -> str:
@@ -302,19 +231,19 @@ def _incomplete(found: Decomposition) -> str:
 
 
 def _curve(
-    subject: Subject, component: WitnessSet, seed: int, threads: int, settings: str
+    problem: Problem, component: WitnessSet, seed: int, threads: int, settings: str
 ) -> CurveOfMotion:
     notes = []
     options = {"seed": seed, "threads": threads, "settings": settings}
     number: int | None = None
     try:
-        number = genus(subject.system, component, **options).genus
+        number = genus(problem.system, component, **options).genus
     except (GenusError, ValueError) as reason:
         notes.append(f"the genus, {reason}")
     connected: Bonds | None = None
-    if has_bonds(subject.model):
+    if has_bonds(problem.model):
         try:
-            connected = bonds(subject.model, component, **options)  # type: ignore[arg-type]
+            connected = bonds(problem.model, component, **options)  # type: ignore[arg-type]
         except (BondError, ValueError) as reason:
             notes.append(f"the bonds, {reason}")
     return CurveOfMotion(component.degree, number, connected, "; ".join(notes))

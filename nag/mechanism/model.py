@@ -117,6 +117,11 @@ class Model:
         """The mobility that counting predicts for the whole mechanism."""
         return gruebler_kutzbach(self.mechanism)
 
+    @property
+    def described(self) -> str:
+        """What the equations are, as text."""
+        return f"formulation {self.formulation}"
+
     __repr__ = one_line
 
     def __str__(self) -> str:

@@ -10,18 +10,9 @@ from nag.algebra.system import system_line
 from nag.decomposition.one_equation import is_one_equation
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.through import Through
-from nag.files.problem import formulation_of, points_of, system_of
 from nag.report.agreement import agreement_text, compare
-from nag.report.assemblies import assembly_rows, parts_rows
-from nag.report.model import (
-    alternative_lines,
-    body_rows,
-    eliminated_lines,
-    joint_lines,
-    parts_lines,
-    rank_rows,
-    table_lines,
-)
+from nag.report.assemblies import assembly_rows
+from nag.report.model import body_rows, eliminated_lines, formulation_lines, model_rows
 from nag.text.table import Row, printable, sheet
 from nag.witness.frame import expanded
 from nag.witness.shown import component_table, in_words, kinds, paths_text, remarks, title_line
@@ -29,18 +20,7 @@ from nag.witness.witness import Decomposition, Status
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
-    from nag.mechanism.model import Model
-
-
-def _model_rows(model: Model) -> list[tuple[str, str]]:
-    rows = [("model", f"formulation {model.formulation}: {model.reason}")]
-    if model.sign_group > 1:
-        text = f"{model.sign_group} sign changes of Euler parameters keep the equations; "
-        rows.append(("signs", text + "components that they exchange are counted one by one"))
-    rows += [("besides", text) for text in model.zero_links]
-    if model.rank is not None:
-        rows += rank_rows(model.rank, model.system.n, bool(model.reference))
-    return rows
+    from nag.mechanism.problem import Problem
 
 
 ONE_EQUATION = (
@@ -70,13 +50,13 @@ def _method_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
 
 
 def _mobility_rows(
-    decomposition: Decomposition, model: Model | None, points: Sequence[Through]
+    decomposition: Decomposition, problem: Problem, points: Sequence[Through]
 ) -> list[tuple[str, str]]:
     rows = []
-    label, counted, free = "dimension", "", 0
-    if model is not None:
-        label, free = "mobility", sum(count for count, _ in model.freedoms_left_out)
-        counted = f" (Gruebler-Kutzbach counts {model.gruebler_kutzbach})"
+    label, counted, made = "dimension", "", problem.mechanism
+    free = () if made is None else made.freedoms_left_out
+    if made is not None:
+        label, counted = "mobility", f" (Gruebler-Kutzbach counts {made.gruebler_kutzbach})"
     everything = expanded(decomposition).components
     for point in points:
         components = [everything[i] for i in point.components]
@@ -85,11 +65,9 @@ def _mobility_rows(
         elif point.doubt:
             text = f"not known at {point.name}{counted}"
         else:
-            largest = max(c.dimension for c in components) + free
+            largest = max(c.dimension for c in components) + sum(count for count, _ in free)
             text = f"{largest} at {point.name}{counted}: on {in_words(kinds(components))}"
-            if model is not None:
-                for count, whose in model.freedoms_left_out:
-                    text += f", and {count} by {whose}"
+            text += "".join(f", and {count} by {whose}" for count, whose in free)
             if any(c.status is not Status.IRREDUCIBLE for c in components):
                 text += ", not all of them decided"
         rows.append((label, text))
@@ -107,43 +85,36 @@ def _orbit_rows(decomposition: Decomposition) -> list[tuple[str, str]]:
 def answer_lines(
     decomposition: Decomposition,
     case: Case,
-    model: Model | None,
+    problem: Problem,
     points: Sequence[Through],
     run: Row,
 ) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(decomposition.system)), ("answer", title_line(decomposition))]
     head[1:1] = _method_rows(decomposition)
-    if model is not None:
-        head = _model_rows(model) + head
-    if case.assembly is not None:
-        head = parts_rows(case.assembly) + head
+    head = model_rows(problem) + head
     if not decomposition.complete:
         head.append(("", "INCOMPLETE, see below"))
-    tail = _orbit_rows(decomposition) + _mobility_rows(decomposition, model, points)
-    if case.assembly is not None:
-        tail += assembly_rows(case.kind, case.assembly, decomposition)
+    tail = _orbit_rows(decomposition) + _mobility_rows(decomposition, problem, points)
+    tail += assembly_rows(problem, decomposition)
     tail += [("open", line) for line in remarks(decomposition)]
     tail += [
         ("paths", paths_text(decomposition.paths)),
         run,
     ]
-    agreement = compare(decomposition, case.truth, formulation_of(case, model))
+    agreement = compare(decomposition, case.truth, problem.formulation)
     if agreement is not None:
         tail.append(("known", agreement_text(agreement)))
     return sheet(case.title, head, component_table(decomposition), tail)
 
 
-def model_lines(case: Case, model: Model | None) -> list[str]:
+def model_lines(case: Case, problem: Problem) -> list[str]:
     """The polynomial system of a case, line by line."""
-    system = system_of(case, model)
+    system = problem.system
     head = [("system", system_line(system))]
     if is_one_equation(Reduction.of(system, scaled=True)):
         head.append(("exact", ONE_EQUATION))
-    if model is not None:
-        head = _model_rows(model) + body_rows(model) + head
-    if case.assembly is not None:
-        head = parts_rows(case.assembly) + head
+    head = model_rows(problem) + body_rows(problem) + head
     lines = ["equations"]
     lines += [f"  {text} = 0" for text in system.text()] or ["  none"]
     if system.nonzero:
@@ -151,13 +122,8 @@ def model_lines(case: Case, model: Model | None) -> list[str]:
     if system.groups:
         groups = ("(" + ", ".join(system.variables[i] for i in g) + ")" for g in system.groups)
         lines += ["groups", "  " + ", ".join(groups)]
-    if model is not None:
-        lines += eliminated_lines(model)
-    for name, point in points_of(case, model):
+    lines += eliminated_lines(problem)
+    for name, point in problem.named:
         values = zip(system.variables, point, strict=True)
         lines += [printable(name), "  " + ", ".join(f"{v} = {number_text(x)}" for v, x in values)]
-    if model is not None:
-        lines += joint_lines(model) + alternative_lines(model)
-    elif case.assembly is not None:
-        lines += (table_lines if case.is_table else parts_lines)(case.assembly)
-    return sheet(case.title, head, lines)
+    return sheet(case.title, head, lines + formulation_lines(problem))

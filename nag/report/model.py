@@ -14,13 +14,87 @@ if TYPE_CHECKING:
     from nag.mechanism.dh import DHModel
     from nag.mechanism.dh_euler import DHEulerModel
     from nag.mechanism.formulations import Alternative
+    from nag.mechanism.framework import Framework
     from nag.mechanism.model import Model
     from nag.mechanism.parts_coordinates import PartsCoordinates
+    from nag.mechanism.problem import Problem
 
 Rows = list[tuple[str, str]]
 
 
-def joint_lines(model: Model) -> list[str]:
+def model_row(problem: Problem) -> Rows:
+    """What was made of what was given; nothing for equations by themselves."""
+    made = problem.model
+    if made is None:
+        return []
+    named = "" if problem.mechanism is None else f"formulation {made.formulation}: "
+    return [("model", f"{named}{made.reason}")]
+
+
+def model_rows(problem: Problem) -> Rows:
+    """The same, and what signs, ranks and counting say of it."""
+    rows, made = model_row(problem), problem.model
+    if made is None:
+        return rows
+    if problem.mechanism is not None and problem.mechanism.sign_group > 1:
+        text = f"{problem.mechanism.sign_group} sign changes of Euler parameters keep the "
+        text += "equations; components that they exchange are counted one by one"
+        rows.append(("signs", text))
+    rows += [("besides", text) for text in made.zero_links]
+    if made.rank is not None:
+        rows += rank_rows(made.rank, problem.system.n, problem.reference is not None)
+    return rows if problem.parts is None else rows + _counting_rows(problem.parts)
+
+
+def _counting_rows(parts: AssemblyModel) -> Rows:
+    from nag.mechanism.framework_model import FrameworkModel
+    from nag.mechanism.linkage import LinkageModel
+
+    if isinstance(parts, FrameworkModel):
+        return _framework_rows(parts.framework)
+    if isinstance(parts, LinkageModel):
+        return [("counting", f"Gruebler-Kutzbach counts {parts.gruebler_kutzbach}")]
+    return []
+
+
+def _framework_rows(framework: Framework) -> Rows:
+    generic, count = framework.generic_motions(), framework.freedoms
+    text = "rigid" if generic == 0 else f"mobile with {_freedoms(generic)}"
+    if generic > count:
+        dependent = generic - count
+        text += f", {dependent} bar{'' if dependent == 1 else 's'} more than are independent"
+    rows = [("graph", f"counting gives {count}; for almost all lengths {text}")]
+    here = framework.infinitesimal_motions()
+    if here is not None:
+        stresses = here - count
+        rows.append(
+            (
+                "placement",
+                (
+                    "infinitesimally rigid"
+                    if here == 0
+                    else f"infinitesimally mobile with {_freedoms(here)}"
+                )
+                + f", self-stresses {stresses}",
+            )
+        )
+    return rows
+
+
+def _freedoms(count: int) -> str:
+    return f"{count} freedom" if count == 1 else f"{count} freedoms"
+
+
+def formulation_lines(problem: Problem) -> list[str]:
+    """Joints, and every formulation or all coordinates of a problem, the one taken marked."""
+    if problem.mechanism is not None:
+        return _joint_lines(problem.mechanism) + _alternative_lines(problem.mechanism)
+    if problem.parts is None:
+        return []
+    return (_parts_lines if problem.formulation is None else _table_lines)(problem.parts)
+
+
+def _joint_lines(model: Model) -> list[str]:
     """The types of the joints and the prime components of their constraints."""
     return _component_lines(list(dict.fromkeys(j.type for j in model.mechanism.joints)))
 
@@ -38,7 +112,7 @@ def _component_lines(kinds: Sequence[str]) -> list[str]:
     return [*lines, *(f"  {line}" for line in align(rows, (0, 2)))]
 
 
-def alternative_lines(model: Model) -> list[str]:
+def _alternative_lines(model: Model) -> list[str]:
     """Every formulation with its numbers, the one that is taken marked."""
     covered = [a for a in model.alternatives if a.form is not None]
     lines = _formulation_lines(covered, model.formulation, [unreduced_row(model)])
@@ -48,7 +122,7 @@ def alternative_lines(model: Model) -> list[str]:
     return lines
 
 
-def table_lines(table: DHModel | DHEulerModel) -> list[str]:
+def _table_lines(table: DHModel | DHEulerModel) -> list[str]:
     """Joints and formulations of a table by Denavit and Hartenberg."""
     from nag.mechanism.dh_euler import table_alternatives
 
@@ -57,7 +131,7 @@ def table_lines(table: DHModel | DHEulerModel) -> list[str]:
     )
 
 
-def parts_lines(parts: AssemblyModel) -> list[str]:
+def _parts_lines(parts: AssemblyModel) -> list[str]:
     """The coordinates of a linkage's or a framework's parts with their numbers."""
     from nag.mechanism.parts_coordinates import coordinates_of_parts
 
@@ -113,15 +187,16 @@ def large(number: int) -> str:
     return str(number) if number < 10**7 else f"{float(number):.1e}"
 
 
-def body_rows(model: Model) -> Rows:
+def body_rows(problem: Problem) -> Rows:
     """Which variables belong to which body and joint, eliminated ones included.
 
-    Nothing for models in half-angles and others.
+    Nothing for models in half-angles and others, and for what is no mechanism.
     """
     from nag.mechanism.euler import EulerModel, slide_directions
     from nag.mechanism.planar import PlanarModel
 
-    if not isinstance(model.form, EulerModel | PlanarModel):
+    model = problem.mechanism
+    if model is None or not isinstance(model.form, EulerModel | PlanarModel):
         return []
     names, bodies = model.form.elimination.original_variables, model.structure.moving
     each, kind = (
@@ -139,12 +214,13 @@ def body_rows(model: Model) -> Rows:
     return rows
 
 
-def eliminated_lines(model: Model) -> list[str]:
+def eliminated_lines(problem: Problem) -> list[str]:
     """The variables that are polynomials in those of the system."""
     from nag.mechanism.euler import EulerModel
     from nag.mechanism.planar import PlanarModel
 
-    if not isinstance(model.form, EulerModel | PlanarModel):
+    model = problem.mechanism
+    if model is None or not isinstance(model.form, EulerModel | PlanarModel):
         return []
     elimination = model.form.elimination
     variables = elimination.system.variables

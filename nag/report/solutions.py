@@ -6,25 +6,21 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from nag.algebra.system import system_line
-from nag.files.problem import truth_of
-from nag.report.assemblies import real_row
+from nag.report.assemblies import real_rows
+from nag.report.model import model_row
 from nag.solving.shown import MOST_ROWS, answer_text, solution_rows
 from nag.text.table import Row, align, sheet
 
 if TYPE_CHECKING:
     from nag.files.cases import Case
-    from nag.mechanism.model import Model
+    from nag.mechanism.problem import Problem
     from nag.solving.solutions import SolveResult
 
 
-def solution_lines(result: SolveResult, case: Case, model: Model | None, run: Row) -> list[str]:
+def solution_lines(result: SolveResult, case: Case, problem: Problem, run: Row) -> list[str]:
     """The whole answer, line by line."""
     head = [("system", system_line(result.system)), ("answer", answer_text(result))]
-    if model is not None:
-        head.insert(0, ("model", f"formulation {model.formulation}: {model.reason}"))
-    if case.assembly is not None:
-        head.insert(0, ("model", case.assembly.reason))
-        head += real_row(case.kind, case.assembly, result.points)
+    head = [*model_row(problem), *head, *real_rows(problem, result.points)]
     if not result.complete:
         head.append(("", "INCOMPLETE, see below"))
     paths = result.paths
@@ -38,7 +34,7 @@ def solution_lines(result: SolveResult, case: Case, model: Model | None, run: Ro
         ),
         run,
     ]
-    known = agreement_text(result, case, model)
+    known = agreement_text(result, case, problem)
     if known:
         tail.append(("known", known))
     return sheet(case.title, head, solution_table(result), tail)
@@ -56,9 +52,9 @@ def solution_table(result: SolveResult) -> list[str]:
     return lines
 
 
-def agreement_text(result: SolveResult, case: Case, model: Model | None) -> str:
+def agreement_text(result: SolveResult, case: Case, problem: Problem) -> str:
     """The answer beside what the case file knows of isolated points; empty if it knows nothing."""
-    known = [t for t in truth_of(case, model) if t.dimension == 0]
+    known = [t for t in case.known_in(problem.formulation) if t.dimension == 0]
     if not known:
         return ""
     wanted: Counter[int] = Counter()

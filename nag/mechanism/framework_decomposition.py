@@ -1,4 +1,4 @@
-"""Components of what parts may be assembled to, found in the coordinates that take fewest paths.
+"""Components of frameworks, found in the coordinates that take fewest paths.
 
 A placed framework has coordinates x and y. Its components are found as sets of complex numbers z
 (`isotropic`), a point of each is carried over, and loops and the trace find its witness points in
@@ -10,14 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.decomposition.components import decompose
 from nag.decomposition.given_points import best_lifted, components_through_points
-from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import FrameworkModel
 from nag.mechanism.isotropic import conjugates
 from nag.tracking.run import Run
@@ -29,58 +27,46 @@ from nag.witness.witness import Decomposition, Status, WitnessSet
 ROUNDED = 1e-12
 
 
-def decompose_parts(
-    parts: AssemblyModel,
+def decompose_framework(
+    parts: FrameworkModel,
     *,
+    run: Run,
     symmetries: Sequence[SignedPermutation],
-    progress: Any = None,
-    **options: Any,
 ) -> Decomposition:
     """The components of `parts.system`, as `nag.decompose` gives them.
 
     What is not complete when it was carried over is found again in the system's own coordinates.
 
     Args:
-        parts: the model of all assemblies.
+        parts: the model of all realisations.
+        run: how it is worked out.
         symmetries: those of `parts`, or none.
-        progress: as for `nag.decompose`.
-        options: seed, threads and settings.
     """
-    smaller = parts.smaller if isinstance(parts, FrameworkModel) else None
+    smaller = parts.smaller
     known = not symmetries or tuple(symmetries) == tuple(parts.symmetries)
     tracked = None
     if smaller is not None and known:
-        found = decompose(smaller.system, progress=progress, **options)
-        carried = _carried(parts, found, symmetries, **options) if found.complete else None
+        found = decompose(smaller.system, run=run)
+        carried = _carry_over(parts, found, symmetries, run) if found.complete else None
         if carried is not None:
             return carried
         tracked = found.paths.judged_elsewhere
-    answer = decompose(parts.system, progress=progress, symmetries=symmetries, **options)
+    answer = decompose(parts.system, run=run, symmetries=symmetries)
     return answer if tracked is None else replace(answer, paths=answer.paths + tracked)
 
 
-def _carried(
+def _carry_over(
     parts: FrameworkModel,
     found: Decomposition,
     symmetries: Sequence[SignedPermutation],
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run,
 ) -> Decomposition | None:
     """Components in z as components in x and y; None if they cannot be, or not for certain."""
     chosen = list(found.components)
     if symmetries:
-        run, rng = Run(seed, threads, settings), np.random.default_rng([seed, 17])
-        chosen = _one_of_each_pair(parts, found, rng, run)
+        chosen = _one_of_each_pair(parts, found, run.random(17), run)
     starts = [(c.dimension, best_lifted(c, lambda z: _in_the_plane(parts, z))) for c in chosen]
-    answer = components_through_points(
-        parts.system,
-        starts,
-        seed=seed,
-        threads=threads,
-        settings=settings,
-        symmetries=symmetries,
-    )
+    answer = components_through_points(parts.system, starts, run=run, symmetries=symmetries)
     counted = sum(c.orbit for c in answer.components)
     if not answer.complete or counted != len(found.components):
         return None
