@@ -1,7 +1,9 @@
 """Isolated solutions of systems that fall apart exactly: those of the branches, joined.
 
 Branches whose zeros are algebraic numbers of one variable are solved exactly, the others by
-tracking paths.
+tracking paths. They are solved and joined in coordinates that suit the whole system, exactly: far
+from its origin solutions of different branches, or one twice, would be told apart by what rounding
+left of them.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ from nag.numerics.branch_union import (
     find_repeats,
     multiplicities_in_scheme,
 )
+from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import (
     SLACK,
@@ -104,6 +107,31 @@ class _Found(GenericPoint):
             images = self.branch.elimination.images
             return [flint.acb(f(y, number)).mid() for f in images], WRITTEN
 
+    def carry_solution(
+        self, solution: Solution, natural: NaturalCoordinates, equations: Evaluator
+    ) -> Solution:
+        """The solution, of this branch and of all ``equations``, in the coordinates before.
+
+        Args:
+            natural: those that it is in.
+        """
+        if natural.is_identity:
+            return solution
+        y = solution.point
+        if self.zero is not None:
+            x = self.zero.scale_and_shift(natural.scales, natural.origin).point
+        else:
+            x = natural.inverse.points(y)
+        moved = np.abs(y) * natural.sizes
+        rounding = np.finfo(float).eps * (np.abs(x) + (moved if self.zero is None else 0.0))
+        radii = None if solution.radii is None else solution.radii * natural.sizes + rounding
+        accuracy = solution.accuracy
+        if self.zero is None:
+            error = accuracy * (1 + np.linalg.norm(y)) * natural.sizes.max()
+            accuracy = float((error + np.linalg.norm(rounding)) / (1 + np.linalg.norm(x)))
+        residual = float(equations.residuals(x[None]).max(initial=0.0))
+        return replace(solution, point=x, radii=radii, accuracy=accuracy, residual=residual)
+
     @cached_property
     def _zeros(self) -> tuple[SingularEnd, ...]:
         """The exact zeros of the system that was tracked that this may be.
@@ -169,7 +197,7 @@ def solve_apart(
     if system.n == 0:
         return None
     found = search_branches(replace(system, nonzero=()))
-    apart = found.parts
+    apart, natural = found.parts, NaturalCoordinates.identity(system.n)
     if apart is None:
         branch = BranchEquations(replace(system, nonzero=()), True, found.curved)
         whole = _exact(branch, system.nonzero) if exactly else None
@@ -177,9 +205,12 @@ def solve_apart(
             return None
         parts = [whole]
     else:
-        every = [BranchEquations(b.system(replace(system, nonzero=())), True) for b in apart]
-        parts = [_part(branch, system.nonzero, tracked, exactly) for branch in every]
-    return _joined(system, parts, run, apart is not None)
+        natural = comparable_coordinates(system.polynomials, system.n)
+        like = replace(system, nonzero=())
+        every = [BranchEquations(natural.system(b.system(like)), True) for b in apart]
+        nonzero = natural.system(system).nonzero
+        parts = [_part(branch, nonzero, tracked, exactly) for branch in every]
+    return _joined(system, natural, parts, run, apart is not None)
 
 
 def _exact(
@@ -236,7 +267,14 @@ def _part(
     return _Part(branch.system, found, result, larger, elimination.lift(result.undecided))
 
 
-def _joined(system: PolynomialSystem, parts: Sequence[_Part], run: Run, apart: bool) -> SolveResult:
+def _joined(
+    system: PolynomialSystem,
+    natural: NaturalCoordinates,
+    parts: Sequence[_Part],
+    run: Run,
+    apart: bool,
+) -> SolveResult:
+    """The solutions of all parts, which are in ``natural`` coordinates."""
     undecided = [np.zeros((0, system.n), dtype=complex), *(part.undecided for part in parts)]
     kept: list[_Found] = []
     doubtful: list[_Found] = []
@@ -244,10 +282,11 @@ def _joined(system: PolynomialSystem, parts: Sequence[_Part], run: Run, apart: b
         if not repeated:
             (doubtful if repeated is None else kept).append(each)
     undecided.append(_points(doubtful, system.n))
-    solutions, left_open, excluded = _in_scheme(system, kept, apart)
+    solutions, left_open, excluded = _in_scheme(system, natural, kept, apart)
     undecided.append(_points(left_open, system.n))
-    open_points = np.vstack(undecided)
+    open_points = natural.inverse.points(np.vstack(undecided))
     larger = LargerSets.together(system.n, [part.larger for part in parts])
+    larger = larger.map_points(natural.inverse.points)
     results = [part.result for part in parts if part.result is not None]
     notes = [note for r in results if not r.complete for note in r.notes]
     notes = [note for note in notes if note not in [n for r in results for n in r.larger.notes]]
@@ -293,32 +332,35 @@ def _reason(parts: Sequence[_Part], results: Sequence[SolveResult], apart: bool)
 
 
 def _in_scheme(
-    system: PolynomialSystem, kept: Sequence[_Found], apart: bool
+    given: PolynomialSystem, natural: NaturalCoordinates, kept: Sequence[_Found], apart: bool
 ) -> tuple[tuple[Solution, ...], list[_Found], tuple[Solution, ...]]:
-    """The solutions with their multiplicities in the scheme of all equations.
+    """The solutions, as they are given, with their multiplicities in the scheme of all equations.
 
     Also those where that was not found, and those where a polynomial vanishes that must not, with
     the multiplicities that they have in their branches.
     """
+    system = natural.system(given)
+    equations = Evaluator.of(given.polynomials, given.n)
     residuals = Evaluator.of(system.polynomials, system.n).residuals(_points(kept, system.n))
     allowed: list[tuple[_Found, float]] = []
     left_open, excluded, solutions = [], [], []
     for each, residual in zip(kept, residuals, strict=True):
         forbidden = [each.vanishes(f) for f in system.nonzero]
         if any(forbidden):
-            excluded.append(each.solution)
+            excluded.append(each.carry_solution(each.solution, natural, equations))
         elif None in forbidden:
             left_open.append(each)
         else:
             allowed.append((each, float(residual.max(initial=0.0))))
     points = [each for each, _ in allowed]
-    given = (each.solution.multiplicity for each in points)
-    multiplicities = multiplicities_in_scheme(system, points) if apart else given
+    known = (each.solution.multiplicity for each in points)
+    multiplicities = multiplicities_in_scheme(system, points) if apart else known
     for (each, size), multiplicity in zip(allowed, multiplicities, strict=True):
         if not multiplicity:
             left_open.append(each)
             continue
-        solutions.append(replace(each.solution, multiplicity=multiplicity, residual=size))
+        solution = replace(each.solution, multiplicity=multiplicity, residual=size)
+        solutions.append(each.carry_solution(solution, natural, equations))
     return tuple(solutions), left_open, tuple(excluded)
 
 
