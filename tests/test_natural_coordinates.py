@@ -11,6 +11,7 @@ import pytest
 from random_small import small_system
 from systems import kinds
 
+import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.polynomial import Polynomial
@@ -226,3 +227,19 @@ def test_translated_sheets_are_told_apart() -> None:
     assert answer.complete
     assert kinds(answer) == {(1, 2, 1): 2}
     assert all(c.accuracy < 1e-15 for c in answer.components)
+
+
+def test_solutions_of_branches_are_joined_about_the_origin_that_suits_them() -> None:
+    given = nag.system(
+        [
+            "-8*x*w + 200*y*z - 40000*z*w",
+            "-3/100*y*w + 70000*z*w - 3500000*y - 980000",
+            "-5*x^2*z - 530000*x*w^2 + 11000*w^3",
+            "700*x^3*z - 1/10*x*y^2*z",
+        ],
+        "x y z w",
+    )
+    origin = Fraction(-121744, 5), Fraction(123013, 2), Fraction(-60415), Fraction(838829, 10)
+    translation = NaturalCoordinates((Fraction(1),) * 4, origin)
+    there = nag.solve(translation.inverse.system(given))
+    assert there.complete and len(there.solutions) == len(nag.solve(given).solutions) == 12
