@@ -31,7 +31,7 @@ from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
 from nag.numerics.read_only import fixed_mapping
-from nag.tracking.run import Run
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.component_equations import component_fibres
 from nag.witness.fibres import Fibre, move
 from nag.witness.points import with_fine
@@ -155,13 +155,12 @@ def has_bonds(given: object) -> bool:
         return False
 
 
+@takes_run
 def bonds(
     model: Model | DHModel,
     component: WitnessSet,
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> Bonds:
     """The bonds of a curve of configurations.
 
@@ -176,8 +175,8 @@ def bonds(
     loop = _loop(model)
     if component.dimension != 1:
         raise NagError(f"the component has dimension {component.dimension}; a curve has 1")
-    rng = np.random.default_rng([seed, 10])
-    search = _Ends(loop, component, rng, Run(seed, threads, settings))
+    rng = run.random(10)
+    search = _Ends(loop, component, rng, run)
     order = loop.joints
     found: dict[_Kind, set[Fraction]] = {}
     degrees: dict[str, int] = {}

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 from nag.algebra.from_python import coordinates
-from nag.algebra.given import check_choice, check_running, is_a
+from nag.algebra.given import check_choice, is_a
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.curve_genus import GenusError, genus
@@ -24,6 +24,7 @@ from nag.mechanism.model import Model
 from nag.mechanism.problem import Problem, problem_of
 from nag.mechanism.real_assemblies import real_doubt
 from nag.numerics.local_dimension import LocalDimension, local_dimension_near
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition, WitnessSet
 
@@ -32,15 +33,14 @@ class NoAssembly(MechanismError):
     """Parts that cannot be assembled, with the reason."""
 
 
+@takes_run
 def mobility(
     mechanism: Any,
     point: Sequence[Any] | Mapping[str, Any] | None = None,
     *,
     formulation: str = "auto",
     detail: Literal["local", "components", "curves"] = "components",
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
+    run: Run = DEFAULT_RUN,
 ) -> MobilityReport:
     """The mobility of a mechanism at its reference configuration, or at another one.
 
@@ -57,7 +57,7 @@ def mobility(
         formulation: of a mechanism's model, as for `nag.model`.
         detail: ``"local"`` for what needs no decomposition, ``"components"`` for the components
             through the configuration as well, ``"curves"`` for genus and bonds of curves, too.
-        seed, threads, settings: of the decomposition.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
         nag.mechanism.model.ModelError: if the formulation does not cover the mechanism.
@@ -75,7 +75,6 @@ def mobility(
     components  1 through the configuration: dimension 1, degree 2
     mobility    overconstrained: it moves with 1 freedom, though counting predicts -2
     """
-    check_running(seed, threads, settings)
     check_choice(detail, "detail", ("local", "components", "curves"))
     tree = tree_of(mechanism)
     if tree is not None:
@@ -86,10 +85,9 @@ def mobility(
     at = problem.reference
     if point is not None:
         at = coordinates(point, problem.system.variables)
-    options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
     if at is None:
-        return _in_general(problem, detail, options)
-    return _report(problem, at, detail, options)
+        return _in_general(problem, detail, run)
+    return _report(problem, at, detail, run)
 
 
 def tree_of(given: Any) -> Mechanism | None:
@@ -105,18 +103,16 @@ def tree_of(given: Any) -> Mechanism | None:
     return None
 
 
-def _report(
-    problem: Problem, at: Sequence[Number], detail: str, options: dict[str, Any]
-) -> MobilityReport:
-    found = local_dimension_near(problem.system, at, seed=options["seed"])
+def _report(problem: Problem, at: Sequence[Number], detail: str, run: Run) -> MobilityReport:
+    found = local_dimension_near(problem.system, at, seed=run.seed)
     free, tangent = problem.free, found.tangent_dimension
     at = zero_at(problem.system, at, found)
     through, doubt = None, ""
     if detail != "local":
-        through, doubt = _components(problem, at, found, **options)
+        through, doubt = _components(problem, at, found, run)
     motions = []
     if detail == "curves" and through is not None:
-        motions = [_curve(problem, c, **options) for c in through if c.dimension == 1]
+        motions = [_curve(problem, c, run) for c in through if c.dimension == 1]
     known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
     return MobilityReport(
         **_counted(problem),
@@ -130,11 +126,11 @@ def _report(
     )
 
 
-def _in_general(problem: Problem, detail: str, options: dict[str, Any]) -> MobilityReport:
+def _in_general(problem: Problem, detail: str, run: Run) -> MobilityReport:
     """The mobility at a general configuration of parts that may be assembled."""
     if detail == "local":
         raise NagError("the parts are not assembled; give a point, an assembly of them")
-    found = problem.decompose(**options)
+    found = problem.decompose(run=run)
     components = expanded(found).components
     if found.complete and not components:
         raise NoAssembly("its parts cannot be assembled, not even with complex coordinates")
@@ -155,7 +151,7 @@ def _in_general(problem: Problem, detail: str, options: dict[str, Any]) -> Mobil
         else None,
         open="" if found.complete else _incomplete(found),
         local=None,
-        curves=tuple(_curve(problem, c, **options) for c in curves),
+        curves=tuple(_curve(problem, c, run) for c in curves),
         general=known,
         doubt=doubt,
     )
@@ -172,17 +168,15 @@ def _components(
     problem: Problem,
     at: Sequence[Number],
     local: LocalDimension,
-    seed: int,
-    threads: int,
-    settings: str,
+    run: Run,
 ) -> tuple[list[WitnessSet] | None, str]:
     """The components through a point, or why they are not known."""
-    found = problem.decompose(seed=seed, threads=threads, settings=settings)
+    found = problem.decompose(run=run)
     if not found.complete and local.smooth:
-        return _only_component(problem, local, _incomplete(found), seed, threads, settings)
+        return _only_component(problem, local, _incomplete(found), run)
     if not found.complete:
         return None, _incomplete(found)
-    through = through_points(found, [("the configuration", tuple(at))], threads)[0]
+    through = through_points(found, [("the configuration", tuple(at))], run.threads)[0]
     if not through.solution or through.doubt:
         return None, through.doubt or "the configuration is a rounded one"
     everything = expanded(found).components
@@ -193,17 +187,14 @@ def _only_component(
     problem: Problem,
     local: LocalDimension,
     doubt: str,
-    seed: int,
-    threads: int,
-    settings: str,
+    run: Run,
 ) -> tuple[list[WitnessSet] | None, str]:
     """The component through a smooth point, reached from there by loops; or what is not known.
 
     Exactly one passes through a smooth point, of the local dimension, and it is reduced: where it
     is found, nothing else matters of what a decomposition left open.
     """
-    options: dict[str, Any] = {"seed": seed, "threads": threads, "settings": settings}
-    found = components_through_points(problem.system, [(local.lower, local.point)], **options)
+    found = components_through_points(problem.system, [(local.lower, local.point)], run=run)
     if found.complete and len(found.components) == 1:
         return list(found.components), ""
     degrees = [c.degree for c in found.components]
@@ -230,20 +221,17 @@ def _incomplete(found: Decomposition) -> str:
     return f"the decomposition is incomplete: {'; '.join(found.notes)}"
 
 
-def _curve(
-    problem: Problem, component: WitnessSet, seed: int, threads: int, settings: str
-) -> CurveOfMotion:
+def _curve(problem: Problem, component: WitnessSet, run: Run) -> CurveOfMotion:
     notes = []
-    options = {"seed": seed, "threads": threads, "settings": settings}
     number: int | None = None
     try:
-        number = genus(problem.system, component, **options).genus
+        number = genus(problem.system, component, run=run).genus
     except (GenusError, ValueError) as reason:
         notes.append(f"the genus, {reason}")
     connected: Bonds | None = None
     if has_bonds(problem.model):
         try:
-            connected = bonds(problem.model, component, **options)  # type: ignore[arg-type]
+            connected = bonds(problem.model, component, run=run)  # type: ignore[arg-type]
         except (BondError, ValueError) as reason:
             notes.append(f"the bonds, {reason}")
     return CurveOfMotion(component.degree, number, connected, "; ".join(notes))

@@ -15,6 +15,7 @@ from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.mode_classes import ModeClass, mode_classes
 from nag.mechanism.model import Model, ModelError, model, with_loops
+from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expanded
 from nag.witness.witness import Decomposition
 
@@ -54,15 +55,13 @@ class ModesAnswer:
         return all(c.decomposition.complete for c in self.classes)
 
 
+@takes_run
 def decompose_modes(
     mechanism: Mechanism,
     formulation: str = "auto",
     coordinates: str = "euler",
     *,
-    seed: int = 0,
-    threads: int = 1,
-    settings: str = "default",
-    progress: Progress | None = None,
+    run: Run = DEFAULT_RUN,
 ) -> ModesAnswer:
     """Decompose every combination of the joints' assembly modes.
 
@@ -71,10 +70,7 @@ def decompose_modes(
         formulation: of the models that are decomposed.
         coordinates: ``"euler"`` for components in Euler parameters, ``"joint"`` for those in the
             coordinates of the formulation.
-        seed: of all random numbers.
-        threads: for path tracking.
-        settings: ``"fast"``, ``"default"`` or ``"careful"`` tracking.
-        progress: called with a stage's name, the class and the number of classes.
+        run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
 
     Raises:
         ModelError: if the mechanism has too many combinations, or the formulation does not cover
@@ -87,24 +83,21 @@ def decompose_modes(
         raise ModelError(str(error)) from None
     answers = []
     for k, each in enumerate(classes):
-        if progress is not None:
-            progress("modes", k, len(classes))
+        run.tell("modes", k, len(classes))
         chosen = model(mechanism, formulation, each.representative, "spatial")
         answer = decompose(
             chosen.system,
-            seed=seed,
-            threads=threads,
-            settings=settings,
+            run=run,
             symmetries=chosen.symmetries,
         )
         if coordinates == "euler" and chosen.formulation != "E":
-            chosen, answer = euler_decomposition(chosen, answer, threads=threads)
+            chosen, answer = euler_decomposition(chosen, answer, threads=run.threads)
         answers.append(ClassAnswer(each, chosen, answer))
     return ModesAnswer(
         structure,
         tuple(answers),
         apart(structure),
-        tuple(_meetings(answers, seed, threads, settings)),
+        tuple(_meetings(answers, run)),
     )
 
 
@@ -124,9 +117,7 @@ def apart(structure: LoopStructure) -> bool:
     return True
 
 
-def _meetings(
-    answers: Sequence[ClassAnswer], seed: int, threads: int, settings: str
-) -> list[tuple[int, int, int]]:
+def _meetings(answers: Sequence[ClassAnswer], run: Run) -> list[tuple[int, int, int]]:
     """Pairs of dimensions of components of one mode that meet, by computation."""
     found = set()
     for k, answer in enumerate(answers):
@@ -137,7 +128,6 @@ def _meetings(
                 pair = (k, first.dimension, second.dimension)
                 if first.dimension >= second.dimension or pair in found:
                     continue
-                options = {"seed": seed, "threads": threads, "settings": settings}
-                if intersect_components(system, first, second, **options).components:
+                if intersect_components(system, first, second, run=run).components:
                     found.add(pair)
     return sorted(found)
