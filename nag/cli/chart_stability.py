@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> Answer:
 
     from nag.bench.atlas.picture import draw
     from nag.bench.atlas.stability import changes, completed, document, table
-    from nag.files.json_values import lay_out
+    from nag.text.json_text import lay_out
     from nag.text.table import align, printable
 
     if rest is not None:

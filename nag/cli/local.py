@@ -36,8 +36,6 @@ def run(options: argparse.Namespace) -> Answer:
     case, problem = read_problem(options)
     from nag.algebra.number import number_text
     from nag.decomposition.through import zero_at
-    from nag.files.answers_at_points import local_document
-    from nag.numerics.shown import local_rows
 
     system = problem.system
     chosen = chosen_points(options, problem)
@@ -47,7 +45,7 @@ def run(options: argparse.Namespace) -> Answer:
     complete = all(one.decided for one in found.values())
     blocks = []
     for name, one in found.items():
-        rows = [("point", _point_text(name, chosen[name], system)), *local_rows(one)]
+        rows = [("point", _point_text(name, chosen[name], system)), *one.rows()]
         if name in through:
             text, agrees = through[name](one)
             rows.append(("components", text))
@@ -57,7 +55,7 @@ def run(options: argparse.Namespace) -> Answer:
         "format": FORMAT,
         "variables": list(system.variables),
         "points": [
-            {"name": name, "at": [number_text(x) for x in chosen[name]], **local_document(one)}
+            {"name": name, "at": [number_text(x) for x in chosen[name]], **one.document()}
             for name, one in found.items()
         ],
     }

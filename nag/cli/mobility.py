@@ -71,7 +71,6 @@ def run(options: argparse.Namespace) -> Answer:
             "space needs a second triangle of bars, and no --at"
         )
     from nag.algebra.number import number_text
-    from nag.files.answers_at_points import mobility_document
     from nag.mechanism.mobility_report import MobilityStatus
 
     report = _report(options, problem or case, at)
@@ -87,7 +86,7 @@ def run(options: argparse.Namespace) -> Answer:
     fields = {
         "format": FORMAT,
         "configuration": [number_text(x) for x in here or ()],
-        **mobility_document(report),
+        **report.document(),
         "check": compared,
     }
     return answer_of(options, name_case(case), (), rows, fields, complete)

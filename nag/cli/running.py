@@ -184,8 +184,8 @@ def write_document(document: dict[str, Any] | str, target: str) -> None:
     Raises:
         UsageError: if the file cannot be written.
     """
-    from nag.files.json_values import lay_out
     from nag.files.written_file import write_target
+    from nag.text.json_text import lay_out
 
     text = document if isinstance(document, str) else lay_out(document) + "\n"
     with writing_json():

@@ -49,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> Answer:
     """Points of a component."""
-    from nag.files.json_values import pairs
+    from nag.text.json_text import pairs
     from nag.text.table import magnitude
     from nag.witness.sampling import SamplingError, sample
 

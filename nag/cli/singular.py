@@ -43,7 +43,6 @@ def run(options: argparse.Namespace) -> Answer:
     if options.free is not None:
         return _for_parameters(options)
     from nag.decomposition.singular_points import singular_locus
-    from nag.files.answers_at_points import singular_document
     from nag.report.singular import answer_rows, set_lines
     from nag.witness.shown import paths_text
 
@@ -63,7 +62,7 @@ def run(options: argparse.Namespace) -> Answer:
         "notes": list(locus.notes),
         "variables": list(variables),
         "components": [{"number": i, **like(c)} for i, c in enumerate(whole.components, 1)],
-        **singular_document(locus, variables),
+        **locus.document(variables),
     }
     blocks = [answer_rows(locus, whole), *(set_lines(one, variables) for one in locus.sets)]
     tail = [("open", note) for note in locus.notes] + doubts(found)

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import comb
+from typing import Any
 
 import flint
 import numpy as np
@@ -27,7 +28,8 @@ from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
 from nag.numerics.read_only import fixed_array, fixed_mapping
-from nag.numerics.tangent_cone import TangentCone, tangent_cone
+from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
+from nag.text.json_text import pairs
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
 from nag.witness.close_to_sets import are_same
@@ -83,6 +85,28 @@ class SingularSet:
         """Whether several components meet there."""
         return len(self.multiplicities) > 1
 
+    def document(self, variables: Sequence[str]) -> dict[str, Any]:
+        """The set as a JSON object; components are numbered from 1."""
+        cone = self.cone
+        return {
+            "dimension": self.dimension,
+            "degree": self.degree,
+            "essential": [i + 1 for i in self.essential],
+            "intersection": self.intersection,
+            "multiplicities": [
+                {"component": i + 1, "multiplicity": m} for i, m in self.multiplicities.items()
+            ],
+            "points": pairs(self.points),
+            "local": self.local.document(),
+            "tangent_cone": None
+            if cone is None
+            else {
+                "degree": cone.degree,
+                "forms": [form_text(f, variables) for f in cone.forms],
+                "linear": [form_text(f, variables) for f in cone.linear],
+            },
+        }
+
 
 @dataclass(frozen=True, eq=False)
 class SingularLocus:
@@ -109,6 +133,14 @@ class SingularLocus:
         """Indices of the components that have no singular points of their own."""
         singular = {i for one in self.sets for i in one.essential}
         return tuple(i for i in self.examined if i not in singular)
+
+    def document(self, variables: Sequence[str]) -> dict[str, Any]:
+        """The singular points as a JSON object; components are numbered from 1."""
+        return {
+            "examined": [i + 1 for i in self.examined],
+            "smooth": [i + 1 for i in self.smooth],
+            "sets": [one.document(variables) for one in self.sets],
+        }
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,17 +25,15 @@ from nag.files.json_values import (
     checked_document,
     complex_matrix,
     complex_vector,
-    lay_out,
-    pairs,
     parse_polynomials,
     parse_system,
     read_file,
     real_number,
-    real_or_null,
     system_document,
     wrong,
 )
 from nag.files.written_file import write_target
+from nag.text.json_text import lay_out, pairs, real_or_null
 from nag.witness.close_points import WORDS, Fine
 from nag.witness.cutting import Cut
 from nag.witness.fibres import Fibre

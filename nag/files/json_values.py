@@ -1,8 +1,8 @@
-"""Values of a JSON document as they are written, and each checked as it is taken out.
+"""Values of a JSON document, each checked as it is taken out.
 
-Complex arrays are written as pairs, one line for each key and each point. Every function that reads
-takes the value and its place in the document, returns it in our own type, and raises `ExportError`
-with the place and what it must be. Exports are checked by their schemas as a whole first.
+Every function that reads takes the value and its place in the document, returns it in our own type,
+and raises `ExportError` with the place and what it must be. Exports are checked by their schemas
+as a whole first.
 """
 
 from __future__ import annotations
@@ -24,19 +24,6 @@ from nag.errors import InputError, NagError
 from nag.files.json_schema import find_problem, schema
 
 
-def real_or_null(value: float) -> float | None:
-    """The number, or None where it is not finite: JSON knows no other numbers."""
-    return float(value) if math.isfinite(value) else None
-
-
-def pairs(array: np.ndarray) -> list[Any]:
-    """A complex array as nested lists with ``[re, im]`` in place of each entry."""
-    doubles = np.ascontiguousarray(array).view(float).reshape(*array.shape, 2)
-    if np.isfinite(doubles).all():
-        return doubles.tolist()
-    return np.where(np.isfinite(doubles), doubles.astype(object), None).tolist()
-
-
 def system_document(system: PolynomialSystem) -> dict[str, Any]:
     """A polynomial system as a JSON object."""
     return {
@@ -46,27 +33,6 @@ def system_document(system: PolynomialSystem) -> dict[str, Any]:
         "groups": [[system.variables[i] for i in group] for group in system.groups],
         "exact": system.exact,
     }
-
-
-def _depth(value: Any) -> float:
-    """Nesting depth of lists; infinite if there is an object inside."""
-    if isinstance(value, dict):
-        return math.inf
-    return 1 + max(map(_depth, value), default=0) if isinstance(value, list) else 0
-
-
-def lay_out(value: Any, indent: str = "") -> str:
-    """JSON text with one line for each key, and one line for each point."""
-    deeper = indent + "  "
-    if isinstance(value, dict) and value:
-        parts = [f"{json.dumps(k)}: {lay_out(v, deeper)}" for k, v in value.items()]
-        left, right = "{}"
-    elif isinstance(value, list) and (_depth(value) > 2 or any(isinstance(v, str) for v in value)):
-        parts = [lay_out(v, deeper) for v in value]
-        left, right = "[]"
-    else:
-        return json.dumps(value, allow_nan=False)
-    return f"{left}\n{deeper}" + f",\n{deeper}".join(parts) + f"\n{indent}{right}"
 
 
 LARGEST_FILE = 256 * 1024**2

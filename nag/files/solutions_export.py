@@ -15,17 +15,15 @@ from nag.files.json_values import (
     checked_document,
     complex_matrix,
     complex_vector,
-    lay_out,
-    pairs,
     parse_system,
     read_file,
     real_number,
-    real_or_null,
     system_document,
     wrong,
 )
 from nag.files.written_file import write_target
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
+from nag.text.json_text import lay_out, pairs, real_or_null
 
 FORMAT = "nag-solutions"
 VERSION = 1

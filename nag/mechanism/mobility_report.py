@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Literal
+from typing import Any, Literal
 
 from nag.mechanism.bonds import Bonds
 from nag.numerics.local_dimension import LocalDimension
@@ -59,6 +59,16 @@ class CurveOfMotion:
         if self.bonds is not None:
             text += f", bonds {self.bonds}"
         return f"{text}; not known: {self.note}" if self.note else text
+
+    def document(self) -> dict[str, Any]:
+        """What is said of the curve, as a JSON object."""
+        bonds = None
+        if self.bonds is not None:
+            bonds = [
+                {"joints": list(bond.joints), "orders": list(bond.orders), "count": bond.count}
+                for bond in self.bonds.bonds
+            ]
+        return {"degree": self.degree, "genus": self.genus, "bonds": bonds, "note": self.note}
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,6 +201,32 @@ class MobilityReport:
             ("mobility", f"{self.status}: {self.sentence}"),
             *(("curve", str(curve)) for curve in self.curves),
         ]
+
+    def document(self) -> dict[str, Any]:
+        """The answer as a JSON object."""
+        components = self.components
+        return {
+            "space": self.space,
+            "gruebler_kutzbach": self.gruebler_kutzbach,
+            "formulation": self.formulation or None,
+            "variables": self.variables,
+            "equations": self.equations,
+            "free": self.free,
+            "tangent_dimension": self.tangent_dimension,
+            "local_dimension": self.local_dimension,
+            "lower": self.lower,
+            "upper": self.upper,
+            "multiplicity": self.multiplicity,
+            "overconstrained": self.overconstrained,
+            "status": str(self.status),
+            "meaning": self.sentence,
+            "components": None
+            if components is None
+            else [{"dimension": d, "degree": degree} for d, degree in components],
+            "open": self.open,
+            "curves": [curve.document() for curve in self.curves],
+            "local": None if self.local is None else self.local.document(),
+        }
 
 
 def _kinds(components: Iterable[tuple[int, int]], alike: Alike) -> object:

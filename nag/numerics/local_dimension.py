@@ -82,6 +82,28 @@ class LocalDimension:
 
         return local_dimension_text(self)
 
+    def rows(self) -> list[tuple[str, str]]:
+        """The answer and what it rests on, as labelled texts."""
+        from nag.numerics.shown import local_rows
+
+        return local_rows(self)
+
+    def document(self) -> dict[str, Any]:
+        """The answer as a JSON object."""
+        return {
+            "tangent_dimension": self.tangent_dimension,
+            "local_dimension": self.dimension,
+            "lower": self.lower,
+            "upper": self.upper,
+            "isolated": self.isolated,
+            "multiplicity": self.multiplicity,
+            "hyperplanes": self.hyperplanes,
+            "coranks": list(self.coranks),
+            "arithmetic": self.arithmetic,
+            "reason": self.reason,
+            "sharpened": [list(pair) for pair in self.digits],
+        }
+
     @property
     def decided(self) -> bool:
         """Whether the bounds meet."""

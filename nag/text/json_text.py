@@ -1,0 +1,43 @@
+"""JSON as it is written: complex arrays as pairs, one line for each key and each point."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+
+
+def real_or_null(value: float) -> float | None:
+    """The number, or None where it is not finite: JSON knows no other numbers."""
+    return float(value) if math.isfinite(value) else None
+
+
+def pairs(array: np.ndarray) -> list[Any]:
+    """A complex array as nested lists with ``[re, im]`` in place of each entry."""
+    doubles = np.ascontiguousarray(array).view(float).reshape(*array.shape, 2)
+    if np.isfinite(doubles).all():
+        return doubles.tolist()
+    return np.where(np.isfinite(doubles), doubles.astype(object), None).tolist()
+
+
+def _depth(value: Any) -> float:
+    """Nesting depth of lists; infinite if there is an object inside."""
+    if isinstance(value, dict):
+        return math.inf
+    return 1 + max(map(_depth, value), default=0) if isinstance(value, list) else 0
+
+
+def lay_out(value: Any, indent: str = "") -> str:
+    """JSON text with one line for each key, and one line for each point."""
+    deeper = indent + "  "
+    if isinstance(value, dict) and value:
+        parts = [f"{json.dumps(k)}: {lay_out(v, deeper)}" for k, v in value.items()]
+        left, right = "{}"
+    elif isinstance(value, list) and (_depth(value) > 2 or any(isinstance(v, str) for v in value)):
+        parts = [lay_out(v, deeper) for v in value]
+        left, right = "[]"
+    else:
+        return json.dumps(value, allow_nan=False)
+    return f"{left}\n{deeper}" + f",\n{deeper}".join(parts) + f"\n{indent}{right}"
