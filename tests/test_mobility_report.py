@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -18,6 +19,7 @@ from nag.decomposition import components_through
 from nag.files.json_schema import schema
 from nag.mechanism import mobility_at
 from nag.mechanism.graph import Joint, Mechanism
+from nag.mechanism.problem import Problem
 from nag.numerics.local_dimension import NoSolution
 
 Z = (0, 0, 1)
@@ -233,12 +235,12 @@ def test_bad_input_is_one_line(tmp_path, capsys) -> None:
 @pytest.fixture
 def lost_paths(monkeypatch: pytest.MonkeyPatch) -> None:
     """Decompositions lose paths, as those of arms and linkages in full doubles may."""
-    whole = mobility_at._decomposed
-    monkeypatch.setattr(
-        mobility_at,
-        "_decomposed",
-        lambda *given: replace(whole(*given), complete=False, notes=("3 paths failed",)),
-    )
+    whole = Problem.decompose
+
+    def lose_paths(problem: Problem, **options: Any) -> nag.Decomposition:
+        return replace(whole(problem, **options), complete=False, notes=("3 paths failed",))
+
+    monkeypatch.setattr(Problem, "decompose", lose_paths)
 
 
 def test_the_component_through_a_smooth_point_is_reached_from_there(lost_paths: None) -> None:
