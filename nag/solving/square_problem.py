@@ -46,14 +46,16 @@ class SquareProblem:
     def of(
         cls, system: PolynomialSystem, equations: Sequence[Polynomial], rng: np.random.Generator
     ) -> SquareProblem:
-        n, digits = system.n, most_digits(equations)
+        n = system.n
+        # Combinations of equations may hide where these come from, and have more digits.
+        natural = natural_coordinates(equations, n)
+        equations = [natural.polynomial(f) for f in equations]
+        digits = most_digits(equations)
         lower = of_lowest_degrees(equations)
         # Of more paths, start systems with the monomials of the equations as given spare as many.
         equations = lower if prod(f.degree for f in lower) <= FEW else equations
         added = max(0, n - len(equations))
-        natural = natural_coordinates(equations, n)
-        whole = [natural.polynomial(f) for f in equations]
-        whole += [_random_linear(n, rng) for _ in range(added)]
+        whole = [*equations, *(_random_linear(n, rng) for _ in range(added))]
         target = Target.of(_squared(whole, n, rng), n, digits, natural)
         nonzero = tuple(target.scaled(f) for f in system.nonzero)
         if len(equations) + added == n:
