@@ -243,3 +243,20 @@ def test_solutions_of_branches_are_joined_about_the_origin_that_suits_them() -> 
     translation = NaturalCoordinates((Fraction(1),) * 4, origin)
     there = nag.solve(translation.inverse.system(given))
     assert there.complete and len(there.solutions) == len(nag.solve(given).solutions) == 12
+
+
+def test_equations_are_combined_about_the_origin_that_suits_them() -> None:
+    # A combination of the last two is of degree one.
+    given = nag.system(
+        [
+            "1/50000*y^2*z^3 - 100000*x^2",
+            "-900000*x^2 - 140000*x*z + 500*z^2",
+            "-2700*x^2 - 420*x*z + 3/2*z^2 + 57/100*x + 1/300000*y - 63/10000*z + 9498350",
+        ],
+        "x y z",
+    )
+    origin = Fraction(0), Fraction(0), Fraction(-97991, 500000)
+    there = NaturalCoordinates((Fraction(1),) * 3, origin).inverse.system(given)
+    assert all(
+        answer.complete and len(answer.solutions) == 7 for answer in map(solve, (given, there))
+    )
