@@ -14,6 +14,7 @@ from nag.files.cases import read_case
 from nag.files.export import read_export
 from nag.mechanism.dh import DHModel
 from nag.mechanism.dh_euler import dh_euler_model, euler_closings
+from nag.mechanism.loop_product import displacement
 from nag.mechanism.problem import problem_of
 
 # Those that Euler parameters decompose within a second; tests/many_seeds.py has the others.
@@ -64,6 +65,17 @@ def test_an_exact_closing_is_an_exact_one_in_euler_parameters() -> None:
     assert f(closing) == 0
     point = target.of_half_angles(made, closing)
     assert all(is_zero(g(point)) for g in target.system.polynomials)
+
+
+def test_a_table_closes_as_loops_of_mechanisms_do() -> None:
+    made = table("spatial/bennett")
+    turns = made.half_angles((0, -150 / 101))
+    values = made.charts.at((Fraction(0), Fraction(-150, 101)), lambda x: x)
+    values |= made.closure.recovered(values.__getitem__, lambda x: x)
+    assert [turn.joint for turn in values] == list(turns) and len(made.closure.lost) == 2
+    whole = [*made.closure.kept, *made.closure.eliminated]
+    real, *others = (x for part in displacement(whole, values, lambda x: x) for x in part)
+    assert real != 0 and not any(others)
 
 
 def test_a_known_answer_is_that_of_its_own_formulation() -> None:

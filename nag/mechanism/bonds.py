@@ -126,7 +126,7 @@ def _loop(given: Model | DHModel) -> _Loop:
         if len(given.loop.open) < len(rows):
             raise NagError("bonds are for loops with all joints open")
         names = tuple(row.name for row in rows)
-        kept = tuple(rows[i].name for i in given.kept)
+        kept = tuple(turn.joint for turn in given.charts.plain)
 
         def turns(point: Sequence[Any]) -> Mapping[str, tuple[Any, Any]]:
             return given.turns(point, lambda c: to_mpf(c, DIGITS))

@@ -9,23 +9,22 @@ factors are constant, and the product has to be a real number (Hegedus, Schicho 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import acos, degrees, sqrt
 from typing import Any
 
-from nag.algebra.linear_algebra import independent_polynomials, left_inverse, null_space
+from nag.algebra.linear_algebra import independent_polynomials
 from nag.algebra.number import Number, is_zero
-from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import zero_length
 from nag.mechanism.graph import Joint, Mechanism
-from nag.mechanism.loop_product import closing_equations, split_product
+from nag.mechanism.joint_factors import UNIT, Charts, Factor
+from nag.mechanism.loop_product import Closure, Element, closure_of
 from nag.mechanism.quaternion import (
     DualQuaternion,
-    dual_conjugate,
     dual_multiply,
     norm_squared,
     rotate,
@@ -40,14 +39,6 @@ _AXIS: DualQuaternion = ((ZERO, ZERO, ZERO, ONE), _NONE)
 
 # An equation has two to the number of open joints terms.
 MOST_JOINTS = 12
-# Tangents of the charts' turns, none at a special angle.
-_CHARTS = tuple(
-    Fraction(a, b)
-    for a, b in (
-        (3, 7), (-5, 9), (7, 11), (-4, 13), (8, 17),
-        (-9, 19), (6, 23), (-11, 29), (13, 31), (-12, 37),
-    )
-)  # fmt: skip
 
 
 class DHError(MechanismError):
@@ -123,23 +114,15 @@ class DHModel(AssemblyModel):
 
     Attributes:
         loop: the table.
-        kept: joints that have a variable; the other two open ones follow linearly.
-        eliminated: these two.
-        charts: for each kept joint the k of its chart (c : s) = (1 - k x : k + x).
+        closure: the product of turns and links; two turns are eliminated and follow linearly.
+        charts: the turns that have a variable.
         system: the equations; one group a variable; points of norm zero are excluded.
-        coordinates: rows that give conj(A) in the basis that the eliminated joints span.
-        product: the links after the kept joints.
-        rank: number of closure equations and how many are independent, by exact linear algebra.
     """
 
     loop: DHLoop
-    kept: tuple[int, ...]
-    eliminated: tuple[int, int]
-    charts: tuple[Fraction, ...]
+    closure: Closure
+    charts: Charts
     system: PolynomialSystem
-    coordinates: tuple[tuple[Number, ...], ...]
-    product: tuple[DualQuaternion, ...]
-    rank: tuple[int, int]
 
     reference = None
     symmetries = ()
@@ -160,11 +143,16 @@ class DHModel(AssemblyModel):
         text = f"loop of {len(self.loop.rows)} revolute joints by Denavit and Hartenberg's numbers"
         if held:
             text += f", {held} of them held at a given angle"
-        names = " and ".join(self.loop.rows[i].name for i in self.eliminated)
+        names = " and ".join(turn.joint for turn in self.closure.lost)
         return (
             f"{text}; {open_joints} open angles, half-angles with {names} eliminated leave "
-            f"{len(self.kept)} unknown{'' if len(self.kept) == 1 else 's'}"
+            f"{self.system.n} unknown{'' if self.system.n == 1 else 's'}"
         )
+
+    @property
+    def rank(self) -> tuple[int, int]:
+        """Number of closure equations and how many are independent, by exact linear algebra."""
+        return self.closure.equations, len(self.system.polynomials)
 
     @property
     def zero_links(self) -> tuple[str, ...]:
@@ -185,21 +173,9 @@ class DHModel(AssemblyModel):
         self, point: Sequence[Any], convert: Callable[[Number], Any]
     ) -> dict[str, tuple[Any, Any]]:
         """(c, s) of every open joint in some arithmetic, into which ``convert`` takes numbers."""
-        one = convert(ONE)
-        kept = [
-            (one - convert(k) * x, convert(k) + x) for k, x in zip(self.charts, point, strict=True)
-        ]
-        factors: list[Any] = []
-        for (c, s), after in zip(kept, self.product, strict=True):
-            factors += [_turn(c, s), tuple(tuple(map(convert, part)) for part in after)]
-        flat = _flat(dual_conjugate(_product(factors)))
-        w = [
-            sum((convert(y) * x for y, x in zip(row, flat, strict=True)), 0 * one)
-            for row in self.coordinates
-        ]
-        ends = split_product(w, lambda x: abs(complex(x)))
-        numbers = (*self.kept, *self.eliminated)
-        return {self.loop.rows[i].name: x for i, x in zip(numbers, (*kept, *ends), strict=True)}
+        values = self.charts.at(point, convert)
+        values |= self.closure.recovered(values.__getitem__, convert)
+        return {turn.joint: (c, s) for turn, (c, s) in values.items()}
 
 
 def dh_model(loop: DHLoop) -> DHModel:
@@ -212,29 +188,10 @@ def dh_model(loop: DHLoop) -> DHModel:
         raise DHError(
             f"{len(loop.open)} open angles; leave at least three open, or give all of them"
         )
-    numbers, links = opened(loop)
-    shift, basis, regular = _eliminated(links)
-    numbers = numbers[shift:] + numbers[:shift]
-    links = links[shift:] + links[:shift]
-    n = len(numbers) - 2
-    charts, variables = _CHARTS[:n], Polynomial.variables(n)
-    factors: list[Any] = []
-    for k, x, after in zip(charts, variables, links, strict=False):
-        factors += [_turn(1 - k * x, k + x), after]
-    flat = _flat(dual_conjugate(_product(factors)))
-    coordinates = tuple(left_inverse(basis))
-    equations = closing_equations(flat, null_space(basis, 8), () if regular else coordinates)
-    names = tuple(f"x_{loop.rows[i].name}" for i in numbers[:-2])
-    system = PolynomialSystem(
-        names,
-        tuple(independent_polynomials(equations)),
-        tuple(x * x + 1 for x in variables),
-        tuple((i,) for i in range(n)),
-    )
-    return DHModel(
-        loop, numbers[:-2], (numbers[-2], numbers[-1]), charts, system, coordinates,
-        tuple(links[:n]), (len(equations), len(system.polynomials)),
-    )  # fmt: skip
+    closure = _choose_closure(loop)
+    charts = Charts.of([e.factor for e in closure.kept if e.factor is not None])
+    equations = independent_polynomials(closure.polynomials(charts.values.__getitem__))
+    return DHModel(loop, closure, charts, replace(charts.system(()), polynomials=tuple(equations)))
 
 
 def assembled(loop: DHLoop) -> Mechanism:
@@ -289,53 +246,26 @@ def opened(loop: DHLoop) -> tuple[tuple[int, ...], list[DualQuaternion]]:
     return tuple(numbers), links
 
 
-def _eliminated(links: Sequence[DualQuaternion]) -> tuple[int, list[list[Number]], bool]:
-    """Which joints to eliminate: how far to turn the loop, and the basis that the last two span.
-
-    Two skew axes if there are; else the third value is False, and one more equation is needed.
-    """
-    count = len(links)
-    readings = []
-    for shift in range(count):
-        before, after = links[(shift - 2) % count], links[(shift - 1) % count]
-        span = [dual_multiply(x, y) for x, y in ((before, after),) * 4]
-        span[1] = dual_multiply(_AXIS, span[0])
-        span[2] = dual_multiply(before, dual_multiply(_AXIS, after))
-        span[3] = dual_multiply(_AXIS, span[2])
-        first, second = _pluecker(before)
-        vector = [[x for part in q for x in part] for q in span]
-        readings.append((shift, vector, first, second))
-    for shift, basis, skew, _ in readings:
-        if skew:
-            return shift, basis, True
-    for shift, basis, _, distinct in readings:
-        if distinct:
-            return shift, basis, False
+def _choose_closure(loop: DHLoop) -> Closure:
+    """The loop with two neighbouring turns eliminated, about skew axes if there are such."""
+    elements: list[Element] = []
+    for number, link in zip(*opened(loop), strict=True):
+        turn = Factor(loop.rows[number].name, "turn", (UNIT, _AXIS))
+        elements += [Element(turn, turn.generators), Element(None, (link,))]
+    found = []
+    for shift in range(0, len(elements), 2):
+        around = [*elements[shift:], *elements[:shift]]
+        closure = closure_of(around[:-4], around[-4:])
+        if closure is not None and not closure.quadric:
+            return closure
+        found.append(closure)
+    for closure in found:
+        if closure is not None:
+            return closure
     raise DHError("all axes are one line: every joint turns freely")
-
-
-def _pluecker(between: DualQuaternion) -> tuple[bool, bool]:
-    """Whether the axes before and after a constant factor are skew; whether they are two lines."""
-    moved = dual_multiply(dual_multiply(between, _AXIS), dual_conjugate(between))
-    direction, moment = moved[0][1:], moved[1][1:]
-    # The first axis is the z axis: (0, 0, 1) with moment 0.
-    skew = not is_zero(moment[2])
-    same = all(is_zero(x) for x in (*direction[:2], *moment))
-    return skew, not same
 
 
 def _turn(c: Any, s: Any) -> DualQuaternion:
     """c + s k."""
     zero = 0 * c
     return (c, zero, zero, s), (zero, zero, zero, zero)
-
-
-def _product(factors: Sequence[DualQuaternion]) -> DualQuaternion:
-    result = factors[0]
-    for factor in factors[1:]:
-        result = dual_multiply(result, factor)
-    return result
-
-
-def _flat(x: DualQuaternion) -> list[Any]:
-    return [entry for part in x for entry in part]

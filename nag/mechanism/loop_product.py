@@ -194,13 +194,13 @@ def closures(elements: Sequence[Element]) -> Iterator[Closure]:
             if piece[0].factor is None:
                 continue
             if factors[0].dimension == 3 or len(factors) == 2:
-                closure = _closure(turned[: n - length], piece)
+                closure = closure_of(turned[: n - length], piece)
                 if closure is not None:
                     yield closure
                 break
 
 
-def _closure(kept: Sequence[Element], piece: Sequence[Element]) -> Closure | None:
+def closure_of(kept: Sequence[Element], piece: Sequence[Element]) -> Closure | None:
     """The closure that eliminates ``piece``; None where its products are dependent."""
     products: list[DualQuaternion] = [UNIT]
     for element in piece:
