@@ -143,3 +143,16 @@ def test_slices_move_to_parts_of_a_set_of_any_size(exponent: int) -> None:
     back = witness_at(parabola.system, there, parabola.slice)
     for x in parabola.points:
         assert np.abs(back.points - x).max(axis=1).min() < 1e-12
+
+
+@pytest.mark.parametrize("exponent", [5, 7])
+def test_cylinders_meet_where_their_free_variables_have_their_common_origin(exponent: int) -> None:
+    given = nag.system("(x^2 + y^2 - 1)*(y^2 + z^2 - 2)", "x y z")
+    origin = tuple(Fraction(k * 10**exponent) for k in (1, -3, 2))
+    there = NaturalCoordinates((Fraction(1),) * 3, origin).inverse.system(given)
+    whole = nag.decompose(there)
+    assert whole.complete and [c.degree for c in whole.components] == [2, 2]
+    singular = singular_locus(whole)
+    assert singular.complete and [s.points.shape for s in singular.sets] == [(4, 3)]
+    for c in whole.components:
+        assert c.sample(0, 2).shape == (2, 3)
