@@ -8,8 +8,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 from nag.cli.arguments import UsageError
 
@@ -27,8 +26,8 @@ INTERVAL = 0.1
 _ERASE = "\r\x1b[K"
 
 
-@dataclass(frozen=True)
-class Answer:
+# No dataclass: loading those takes a fifth of the time of `nag --help`.
+class Answer(NamedTuple):
     """What a command hands back.
 
     Attributes:
