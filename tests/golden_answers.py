@@ -48,7 +48,7 @@ from scipy.sparse.csgraph import maximum_bipartite_matching
 from scipy.spatial import cKDTree
 
 import nag
-from nag.bench.timed_runs import Run, timed_runs
+from nag.bench.timed_runs import TimedRun, timed_runs
 from nag.cli import main as run_command
 
 CHECKOUT = Path(nag.__file__).parents[1]
@@ -247,7 +247,7 @@ def ask(question: Question | tuple[str, ...]) -> str:
     return text
 
 
-def _keep_run(run: Run) -> None:
+def _keep_run(run: TimedRun) -> None:
     target, text = run.task.target, run.value
     if text is None:
         Path(f"{target}.json").unlink(missing_ok=True)

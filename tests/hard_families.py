@@ -24,7 +24,7 @@ from exact_counts import zero_set
 
 from nag.bench.atlas import curves, points
 from nag.bench.atlas.points import Problem
-from nag.bench.timed_runs import Run, timed_runs
+from nag.bench.timed_runs import TimedRun, timed_runs
 from nag.bench.verdicts import METHODS, Answer, ZeroSet, answered, described, summary, verdict
 
 FAMILIES = points.FAMILIES | curves.FAMILIES
@@ -113,7 +113,7 @@ def main() -> int:
 
 
 def record(
-    run: Run,
+    run: TimedRun,
     results: dict[tuple[str, str], list[tuple[str, float]]],
     groups: Counter[tuple[str, str]],
 ) -> None:

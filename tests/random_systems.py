@@ -28,7 +28,7 @@ from pathlib import Path
 from exact_counts import zero_set
 from random_small import far_coordinates, far_system, small_system
 
-from nag.bench.timed_runs import Run, timed_runs
+from nag.bench.timed_runs import TimedRun, timed_runs
 from nag.bench.verdicts import (
     METHODS,
     Answer,
@@ -97,7 +97,7 @@ def work(task: Task) -> Answer | ZeroSet | None:
     return answered(task.method, draw(task.seed, task.number).system, settings=task.settings)
 
 
-def judged(runs: Mapping[str, Run]) -> dict[str, tuple[str, float]]:
+def judged(runs: Mapping[str, TimedRun]) -> dict[str, tuple[str, float]]:
     """Verdict and processor time of each method, from the runs for one system."""
     truth = runs["count"].value
     found = {m: verdict(run, truth) for m, run in runs.items() if m != "count"}
@@ -108,7 +108,9 @@ def judged(runs: Mapping[str, Run]) -> dict[str, tuple[str, float]]:
     return {m: (found[m] or "unchecked", runs[m].seconds) for m in found}
 
 
-def report(runs: Mapping[str, Run], found: Mapping[str, tuple[str, float]], every: bool) -> None:
+def report(
+    runs: Mapping[str, TimedRun], found: Mapping[str, tuple[str, float]], every: bool
+) -> None:
     """Print one system, if something is to be said of it."""
     task, truth = runs["count"].task, runs["count"].value
     bad = any(kind in BAD for kind, _ in found.values())
@@ -171,7 +173,7 @@ def main() -> int:
         if number in earlier:
             tally.add(Task(options.seed, number, "count", far=far), earlier[number])
     left = [n for n in numbers if n not in earlier]
-    collected: dict[int, dict[str, Run]] = {}
+    collected: dict[int, dict[str, TimedRun]] = {}
     done = 0
     for run in timed_runs(
         work,

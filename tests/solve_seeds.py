@@ -22,7 +22,7 @@ from pathlib import Path
 from statistics import median
 
 from nag.algebra.system import PolynomialSystem
-from nag.bench.timed_runs import Run, timed_runs
+from nag.bench.timed_runs import TimedRun, timed_runs
 from nag.files.cases import read_case
 from nag.mechanism.model import model
 from nag.solving.solve import solve
@@ -83,7 +83,7 @@ def answer(task: Task) -> Answer:
     return Answer(found, result.complete, result.paths.failed, steps, text)
 
 
-def verdict(run: Run, known: Counter[int]) -> str:
+def verdict(run: TimedRun, known: Counter[int]) -> str:
     """``"right"``, ``"wrong"``, ``"incomplete"`` or ``"slow"``; an error is a wrong answer."""
     if run.value is None:
         return "slow" if run.slow else "wrong"
@@ -92,7 +92,7 @@ def verdict(run: Run, known: Counter[int]) -> str:
     return "right" if run.value.found == known else "wrong"
 
 
-def report(path: Path, runs: Sequence[Run], known: Counter[int]) -> bool:
+def report(path: Path, runs: Sequence[TimedRun], known: Counter[int]) -> bool:
     """Print the line of one case; whether all its answers are right."""
     verdicts = Counter(verdict(run, known) for run in runs)
     steps = [run.value.steps for run in runs if run.value is not None]

@@ -21,7 +21,7 @@ PROCESSES = get_context("spawn")
 
 
 @dataclass(frozen=True)
-class Run:
+class TimedRun:
     """What became of a call.
 
     Attributes:
@@ -102,7 +102,7 @@ def timed_runs(
     limit: float | Callable[[Any], float],
     jobs: int = 1,
     first: Any = None,
-) -> Iterator[Run]:
+) -> Iterator[TimedRun]:
     """``work(task)`` for all tasks, each result as soon as it is there.
 
     Args:
@@ -143,16 +143,16 @@ def timed_runs(
             worker.end()
 
 
-def _received(worker: _Worker, stuck: bool) -> Run:
+def _received(worker: _Worker, stuck: bool) -> TimedRun:
     limit = worker.limit
     try:
         if stuck:
-            return Run(worker.task, None, limit, slow=True)
+            return TimedRun(worker.task, None, limit, slow=True)
         value, seconds, error = worker.pipe.recv()
     except (EOFError, ConnectionResetError):
         worker.process.join()
         if worker.process.exitcode == -signal.SIGPROF:
-            return Run(worker.task, None, limit, slow=True)
+            return TimedRun(worker.task, None, limit, slow=True)
         code = worker.process.exitcode
-        return Run(worker.task, None, limit, slow=True, error=f"the process ended with {code}")
-    return Run(worker.task, value, seconds, error=error)
+        return TimedRun(worker.task, None, limit, slow=True, error=f"the process ended with {code}")
+    return TimedRun(worker.task, value, seconds, error=error)

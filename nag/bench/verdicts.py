@@ -9,7 +9,7 @@ from statistics import median
 
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.bench.timed_runs import Run
+from nag.bench.timed_runs import TimedRun
 from nag.decomposition.components import decompose
 from nag.solving.solve import solve
 
@@ -100,7 +100,7 @@ def agrees(answer: Answer, truth: ZeroSet) -> bool:
     return truth.agrees(answer.components) and answer.facts == truth.facts
 
 
-def verdict(run: Run, truth: ZeroSet | None) -> str | None:
+def verdict(run: TimedRun, truth: ZeroSet | None) -> str | None:
     """One of `VERDICTS`; None for a complete answer where the truth is not known.
 
     Wrong is only what is called complete and is not so.
@@ -139,7 +139,7 @@ def known(truth: ZeroSet | None, method: str) -> str:
     return text
 
 
-def described(run: Run, truth: ZeroSet | None) -> str:
+def described(run: TimedRun, truth: ZeroSet | None) -> str:
     """What a run gave beside what is known, in one line."""
     if run.value is None:
         return run.error or f"ended after {run.seconds:g} s"
