@@ -15,7 +15,7 @@ from nag.algebra.expression import parse_number
 from nag.cli import main
 from nag.decomposition.components import decompose
 from nag.files.cases import Case, read_case
-from nag.mechanism.dh import DHLoop, Row, assembled, dh_model
+from nag.mechanism.dh import DHLoop, Row, assemble_table, dh_model
 from nag.mechanism.framework import (
     Framework,
     FrameworkError,
@@ -157,7 +157,7 @@ def test_the_same_loop_has_the_same_components_as_table_and_as_mechanism():
         Row(r.name, r.a, r.d, (Fraction(1), Fraction(0)), (Fraction(t), Fraction(1)))
         for r, t in zip(rows, (1, 1, 1, 1), strict=True)
     ]
-    rectangle = model(assembled(DHLoop(tuple(flat))), "H")
+    rectangle = model(assemble_table(DHLoop(tuple(flat))), "H")
     table = dh_model(DHLoop(tuple(Row(r.name, r.a, r.d, r.alpha) for r in flat)))
     degrees = [
         sorted((c.dimension, c.degree) for c in decompose(m.system).components)

@@ -57,7 +57,7 @@ def eliminated() -> Verdict:
     field, c, s, _ = _ring("lex")
     found = ideal(field, slider_crank.equations(slider_crank.LENGTHS, c, s))
     kept = [g for g in found.basis if not any(any(map(int, e[:3])) for e in g.to_dict())]
-    q = slider_crank.eliminated(*c)
+    q = slider_crank.quartic(*c)
     return decided(
         ideal(field, kept) == ideal(field, [q]),
         "lexicographic Groebner basis by FLINT",
@@ -69,7 +69,7 @@ def eliminated() -> Verdict:
 def tangent_cone() -> Verdict:
     """q begins with it, and at s = (-1, 1, 1) the s - s_0 begin with terms of degree 2 in the c."""
     field, c, s, _ = _ring()
-    q, cone = slider_crank.eliminated(*c), slider_crank.tangent_cone(*c)
+    q, cone = slider_crank.quartic(*c), slider_crank.tangent_cone(*c)
     lowest = {e: k for e, k in q.numerator.to_dict().items() if sum(map(int, e)) == 2}
     begins = field.context.from_dict(lowest) == (-8 * cone).numerator
     found = ideal(field, slider_crank.equations(slider_crank.LENGTHS, c, s))

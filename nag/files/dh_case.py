@@ -7,7 +7,7 @@ from fractions import Fraction
 from nag.algebra.number import cosine, pi_multiple, sine
 from nag.algebra.tokens import is_name
 from nag.files.case_table import ReadNumber, Table
-from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, assembled, dh_model
+from nag.mechanism.dh import DHError, DHLoop, DHModel, HalfAngle, Row, assemble_table, dh_model
 from nag.mechanism.graph import Mechanism
 
 _JOINT_KEYS = ("name", "a", "d", "alpha", "alpha_half_tangent", "theta", "theta_half_tangent")
@@ -21,7 +21,7 @@ def read_dh(top: Table, number: ReadNumber) -> DHModel | Mechanism:
     rows = [_read_row(i, table, number) for i, table in enumerate(tables, 1)]
     try:
         loop = DHLoop(tuple(rows))
-        return dh_model(loop) if loop.open else assembled(loop)
+        return dh_model(loop) if loop.open else assemble_table(loop)
     except DHError as error:
         if error.joint is None:
             top.fail("joint", error.message)

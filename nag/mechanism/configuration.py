@@ -120,7 +120,7 @@ def configuration(
         if child in euler:
             placed[child] = tuple(euler[child])
         else:
-            placed[child] = _carried(placed[parent], reference[parent], reference[child])
+            placed[child] = _carry_orientation(placed[parent], reference[parent], reference[child])
         point = tuple(convert(x) for x in joint.point)
         at = [carried(b, point) for b in (parent, child)]
         gap = carried(joint.bodies[0], slides.get(joint.name, (zero, zero, zero)))
@@ -148,11 +148,11 @@ def _with_tied(
                 tuple(arithmetic.convert(x) for x in original.orientation(b))
                 for b in (leader[body], body)
             ]
-            euler[body] = _carried(placed[leader[body]], *frames)
+            euler[body] = _carry_orientation(placed[leader[body]], *frames)
     return Configuration(euler, {b: position[leader[b]] for b in original.body_names})
 
 
-def _carried(
+def _carry_orientation(
     parent: tuple[Any, ...], parent_reference: tuple[Any, ...], reference: tuple[Any, ...]
 ) -> tuple[Any, ...]:
     return multiply(multiply(parent, conjugate(parent_reference)), reference)

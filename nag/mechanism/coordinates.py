@@ -41,10 +41,12 @@ def euler_decomposition(
     for component in decomposition.components:
         point = best_lifted(component, lambda x: target.project(source.lift(x)))
         starts.append((component.dimension + spins, point))
-    return target, carried_over(decomposition, target.system, target.symmetries, starts, threads)
+    return target, carry_components_over(
+        decomposition, target.system, target.symmetries, starts, threads
+    )
 
 
-def carried_over(
+def carry_components_over(
     decomposition: Decomposition,
     system: PolynomialSystem,
     symmetries: Sequence[SignedPermutation],

@@ -194,7 +194,7 @@ def dh_model(loop: DHLoop) -> DHModel:
     return DHModel(loop, closure, charts, replace(charts.system(()), polynomials=tuple(equations)))
 
 
-def assembled(loop: DHLoop) -> Mechanism:
+def assemble_table(loop: DHLoop) -> Mechanism:
     """The mechanism of a table whose angles are all given.
 
     Raises:
@@ -229,7 +229,7 @@ def _gap(total: DualQuaternion) -> str:
     )
 
 
-def opened(loop: DHLoop) -> tuple[tuple[int, ...], list[DualQuaternion]]:
+def open_joints(loop: DHLoop) -> tuple[tuple[int, ...], list[DualQuaternion]]:
     """The open joints, and all that is constant after each of them, as one factor."""
     start = loop.open[0]
     count = len(loop.rows)
@@ -249,7 +249,7 @@ def opened(loop: DHLoop) -> tuple[tuple[int, ...], list[DualQuaternion]]:
 def _choose_closure(loop: DHLoop) -> Closure:
     """The loop with two neighbouring turns eliminated, about skew axes if there are such."""
     elements: list[Element] = []
-    for number, link in zip(*opened(loop), strict=True):
+    for number, link in zip(*open_joints(loop), strict=True):
         turn = Factor(loop.rows[number].name, "turn", (UNIT, _AXIS))
         elements += [Element(turn, turn.generators), Element(None, (link,))]
     found = []

@@ -24,8 +24,8 @@ from nag.algebra.system import PolynomialSystem
 from nag.decomposition.given_points import best_lifted
 from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.configuration import arithmetic_of, as_entries
-from nag.mechanism.coordinates import carried_over
-from nag.mechanism.dh import DHError, DHLoop, DHModel, dh_model, opened
+from nag.mechanism.coordinates import carry_components_over
+from nag.mechanism.dh import DHError, DHLoop, DHModel, dh_model, open_joints
 from nag.mechanism.formulations import Alternative
 from nag.mechanism.quaternion import (
     DualQuaternion,
@@ -118,7 +118,7 @@ def dh_euler_model(loop: DHLoop) -> DHEulerModel:
     Raises:
         DHError: if no angle is open.
     """
-    joints, links = opened(loop)
+    joints, links = open_joints(loop)
     moving = len(links) - 1
     letters = ascii_lowercase if moving <= 26 else [f"q{i + 1}_" for i in range(moving)]
     names = tuple(f"{letter}{k}" for letter in letters[:moving] for k in range(4))
@@ -187,4 +187,6 @@ def euler_closings(
     for component in closings.components:
         point = best_lifted(component, lambda x: target.of_half_angles(source, x))
         starts.append((component.dimension, point))
-    return target, carried_over(closings, target.system, target.symmetries, starts, threads)
+    return target, carry_components_over(
+        closings, target.system, target.symmetries, starts, threads
+    )

@@ -220,7 +220,7 @@ def _plane_model(framework: Framework) -> FrameworkModel:
     return _metric_model(framework, pinned, reference, [unit, unit])
 
 
-def differently_pinned(model: FrameworkModel) -> FrameworkModel | None:
+def pin_differently(model: FrameworkModel) -> FrameworkModel | None:
     """The same realisations with other points held: another triangle, or another bar.
 
     Coordinates in one frame are polynomials in those in the other. None if there is no other.

@@ -58,7 +58,7 @@ class Joint:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "type", SYNONYMS.get(self.type, self.type))
-        object.__setattr__(self, "bodies", _listed(self.bodies, "bodies", joint=self.name))
+        object.__setattr__(self, "bodies", _as_tuple(self.bodies, "bodies", joint=self.name))
         for field in ("point", "axis", "second_axis"):
             value = getattr(self, field)
             if value is not None:
@@ -107,7 +107,7 @@ class Mechanism:
 
     def __post_init__(self) -> None:
         for key, kind in (("joints", Joint), ("bodies", Body)):
-            values = _listed(getattr(self, key), key)
+            values = _as_tuple(getattr(self, key), key)
             for i, value in enumerate(values):
                 check_type(value, kind, f"{key}[{i}]", f"a nag.{kind.__name__}")
             object.__setattr__(self, key, values)
@@ -254,7 +254,7 @@ def _exact(values: Any, key: str, **owner: str) -> tuple[Number, ...]:
         raise MechanismError(str(error), key=key, **owner) from None
 
 
-def _listed(values: Any, key: str, **owner: str) -> tuple[Any, ...]:
+def _as_tuple(values: Any, key: str, **owner: str) -> tuple[Any, ...]:
     try:
         check_listed(values, key, f"a list of {key}")
     except ValueError as error:

@@ -33,7 +33,7 @@ from nag.mechanism.loop_product import (
     closures,
     displacement,
     joint_elements,
-    moved,
+    move_place,
     opposite,
 )
 from nag.mechanism.loops import Loop, LoopStructure, loop_bases
@@ -131,7 +131,7 @@ class HalfAngleModel:
         for joint in structure.joints:
             if slide_directions(joint):
                 place = [convert(x) for x in joint.point]
-                there = moved(relative[joint.name], place)
+                there = move_place(relative[joint.name], place)
                 slides[joint.name] = difference(there, place)
         return configuration(structure, euler, arithmetic, slides)
 

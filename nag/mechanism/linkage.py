@@ -197,7 +197,7 @@ def _in_loops(linkage: Linkage) -> tuple[list[Link], tuple[str, ...]]:
     """The links that are joined at two pins at least, and the others."""
     kept = list(linkage.links)
     while True:
-        shared = [sum(_joined(p, link, kept) for p in link.pins) for link in kept]
+        shared = [sum(_is_joined(p, link, kept) for p in link.pins) for link in kept]
         rest = [link for link, count in zip(kept, shared, strict=True) if count >= 2]
         if len(rest) == len(kept):
             names = {link.name for link in kept}
@@ -205,7 +205,7 @@ def _in_loops(linkage: Linkage) -> tuple[list[Link], tuple[str, ...]]:
         kept = rest
 
 
-def _joined(pin: str, link: Link, links: Sequence[Link]) -> bool:
+def _is_joined(pin: str, link: Link, links: Sequence[Link]) -> bool:
     return any(pin in other.pins for other in links if other is not link)
 
 
@@ -220,7 +220,7 @@ def _loops(links: Sequence[Link]) -> list[list[tuple[Link, str, str]]]:
     by_name = {link.name: link for link in links}
     loops = []
     for nodes in networkx.minimum_cycle_basis(graph):
-        ring = _ordered(graph.subgraph(nodes), sorted(nodes)[0])
+        ring = _order_ring(graph.subgraph(nodes), sorted(nodes)[0])
         loop = []
         for i, (kind, name) in enumerate(ring):
             if kind == "link":
@@ -230,7 +230,7 @@ def _loops(links: Sequence[Link]) -> list[list[tuple[Link, str, str]]]:
     return sorted(loops, key=lambda loop: [(link.name, a, b) for link, a, b in loop])
 
 
-def _ordered(ring: Any, start: tuple[str, str]) -> list[tuple[str, str]]:
+def _order_ring(ring: Any, start: tuple[str, str]) -> list[tuple[str, str]]:
     """The nodes of a minimum cycle, one after the other."""
     order = [start]
     while len(order) < len(ring):

@@ -269,7 +269,7 @@ def displacement(
     return result
 
 
-def moved(motion: DualQuaternion, place: Sequence[Any]) -> tuple[Any, ...]:
+def move_place(motion: DualQuaternion, place: Sequence[Any]) -> tuple[Any, ...]:
     """Where a displacement takes a point."""
     zero = 0 * place[0]
     one = zero + 1

@@ -170,12 +170,12 @@ def loop_structure(mechanism: Mechanism) -> LoopStructure:
     mechanism = groups.merged
     if groups.is_one_body:
         return LoopStructure(mechanism, groups, mechanism.ground, (), (), (), ())
-    kept, left_out = _looped(mechanism.joints)
+    kept, left_out = _split_off_trees(mechanism.joints)
     names = _bridges(kept)
     if names:
         groups = rigid_groups(given, names)
         mechanism = groups.merged
-        kept, left_out = _looped(mechanism.joints)
+        kept, left_out = _split_off_trees(mechanism.joints)
     bridges = tuple(j for j in given.joints if j.name in names)
     if not kept:
         return LoopStructure(mechanism, groups, mechanism.ground, (), (), left_out, ())
@@ -203,7 +203,7 @@ def loop_bases(structure: LoopStructure) -> Iterator[tuple[Loop, ...]]:
         yield _loops_of(networkx.cycle_basis(graph, ("body", body)), structure.joints)
 
 
-def _looped(joints: Sequence[Joint]) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
+def _split_off_trees(joints: Sequence[Joint]) -> tuple[tuple[Joint, ...], tuple[Joint, ...]]:
     """The joints without those of dangling trees, and these."""
     kept = tuple(joints)
     while True:
@@ -241,7 +241,7 @@ def _cycle_basis(joints: tuple[Joint, ...]) -> tuple[Loop, ...]:
     """Minimum cycle basis of a multigraph."""
     if len(joints) == len({b for j in joints for b in j.bodies}):
         # As many joints as bodies, none of them dangling: they are one loop.
-        return (_ordered(list(joints)),)
+        return (_order_loop(list(joints)),)
     import networkx
 
     return _loops_of(networkx.minimum_cycle_basis(_bipartite(joints)), joints)
@@ -266,11 +266,11 @@ def _loops_of(
     loops = []
     for nodes in cycles:
         names = {name for kind, name in nodes if kind == "joint"}
-        loops.append(_ordered([by_name[n] for n in sorted(names, key=position.__getitem__)]))
+        loops.append(_order_loop([by_name[n] for n in sorted(names, key=position.__getitem__)]))
     return tuple(sorted(loops, key=lambda p: [position[j.name] for j in p.joints]))
 
 
-def _ordered(joints: list[Joint]) -> Loop:
+def _order_loop(joints: list[Joint]) -> Loop:
     """The joints of one cycle, in the order in which they follow each other."""
     chain = [joints[0]]
     bodies = list(joints[0].bodies)

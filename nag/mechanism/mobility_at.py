@@ -115,7 +115,7 @@ def _report(problem: Problem, at: Sequence[Number], detail: str, run: Run) -> Mo
         motions = [_curve(problem, c, run) for c in through if c.dimension == 1]
     known = None if through is None else tuple((c.dimension + free, c.degree) for c in through)
     return MobilityReport(
-        **_counted(problem),
+        **_count_freedoms(problem),
         tangent_dimension=None if tangent is None else tangent + free,
         lower=found.lower + free,
         upper=found.upper + free,
@@ -142,7 +142,7 @@ def _in_general(problem: Problem, detail: str, run: Run) -> MobilityReport:
     if known is not None and known.dimension and problem.parts is not None:
         doubt = real_doubt(problem.parts, {c.corank for c in components if c.dimension})
     return MobilityReport(
-        **_counted(problem),
+        **_count_freedoms(problem),
         tangent_dimension=None if known is None else known.corank + free,
         lower=free + (0 if known is None else known.dimension),
         upper=free + (problem.system.n if known is None else known.dimension),
@@ -202,7 +202,7 @@ def _only_component(
     return None, f"its degree{least}; {doubt}"
 
 
-def _counted(problem: Problem) -> dict[str, Any]:
+def _count_freedoms(problem: Problem) -> dict[str, Any]:
     """What a report says of a problem, whatever was computed."""
     made = problem.model
     return {

@@ -79,7 +79,7 @@ def mode_classes(structure: LoopStructure) -> tuple[ModeClass, ...]:
         )
     basis: dict[str, frozenset[str]] = {}
     for flip in flips(structure):
-        rest = _reduced(flip.joints, basis)
+        rest = _reduce_modulo_flips(flip.joints, basis)
         if rest and carries_modes(structure, flip):
             basis[min(rest)] = rest
     classes: dict[tuple[Modes, frozenset[str]], list[Modes]] = {}
@@ -87,11 +87,11 @@ def mode_classes(structure: LoopStructure) -> tuple[ModeClass, ...]:
     for modes in sorted(all_modes(structure.joints), key=len):
         fixed = tuple((name, m) for name, m in modes if name not in flippable)
         changed = frozenset(name for name, _ in modes if name in flippable)
-        classes.setdefault((fixed, _reduced(changed, basis)), []).append(modes)
+        classes.setdefault((fixed, _reduce_modulo_flips(changed, basis)), []).append(modes)
     return tuple(ModeClass(members[0], tuple(members)) for members in classes.values())
 
 
-def _reduced(names: frozenset[str], basis: dict[str, frozenset[str]]) -> frozenset[str]:
+def _reduce_modulo_flips(names: frozenset[str], basis: dict[str, frozenset[str]]) -> frozenset[str]:
     """What is left of a set of joints, modulo those that flips change together."""
     for pivot, change in basis.items():
         if pivot in names:

@@ -32,7 +32,7 @@ from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.loops import LoopStructure, gruebler_kutzbach, loop_structure
 from nag.mechanism.path_estimates import path_bound
 from nag.mechanism.planar import PlanarModel
-from nag.mechanism.projection import projected
+from nag.mechanism.projection import project_configuration
 from nag.mechanism.rods import RodModel
 from nag.mechanism.unreduced import unreduced_point, unreduced_system
 from nag.text.table import counted, one_line
@@ -96,7 +96,7 @@ class Model:
         """
         if not isinstance(self.form, EulerModel | PlanarModel):
             raise NagError(f"formulation {self.formulation} has no coordinates of bodies")
-        return projected(self.form, configuration)
+        return project_configuration(self.form, configuration)
 
     @cached_property
     def unreduced(self) -> PolynomialSystem:

@@ -16,9 +16,9 @@ from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.framework_model import (
     FrameworkModel,
     cartesian_model,
-    differently_pinned,
     in_each_coordinates,
     in_isotropic_coordinates,
+    pin_differently,
 )
 from nag.mechanism.linkage import LinkageModel, pin_model
 from nag.mechanism.mobility_report import Alike
@@ -123,7 +123,7 @@ def another_model(parts: AssemblyModel, at: Sequence[Number] | None = None) -> A
     isotropic = in_isotropic_coordinates(parts) if parts.coordinates == "xy" else None
     if isotropic is not None:
         return Another("isotropic coordinates", isotropic, here, "degrees")
-    pinned = None if at is not None else differently_pinned(parts)
+    pinned = None if at is not None else pin_differently(parts)
     if pinned is None:
         return None
     return Another(f"{'-'.join(pinned.pinned)} pinned", pinned, None, "counts")

@@ -145,7 +145,7 @@ def problem_of(given: Any, variables: Any = None, *, formulation: str = "auto") 
         nag.mechanism.dh.DHError: if a table has no such formulation.
         NagError: if ``given`` is none of these, or an equation is no polynomial.
     """
-    problem = _described(given, formulation)
+    problem = _describe_problem(given, formulation)
     if problem is None:
         check_formulation(formulation)
         return Problem(system_of_equations(given, variables))
@@ -154,7 +154,7 @@ def problem_of(given: Any, variables: Any = None, *, formulation: str = "auto") 
     return problem
 
 
-def _described(given: Any, formulation: str) -> Problem | None:
+def _describe_problem(given: Any, formulation: str) -> Problem | None:
     """What describes a problem without being equations; None if these are given."""
     if is_a(given, "nag.files.cases", "Case"):
         made = problem_of(given.described, formulation=formulation)

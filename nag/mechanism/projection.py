@@ -15,7 +15,7 @@ from nag.mechanism.planar import PlanarModel
 from nag.mechanism.quaternion import conjugate, multiply, rotate
 
 
-def projected(form: EulerModel | PlanarModel, placed: Configuration) -> tuple[Any, ...]:
+def project_configuration(form: EulerModel | PlanarModel, placed: Configuration) -> tuple[Any, ...]:
     """The coordinates of a configuration in the form's system.
 
     The signs of Euler parameters are taken as they are; (c, s) know no signs.

@@ -40,7 +40,7 @@ from nag.mechanism.loop_product import (
     dot4,
     factors_in,
     joint_elements,
-    moved,
+    move_place,
     opposite,
 )
 from nag.mechanism.loops import LoopStructure
@@ -134,7 +134,7 @@ class RodModel:
         turns = {b: _unit(m[0], arithmetic) for b, m in motions.items()}
         for rod in self.rods:
             ends = [[convert(x) for x in j.point] for j in rod.ends]
-            there = [moved(motions[b], p) for b, p in zip(rod.neighbours, ends, strict=True)]
+            there = [move_place(motions[b], p) for b, p in zip(rod.neighbours, ends, strict=True)]
             before, after = difference(ends[1], ends[0]), difference(there[1], there[0])
             turns[rod.body] = _shortest_turn(before, after, arithmetic)
         one, zero = convert(Fraction(1)), convert(Fraction(0))
@@ -147,7 +147,7 @@ class RodModel:
         for joint in structure.joints:
             if slide_directions(joint):
                 place = [convert(x) for x in joint.point]
-                there = moved(displacement(self.joints[joint.name], values, convert), place)
+                there = move_place(displacement(self.joints[joint.name], values, convert), place)
                 slides[joint.name] = difference(there, place)
         return configuration(structure, euler, arithmetic, slides)
 

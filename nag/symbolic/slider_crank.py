@@ -16,7 +16,7 @@ def equations(lengths: Sequence[Any], c: Sequence[Any], s: Sequence[Any]) -> lis
     return [loop, *(x**2 + y**2 - 1 for x, y in zip(c, s, strict=True))]
 
 
-def eliminated(c1: Any, c2: Any, c3: Any) -> Any:
+def quartic(c1: Any, c2: Any, c3: Any) -> Any:
     """The quartic q in c_1, c_2, c_3."""
     return (
         c3**4
