@@ -15,7 +15,7 @@ algebra.high_precision.SHARP *              1e-85   Errors of zeros; larger ones
 algebra.high_precision.NEAR                 1e-9    What Newton's method may move such a zero by.
 algebra.generic_multiplicity.INDEPENDENT    1e-6    Singular value of gradients of length one that
                                                     surely are independent; else no bound is given.
-algebra.generic_multiplicity.NOT_ZERO       1e-7    Derivatives beside their terms, surely not zero.
+algebra.generic_multiplicity.NOT_ZERO       1e-7    Errors of derivatives beside their terms.
 numerics.zero_values.ON *                   1e-9    Values in doubles, beside their terms, at
                                                     sharpened points that may be zero: zeros lie
                                                     below 2.5e-13, others above 2e-6 in all systems

@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from nag.algebra.branch_equations import BranchEquations
 from nag.algebra.expression import parse_polynomial
 from nag.algebra.factoring import factored
+from nag.algebra.generic_multiplicity import Gradients
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.decomposition.components import decompose
+from nag.files.cases import read_case
+from nag.numerics.natural_coordinates import shift_polynomial
 from nag.witness.multiplicity import multiplicity
 from nag.witness.slices import rows_through
+
+CASES = Path(__file__).parents[1] / "cases"
 
 
 @pytest.mark.parametrize("size", [1, 8, 64])
@@ -49,3 +59,30 @@ def test_a_branch_by_a_linear_factor_has_the_local_ring_of_all_equations() -> No
     assert own(line * other, (line, circle))
     assert not own(line * other, (line, y * y - 5))
     assert not own(line * line * other, (line, y * y - 3))
+
+
+def test_gradients_whose_difference_is_an_error_of_the_point_are_not_independent() -> None:
+    x, y = Polynomial.variables(2)
+    far = 10**6
+    # Both vanish to second order along the same direction at (far, far), known to 1e-10.
+    curves = [(x - far) * (x - far + y - far) + (x - y), (x - far) * (y - far) + (x - y)]
+    gradients = Gradients.of(curves, 2)
+    at = np.array([far + 3e-11, far - 5e-11])
+    assert gradients.rank(at, 1e-10) == 1
+    assert Gradients.of([x - y, x + y], 2).rank(at, 1e-10) == 2
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_double_components_far_from_the_origin_are_double(seed: int) -> None:
+    plain = read_case(CASES / "planar" / "wunderlich-12-bar.toml").system
+    origin = [Fraction(10**6 * (7 + i), 9) for i in range(plain.n)]
+    moved = tuple(shift_polynomial(f, origin) for f in plain.polynomials)
+    answers = [
+        decompose(replace(plain, polynomials=p, nonzero=()), seed=seed)
+        for p in (plain.polynomials, moved)
+    ]
+    here, there = (
+        sorted((c.dimension, c.degree, c.multiplicity) for c in answer.components)
+        for answer in answers
+    )
+    assert here == there and sum(m == 2 for _, _, m in here) == 10

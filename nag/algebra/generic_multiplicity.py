@@ -163,7 +163,7 @@ def standard_monomials(exponents: Sequence[tuple[int, ...]], n: int) -> int | No
 MOST_INTERSECTIONS = 64
 # Least singular value of gradients of length one that are certainly independent.
 INDEPENDENT = 1e-6
-# Derivatives that are larger than this, beside their terms, certainly do not vanish.
+# Errors of derivatives beside the sizes of their terms.
 NOT_ZERO = 1e-7
 
 
@@ -241,26 +241,30 @@ class Gradients:
     def rank(self, x: np.ndarray, error: float | np.ndarray) -> int:
         """How many gradients are certainly independent at a point.
 
-        A derivative counts where it is no rounding error of its terms, nor one that an error of
-        the coordinates explains. Rows and columns are brought to length one.
+        A singular value counts where it is larger than the sizes of all errors together (Weyl): a
+        derivative may be off by rounding of its terms, and by what an error of the coordinates
+        explains. Rows and columns are brought to length one, with their errors.
 
         Args:
             x: the point, shape ``(n,)``.
             error: how far, at most, coordinates may be from the exact ones; a number or one each.
         """
         point = np.asarray(x, dtype=complex)[None]
+        shape = self.rows, len(x)
         values = self.derivatives.values(point)[0]
         sizes = self.derivatives.absolute(point)[0]
-        doubt = self.derivatives.absolute(np.abs(point) + error)[0] - sizes
-        gradients = np.where(np.abs(values) > NOT_ZERO * sizes + doubt, values, 0)
-        gradients = (gradients * self.scales).reshape(self.rows, len(x))
+        doubt = self.derivatives.absolute(np.abs(point) + error)[0] - sizes + NOT_ZERO * sizes
+        certain = np.abs(values) > doubt
+        gradients = (np.where(certain, values, 0) * self.scales).reshape(shape)
+        errors = (np.where(certain, doubt, doubt + np.abs(values)) * self.scales).reshape(shape)
         for axis in (1, 0, 1):
             # Squares of large derivatives leave the range of doubles.
-            largest = np.abs(gradients).max(axis=axis, keepdims=True, initial=0.0)
-            gradients = gradients / np.where(largest == 0, 1.0, largest)
-            lengths = np.linalg.norm(gradients, axis=axis, keepdims=True)
-            gradients = gradients / np.where(lengths == 0, 1.0, lengths)
-        return int(np.sum(np.linalg.svd(gradients, compute_uv=False) > INDEPENDENT))
+            for order in (np.inf, 2):
+                lengths = np.linalg.norm(gradients, ord=order, axis=axis, keepdims=True)
+                lengths = np.where(lengths == 0, 1.0, lengths)
+                gradients, errors = gradients / lengths, errors / lengths
+        off = float(np.linalg.norm(errors))
+        return int(np.sum(np.linalg.svd(gradients, compute_uv=False) > INDEPENDENT + off))
 
 
 def independent_gradients(
