@@ -287,6 +287,6 @@ def test_three_lines_that_nearly_pass_through_one_point_meet_in_three(exponent: 
     assert set(meeting.values()) == {1} and {len(pair) for pair in meeting} == {2}
 
 
-def test_sheets_of_which_it_is_not_known_whether_they_meet_are_no_singular_set() -> None:
+def test_sheets_that_come_near_to_each_other_and_do_not_meet_are_smooth() -> None:
     locus = singular_locus(nag.decompose("(y - x^2)*(y - x^2 - 1/10^25)"))
-    assert not locus.sets and not locus.complete
+    assert not locus.sets and locus.complete

@@ -6,12 +6,12 @@ imports this package.
 
 The way of ``nag decompose cases/bennett.toml`` from the command to the table leads through
 `cli/command_line`, `cli/decompose`, `cli/arguments`; `files/cases`, `files/mechanism_case`;
-`mechanism/graph`, `mechanism/model`, `mechanism/loops`, `mechanism/formulations`,
-`mechanism/half_angles`, `mechanism/loop_product`, `mechanism/joint_factors`; `algebra/system`;
-`mechanism/problem`, `tracking/run`; `decomposition/components`, `decomposition/method`;
-`witness/witness`; `decomposition/reduction`, `decomposition/one_equation`, `decomposition/roots`,
-`decomposition/final_checks`; `report/answer`, `witness/shown`. What these call on the way gives
-them a value, and can be taken by its name.
+`mechanism/graph`, `mechanism/problem`, `mechanism/model`, `mechanism/loops`,
+`mechanism/formulations`, `mechanism/half_angles`, `mechanism/loop_product`,
+`mechanism/joint_factors`; `algebra/system`; `tracking/run`; `decomposition/components`,
+`decomposition/method`; `witness/witness`; `decomposition/reduction`, `decomposition/one_equation`,
+`decomposition/roots`, `decomposition/final_checks`; `report/answer`, `witness/shown`.
+What these call on the way gives them a value, and can be taken by its name.
 """
 
 from nag.cli.command_line import main

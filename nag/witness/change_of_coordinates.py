@@ -19,6 +19,7 @@ import flint
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
+from nag.errors import NagError
 from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
 from nag.witness.close_points import (
     CLOSE,
@@ -64,6 +65,8 @@ def carry_component(
         cut = component.slice if cut is None else cut
         return component if same else replace(component, slice=cut, system=system)
     rows = natural.rows(component.slice.rows) if cut is None else cut.rows
+    if not np.isfinite(rows).all():
+        raise NagError("slice: its numbers leave the range of doubles in other units")
     points, radii = carry_points(component.points, component.radii, natural)
     digits = component.digits
     fibres = carry_fibres(component.fibres, component.slice.rows, natural, rows, back)

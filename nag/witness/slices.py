@@ -60,8 +60,11 @@ def even_rows(rows: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     leave the slice as it is, so that points that are close to others are still on it.
     """
     further = np.ones(rows.shape[1] - len(sizes))
-    norms = np.linalg.norm(rows * np.concatenate([sizes, further]), axis=1, keepdims=True)
-    return rows / 2.0 ** np.rint(np.log2(norms))
+    scaled = rows * np.concatenate([sizes, further])
+    # Squares of huge numbers leave the range of doubles.
+    largest = np.abs(scaled).max(axis=1, keepdims=True)
+    norms = np.linalg.norm(scaled / largest, axis=1, keepdims=True)
+    return rows / 2.0 ** np.rint(np.log2(largest) + np.log2(norms))
 
 
 def balance_rows(source: np.ndarray, target: np.ndarray, points: np.ndarray) -> np.ndarray:
