@@ -104,7 +104,7 @@ def test_a_component_that_is_excluded_is_refuted_and_not_counted() -> None:
     )
     assert certificate.bounds == {1: 2}
     (refuted,) = [c for c in certificate.claims if c.standing is Standing.REFUTED]
-    assert refuted.subject == "component 1" and refuted.field == "components[].nonzero"
+    assert refuted.subject == "component 1" and refuted.field == "system.nonzero"
     assert refuted.text == "that nothing that must not vanish does so on it: point 1"
     assert not certificate.all_proved
 

@@ -91,14 +91,15 @@ def _claims_of(system: PolynomialSystem, certificate: ComponentCertificate, k: i
             corank_standings(equations, rows, points, corank),
         ),
     }
-    if system.nonzero:
-        standings = nonzero_standings(system.nonzero, equations, rows, points)
-        said["nonzero"] = ("that nothing that must not vanish does so on it", standings)
     name = name_entries("component", [k])
     claims = [
         claim_of_all(f"components[].{field}", text, standings, name, "point")
         for field, (text, standings) in said.items()
     ]
+    if system.nonzero:
+        standings = nonzero_standings(system.nonzero, equations, rows, points)
+        text = "that nothing that must not vanish does so on it"
+        claims.append(claim_of_all("system.nonzero", text, standings, name, "point"))
     claims += [*_irreducibility(certificate, name), *_orbit(certificate, name)]
     if certificate.moved is None:
         text = "that it is none of the others of its dimension"
