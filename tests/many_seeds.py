@@ -30,7 +30,6 @@ from nag.bench.atlas.changes import FAR_COORDINATES, changed, in_far_coordinates
 from nag.decomposition.components import decompose
 from nag.files.cases import Truth, read_case
 from nag.mechanism.assembly import AssemblyModel
-from nag.mechanism.model import model
 from nag.mechanism.problem import problem_of
 from nag.report.agreement import Verdict, compare
 from nag.witness.shown import in_words, kinds
@@ -80,16 +79,14 @@ class Result:
 
 def subject(path: Path, formulation: str | None, symmetric: bool) -> Subject:
     """The case of a file; the cheapest formulation of a mechanism unless one is named."""
-    case, chosen, name = read_case(path), None, path.stem
-    system = case.system
+    case = read_case(path)
+    asked = formulation or "auto" if case.mechanism is not None else "auto"
+    problem, name = problem_of(case, formulation=asked), path.stem
     if case.mechanism is not None:
-        chosen = model(case.mechanism, formulation or "auto")
-        system, formulation = chosen.system, chosen.formulation
-        name += f" ({formulation})"
-    else:
-        formulation = None
-    symmetries = problem_of(case if chosen is None else chosen).symmetries if symmetric else ()
-    return Subject(name, system, tuple(case.truth), formulation, symmetries, case.assembly)
+        name += f" ({problem.formulation})"
+    symmetries = problem.symmetries if symmetric else ()
+    truth = tuple(case.truth)
+    return Subject(name, problem.system, truth, problem.formulation, symmetries, case.assembly)
 
 
 def moved(of: Subject, seed: int, far: str | None) -> Subject:
