@@ -285,7 +285,7 @@ def watched_decomposition(measured: Measured) -> ExitStack:
         patch.object(trace.Trace, "_decided", around(trace.Trace._decided, straight))
     )
     everywhere(stack, splitting.split, loops)
-    everywhere(stack, splitting._looped, turned)
+    everywhere(stack, splitting._run_loop, turned)
     watch_digits(measured, stack)
     return stack
 

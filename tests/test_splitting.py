@@ -47,7 +47,7 @@ def on_line(equation: str, rng: np.random.Generator) -> Points:
 
 
 def trace_of(points: Points, rng: np.random.Generator) -> Trace:
-    found, counts = Trace.of(points, EVIDENCE, rng).carried(points, range(len(points)), TRACKER)
+    found, counts = Trace.of(points, EVIDENCE, rng).carry(points, range(len(points)), TRACKER)
     assert found is not None and counts.tracked == 2 * len(points) and counts.failed == 0
     return found
 

@@ -127,13 +127,13 @@ def timed_runs(
                 stuck = worker.stuck
                 if worker.pipe not in ready and not stuck:
                     continue
-                run = _received(worker, stuck)
+                run = _receive_run(worker, stuck)
                 yield run
                 if run.slow:
                     worker.end()
                     workers[k] = worker = _Worker.started(work, first)
-                task = next(tasks, _received)
-                if task is _received:
+                task = next(tasks, _receive_run)
+                if task is _receive_run:
                     worker.end()
                     del workers[k]
                 else:
@@ -143,7 +143,7 @@ def timed_runs(
             worker.end()
 
 
-def _received(worker: _Worker, stuck: bool) -> TimedRun:
+def _receive_run(worker: _Worker, stuck: bool) -> TimedRun:
     limit = worker.limit
     try:
         if stuck:

@@ -98,7 +98,7 @@ def run_command(options: argparse.Namespace, write: Callable[[Sequence[str]], No
         nag.NagError: as the command does.
     """
     begin(options)
-    with telling(options) as options.progress:
+    with show_progress(options) as options.progress:
         answer = options.module.run(options)
     try:
         if answer.document is not None and options.json is not None:
@@ -133,7 +133,7 @@ def begin(options: argparse.Namespace) -> None:
 
 
 @contextlib.contextmanager
-def telling(options: argparse.Namespace) -> Iterator[ProgressLine | None]:
+def show_progress(options: argparse.Namespace) -> Iterator[ProgressLine | None]:
     """Tell on standard error what a command that tracks paths does; the progress callback."""
     if "threads" not in options:
         yield None

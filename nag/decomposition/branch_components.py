@@ -24,9 +24,9 @@ from nag.decomposition.final_checks import judged
 from nag.decomposition.method import Others, Task
 from nag.decomposition.symmetric_images import in_orbits
 from nag.numerics.branch_union import (
-    Branch,
+    BranchZeros,
     GenericPoint,
-    Known,
+    PointWithError,
     find_repeats,
     multiplicities_in_scheme,
 )
@@ -103,7 +103,7 @@ class BranchComponent(GenericPoint):
         (answer,) = vanishing(first.cut, f, self.witness.slice.rows, first.points, first.fine)
         return vanishes_at_all(self.zeros, f) if answer is None else answer
 
-    def in_digits(self) -> Known:
+    def in_digits(self) -> PointWithError:
         # Zeros of other branches may be close to it.
         if len(self.zeros) == 1:
             return self.zeros[0].digits, WRITTEN
@@ -350,7 +350,8 @@ def _join(
     kept: list[BranchComponent] = []
     notes: list[str] = []
     branches = [
-        Branch(part.system, part.components, partial(coverage.is_in_larger, part)) for part in parts
+        BranchZeros(part.system, part.components, partial(coverage.is_in_larger, part))
+        for part in parts
     ]
     for component, repeated in find_repeats(branches):
         if repeated is None:

@@ -50,7 +50,7 @@ class Factor:
         """`of` the branch of a system that the component is one of, if it has branches."""
         return cls.of(component_system(system, component), component)
 
-    def carried(self, natural: NaturalCoordinates) -> Factor:
+    def carry(self, natural: NaturalCoordinates) -> Factor:
         """The component in other coordinates."""
         if natural.is_identity:
             return self

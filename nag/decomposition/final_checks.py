@@ -171,7 +171,7 @@ class Examined:
         close = CLOSE if frame.exact else CLOSE_AFAR
         if not frame.is_plain:
             far = frame.points(points.x)
-            near = reduction.natural.unscaled.points(far)
+            near = reduction.natural.without_scales.points(far)
             points = points.with_digits([*close_pairs(near), *close_pairs(far, close)])
         by_cuts = points.fibres(np.concatenate([each.indices for each in classes]))
         inner = [sharpened(fibre, points.rows, points.exact.only(own)) for fibre, own in by_cuts]

@@ -34,7 +34,8 @@ def decompose_parts(task: Task, others: Others) -> Attempt:
     if len(parts) < 2 or not all(_stays(g, parts) for g in symmetries):
         return Attempt()
     answers = [
-        others(task.of_part(_part(system, part), _restricted(symmetries, part))) for part in parts
+        others(task.of_part(_part(system, part), _restrict_symmetries(symmetries, part)))
+        for part in parts
     ]
     if not all(a.complete for a in answers):
         return Attempt()
@@ -77,7 +78,7 @@ def independent_variables(system: PolynomialSystem) -> list[tuple[int, ...]]:
 def _part(system: PolynomialSystem, part: Sequence[int]) -> PolynomialSystem:
     position = {i: k for k, i in enumerate(part)}
 
-    def own(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
+    def restrict(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]:
         return tuple(
             Polynomial(len(part), {tuple(e[i] for i in part): c for e, c in f.terms.items()})
             for f in polynomials
@@ -87,8 +88,8 @@ def _part(system: PolynomialSystem, part: Sequence[int]) -> PolynomialSystem:
     groups = [tuple(position[i] for i in g if i in position) for g in system.groups]
     return PolynomialSystem(
         tuple(system.variables[i] for i in part),
-        own(system.polynomials),
-        own(system.nonzero),
+        restrict(system.polynomials),
+        restrict(system.nonzero),
         tuple(g for g in groups if g),
     )
 
@@ -99,7 +100,7 @@ def _stays(g: SignedPermutation, parts: Sequence[tuple[int, ...]]) -> bool:
     return any(moved <= set(part) for part in parts)
 
 
-def _restricted(
+def _restrict_symmetries(
     symmetries: Sequence[SignedPermutation], part: Sequence[int]
 ) -> list[SignedPermutation]:
     position = {i: k for k, i in enumerate(part)}

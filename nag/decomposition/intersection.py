@@ -107,7 +107,7 @@ def intersect_factors(first: Factor, second: Factor, *, run: Run) -> Decompositi
         # Linear equations of both contradict each other, exactly.
         nothing = _intersection(common, {}, PathCounts(), (), rng, run)
         return _carry_back(nothing, (), whole, natural, run)
-    first, second = first.carried(natural), second.carried(natural)
+    first, second = first.carry(natural), second.carry(natural)
     found = intersected(first, second, common, rng, run)
     points = {d: Points.of(fibres, found.rows[d]) for d, fibres in found.fibres.items()}
     result = _intersection(common, points, found.counts, found.notes, rng, run)
@@ -172,7 +172,7 @@ def intersect_equations(
     system = component_system(system, component)
     whole = _union(system, equations)
     natural = coordinates_of(whole)
-    factor = Factor.of(system, component).carried(natural)
+    factor = Factor.of(system, component).carry(natural)
     common = Reduction.of(natural.system(whole))
 
     rng = run.random(6)

@@ -127,7 +127,7 @@ def split(points: Points, evidence: int, rng: np.random.Generator, run: Run) -> 
         open_points = state.open_points()
         if not len(open_points) or state.lost:
             break
-        idle = 0 if _looped(state, open_points, run, idle >= IDLE_LOOPS) else idle + 1
+        idle = 0 if _run_loop(state, open_points, run, idle >= IDLE_LOOPS) else idle + 1
     known = state.points if state.trace is None else state.trace.sharper(state.points)
     pairs = [*state.loops, *(np.column_stack([np.full(len(w), w[0]), w]) for w in state.whole)]
     labels = joined_labels(len(known), pairs)
@@ -166,7 +166,7 @@ def _found_components(state: _State, run: Run) -> bool:
         open_points = state.open_points()
         classes = _by_label(state.labels(), open_points)
         run.tell("splitting", len(state.whole), len(state.whole) + len(classes))
-        state.trace, spent = state.trace.carried(state.points, open_points, run)
+        state.trace, spent = state.trace.carry(state.points, open_points, run)
         state.counts += spent
         if state.trace is None:
             return False
@@ -294,7 +294,7 @@ def _doubt(state: _State) -> None:
     state.whole = [own for own in state.whole if _is_linear(state, own)]
 
 
-def _looped(state: _State, open_points: np.ndarray, run: Run, scaled: bool) -> bool:
+def _run_loop(state: _State, open_points: np.ndarray, run: Run, scaled: bool) -> bool:
     """Track a random loop from open points; whether it joined some or found any."""
     found, spent = loop(state.points, open_points, state.rng, run, scaled)
     state.counts += spent

@@ -100,7 +100,7 @@ class Trace:
         weights = rng.integers(-WEIGHTS, WEIGHTS + 1, (2 * points.n, 2 * points.n))
         return cls(shift or 1.0, gamma, evidence, {}, {}, {}, weights)
 
-    def carried(
+    def carry(
         self, points: Points, indices: Iterable[int], run: Run
     ) -> tuple[Trace | None, PathCounts]:
         """The trace of these points as well; None if a path failed."""
@@ -261,7 +261,7 @@ def has_linear_trace(
     fibres = component_fibres(bare.system, bare)
     points = Points.of(fibres, bare.slice.rows)
     trace = Trace.of(points, digits_of_evidence(system.polynomials), rng)
-    carried, _ = trace.carried(points, range(len(points)), run)
+    carried, _ = trace.carry(points, range(len(points)), run)
     return None if carried is None else carried.linear(points, range(len(points)))[0]
 
 

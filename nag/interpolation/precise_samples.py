@@ -76,7 +76,7 @@ def source_of_component(system: PolynomialSystem, component: WitnessSet) -> Sour
             deflation does not mend.
     """
     _check_rational(system)
-    natural = coordinates_of(system).unscaled
+    natural = coordinates_of(system).without_scales
     own = natural.system(system)
     component = carry_component(component, natural, own)
     try:
@@ -103,7 +103,7 @@ def source_at(
     dimension = system.n - jacobian_rank(system.polynomials, point)
     if dimension == 0:
         raise SourceError("the point is isolated; there is nothing to eliminate from")
-    natural = coordinates_of(system).unscaled
+    natural = coordinates_of(system).without_scales
     own, x = natural.system(system), rounded(natural.numbers(point))
     sizes = scale_coordinates(own.polynomials, own.n).sizes
     rows = rows_through(rng, dimension, x, np.concatenate([[1.0], sizes]))

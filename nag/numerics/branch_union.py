@@ -35,7 +35,7 @@ from nag.numerics.zero_values import (
 )
 
 # A point, in doubles or in balls, and how far the exact one may be from it.
-Known = tuple["np.ndarray | Sequence[flint.acb | tuple[str, str]]", "float | np.ndarray"]
+PointWithError = tuple["np.ndarray | Sequence[flint.acb | tuple[str, str]]", "float | np.ndarray"]
 
 
 class GenericPoint(ABC):
@@ -87,7 +87,7 @@ class GenericPoint(ABC):
         """How far the coordinates of `point` may be from the exact ones; a number or one each."""
 
     @abstractmethod
-    def in_digits(self) -> Known:
+    def in_digits(self) -> PointWithError:
         """The point as well as it is known, and its error as `possible_zeros` takes it."""
 
     @cached_property
@@ -124,7 +124,7 @@ P = TypeVar("P", bound=GenericPoint)
 
 
 @dataclass(frozen=True, eq=False)
-class Branch(Generic[P]):
+class BranchZeros(Generic[P]):
     """A branch of a system, by generic points of its components.
 
     Attributes:
@@ -137,7 +137,7 @@ class Branch(Generic[P]):
     is_in_larger: Callable[[P], bool | None]
 
 
-def find_repeats(branches: Sequence[Branch[P]]) -> Iterator[tuple[P, bool | None]]:
+def find_repeats(branches: Sequence[BranchZeros[P]]) -> Iterator[tuple[P, bool | None]]:
     """Each point, and whether another branch has its component.
 
     That is one in which its component is part of a larger one, or an earlier one that has it too.
@@ -154,7 +154,7 @@ def find_repeats(branches: Sequence[Branch[P]]) -> Iterator[tuple[P, bool | None
             yield point, _any(_is_repeated(point, branches[j], j < i) for j in others)
 
 
-def _is_repeated(point: P, other: Branch[P], earlier: bool) -> bool | None:
+def _is_repeated(point: P, other: BranchZeros[P], earlier: bool) -> bool | None:
     unknown = False
     for f in other.system.polynomials:
         answer = point.vanishes(f)

@@ -76,7 +76,7 @@ class NaturalCoordinates:
         return np.array([float(s) for s in self.scales])
 
     @cached_property
-    def unscaled(self) -> NaturalCoordinates:
+    def without_scales(self) -> NaturalCoordinates:
         """The same origin, and the units that are given."""
         return replace(self, scales=(Fraction(1),) * len(self.scales))
 
@@ -90,7 +90,7 @@ class NaturalCoordinates:
             scales, tuple(-b * s for b, s in zip(self.origin, scales, strict=True))
         )
 
-    def then(self, other: NaturalCoordinates) -> NaturalCoordinates:
+    def compose(self, other: NaturalCoordinates) -> NaturalCoordinates:
         """Other coordinates of ``y``."""
         if other.is_identity:
             return self
@@ -218,7 +218,7 @@ def comparable_coordinates(polynomials: Sequence[Polynomial], n: int) -> Natural
     Whatever starts from sets of zeros begins by going there, linear equations and all.
     """
     natural = natural_coordinates(polynomials, n)
-    return natural.then(scale_coordinates([natural.polynomial(f) for f in polynomials], n))
+    return natural.compose(scale_coordinates([natural.polynomial(f) for f in polynomials], n))
 
 
 def shift_polynomial(f: Polynomial, origin: Sequence[Fraction]) -> Polynomial:

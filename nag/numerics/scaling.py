@@ -20,7 +20,7 @@ from nag.algebra.polynomial import Exponents, Polynomial
 
 # Exponents beyond this would leave the range of doubles.
 LARGEST = 200
-# Weight of unscaled variables where the coefficients do not ask for a scale.
+# Weight of without_scales variables where the coefficients do not ask for a scale.
 INERTIA = 1e-2
 # Binary orders between the coefficients of an equation from which on those that are odd lose their
 # weight, in so many steps: no scales bring such to the digits that doubles have to spare.

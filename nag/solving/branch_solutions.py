@@ -22,9 +22,9 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.branch_union import (
-    Branch,
+    BranchZeros,
     GenericPoint,
-    Known,
+    PointWithError,
     find_repeats,
     multiplicities_in_scheme,
 )
@@ -96,7 +96,7 @@ class _Found(GenericPoint):
     def vanishes_in_digits(self, f: Polynomial, image: Polynomial) -> bool | None:
         return vanishes_at_all(self._zeros, image) if self.tracked is not None else None
 
-    def in_digits(self) -> Known:
+    def in_digits(self) -> PointWithError:
         if self.tracked is not None and len(self._zeros) != 1:
             return _known(self.solution)
         # Zeros of other branches may be close to it.
@@ -173,9 +173,9 @@ class _Part:
     undecided: np.ndarray
 
     @property
-    def branch(self) -> Branch[_Found]:
+    def branch(self) -> BranchZeros[_Found]:
         """The branch by the solutions."""
-        return Branch(self.system, self.found, self._is_in_larger)
+        return BranchZeros(self.system, self.found, self._is_in_larger)
 
     def _is_in_larger(self, zero: _Found) -> bool:
         """Whether a zero of the equations is no isolated one: these were all found."""

@@ -77,7 +77,7 @@ def solve_whole(
     rng = run.random()
     equations = [f for f in system.polynomials if f]
     if any(f.degree == 0 for f in equations) or system.n == 0:
-        return _nothing(system, run)
+        return _solve_constants(system, run)
     problem = SquareProblem.of(system, equations, rng)
     run.tell("solve", 0, 1)
     settings, threads = run.settings, run.threads
@@ -149,7 +149,7 @@ def ends_of(
     return _result(problem, begin, reason, paths, judged_ends(problem, begin, paths, rng), run)
 
 
-def _nothing(system: PolynomialSystem, run: Run) -> SolveResult:
+def _solve_constants(system: PolynomialSystem, run: Run) -> SolveResult:
     empty = np.zeros((0, system.n), dtype=complex)
     contradiction = any(f.degree == 0 for f in system.polynomials)
     solutions = ()

@@ -136,7 +136,7 @@ def carry_fibres(
     moved = natural.points(points.x)
     if back:
         # Where points are asked about: in the units that are given.
-        points = points.with_digits(close_pairs(natural.inverse.unscaled.points(moved)))
+        points = points.with_digits(close_pairs(natural.inverse.without_scales.points(moved)))
     points = points.with_digits(close_pairs(moved, after))
     own = [fibre for fibre, _ in points.fibres(range(len(points)))]
     return with_fine([_carry_fibre(fibre, natural, target) for fibre in own], target, after)

@@ -298,7 +298,7 @@ def memberships(
     point = in_doubles(point, system.variables)
     if Evaluator.of(system.polynomials, system.n).residuals(point[None]).max(initial=0.0) > NONZERO:
         return (Membership.FOREIGN,) * len(decomposition.components)
-    asked = _Asked.of(point, accuracy, exact, coordinates_of(system).unscaled)
+    asked = _Asked.of(point, accuracy, exact, coordinates_of(system).without_scales)
     whole = carry_decomposition(decomposition, asked.natural)
     answers, shared = _by_components(whole, asked, rng, run)
     nowhere = all(answer is Membership.FOREIGN for answer in answers)

@@ -123,7 +123,7 @@ def real_points_near(
     near = _real_vector(near, system.n)
     rng = run.random(8)
     # Distances are those in the units that are given.
-    natural = coordinates_of(system).unscaled
+    natural = coordinates_of(system).without_scales
     system, near = natural.system(system), natural.points(near)
     component = carry_component(component, natural, system)
     fibres = component_fibres(system, component)
