@@ -1,10 +1,10 @@
 """Numbers of many digits and what they decide: rank, deflation, local rings, proofs.
 
-In order of reading: `read_only` (what results hold); `coincidence`, `zero_values` and `scaling`
-(doubles, and what they leave to others); `natural_coordinates` (origin and units, exact); `digits`,
-`power_series`, `point_values`, `null_space` and `pivots` (arithmetic and rank); `exact_system` and
-`algebraic_point` (exact points, modulo primes); `branch_union` (what factors of equations leave,
-joined); `implicit_function` (the regular part of equations
+In order of reading: `read_only` and `array_table` (what results hold); `coincidence`, `zero_values`
+and `scaling` (doubles, and what they leave to others); `natural_coordinates` (origin and units,
+exact); `digits`, `power_series`, `point_values`, `null_space` and `pivots` (arithmetic and rank);
+`exact_system` and `algebraic_point` (exact points, modulo primes); `branch_union` (what factors of
+equations leave, joined); `implicit_function` (the regular part of equations
 solved by series); `deflation` (a singular zero made a regular one) by `descent` and `sharpening`,
 with `second_round` and `rounds_in_doubles`; `dual_space` (the dimension of its local ring),
 `far_along`, `curves` and `clusters` on `series_zeros` (zeros beside it); `singular_point` on

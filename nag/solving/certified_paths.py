@@ -124,7 +124,7 @@ def _identified(paths: CertifiedPaths, known: Located) -> np.ndarray:
     """For each path that arrived which of the known zeros it ends in, -1 for none."""
     ends = np.full(len(paths.reached), -1)
     for p in np.flatnonzero(paths.reached == 0).tolist():
-        same = np.flatnonzero(paths.ends.only(np.array([p])).same(known))
+        same = np.flatnonzero(paths.ends.select_rows(np.array([p])).same(known))
         if len(same) == 1:
             ends[p] = same[0]
     return ends

@@ -7,8 +7,6 @@ says where a lost path must have led: of a simple zero, exactly one path ends th
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from nag.solving.start.target import Start
@@ -16,7 +14,6 @@ from nag.tracking.ends.inclusion import proved
 from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.projective import coinciding
-from nag.tracking.track import merged
 
 
 def with_conjugate_ends(begin: Start, paths: Paths) -> Paths:
@@ -29,17 +26,18 @@ def with_conjugate_ends(begin: Start, paths: Paths) -> Paths:
     lost = paths.where(PathStatus.FAILED)
     if not begin.complete or not len(lost):
         return paths
-    missing = _conjugates(paths, _alone(begin, paths))
+    missing = paths.select_rows(_alone(begin, paths)).conjugate()
     if len(missing) != len(lost) or not _all_proved(begin, missing):
         return paths
-    return merged(paths, replace(missing, steps=np.zeros_like(missing.steps)), lost)
+    return paths.track_again(lost, missing)
 
 
 def _alone(begin: Start, paths: Paths) -> np.ndarray:
     """Indices of the finite regular ends whose conjugates are no such ends."""
     regular = paths.where(PathStatus.REGULAR)
     count = len(regular)
-    twice = _joined(_chosen(paths, regular), _conjugates(paths, regular))
+    ends = paths.select_rows(regular)
+    twice = Paths.concatenate([ends, ends.conjugate()])
     paired = np.zeros(count, dtype=bool)
     groups = begin.homotopy.groups
     for i, j in coinciding(groups, twice.points, twice.accuracy).tolist():
@@ -58,26 +56,3 @@ def _all_proved(begin: Start, ends: Paths) -> bool:
         if proved(terms, ball.centre, ball.radii) is None:
             return False
     return True
-
-
-def _chosen(paths: Paths, indices: np.ndarray) -> Paths:
-    names = set(paths.__dataclass_fields__) - {"balls", "branches"}
-    arrays = {name: getattr(paths, name)[indices] for name in names}
-    balls = {k: paths.balls[i] for k, i in enumerate(indices.tolist()) if i in paths.balls}
-    return Paths(**arrays, balls=balls)
-
-
-def _conjugates(paths: Paths, indices: np.ndarray) -> Paths:
-    """The conjugates of regular ends."""
-    sign = np.array([1.0, -1.0])[:, None]
-    ends = _chosen(paths, indices)
-    balls = {k: Ball(ball.centre * sign, ball.radii) for k, ball in ends.balls.items()}
-    return replace(ends, points=ends.points.conj(), balls=balls)
-
-
-def _joined(first: Paths, second: Paths) -> Paths:
-    """The ends of both, those of the first one before."""
-    names = set(first.__dataclass_fields__) - {"balls", "branches"}
-    arrays = {n: np.concatenate([getattr(first, n), getattr(second, n)]) for n in names}
-    shift = len(first)
-    return Paths(**arrays, balls={**first.balls, **{shift + i: b for i, b in second.balls.items()}})

@@ -20,6 +20,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator, PlacedDerivatives
 from nag.algebra.family import Family
+from nag.numerics.array_table import ArrayTable
 
 EPS = float(np.finfo(float).eps)
 # Newton steps in doubles at most, and with residuals in `DIGITS` digits.
@@ -39,7 +40,7 @@ TINY = 1e-30
 
 
 @dataclass(frozen=True, eq=False)
-class Confirmed:
+class Confirmed(ArrayTable):
     """Points after Newton's method, shape ``(P, n)``, and what is known of them, shape ``(P,)``.
 
     Attributes:
@@ -58,17 +59,6 @@ class Confirmed:
     isolation: np.ndarray
     condition: np.ndarray
     precision: np.ndarray
-
-    def only(self, places: np.ndarray) -> Confirmed:
-        """Some of the points."""
-        return Confirmed(*(getattr(self, name)[places] for name in self.__dataclass_fields__))
-
-    def replaced(self, places: np.ndarray, others: Confirmed) -> Confirmed:
-        """The points with others at some places."""
-        fields = {name: getattr(self, name).copy() for name in self.__dataclass_fields__}
-        for name, values in fields.items():
-            values[places] = getattr(others, name)
-        return Confirmed(**fields)
 
     @property
     def radii(self) -> np.ndarray:
@@ -104,15 +94,14 @@ class Confirmation:
                 done = list(pool.map(lambda block: self._block(block, values), blocks))
         else:
             done = [self._block(block, values) for block in blocks]
-        fields = Confirmed.__dataclass_fields__
-        result = {f: np.concatenate([getattr(d, f) for d, _ in done]) for f in fields}
-        promising = np.concatenate([p for _, p in done])
-        for i in np.flatnonzero(promising)[:MOST_FINE]:
-            fine = self._fine(result["points"][i], values)
-            if fine is not None and fine.regular[0]:
-                for f in fields:
-                    result[f][i] = getattr(fine, f)[0]
-        return Confirmed(**result)
+        result = Confirmed.concatenate([each for each, _ in done])
+        promising = np.flatnonzero(np.concatenate([p for _, p in done]))[:MOST_FINE]
+        again = [(i, self._fine(result.points[i], values)) for i in promising.tolist()]
+        better = [(i, fine) for i, fine in again if fine is not None and fine.regular[0]]
+        if not better:
+            return result
+        places = np.array([i for i, _ in better])
+        return result.replace_rows(places, Confirmed.concatenate([fine for _, fine in better]))
 
     def _joined(self, points: np.ndarray, values: np.ndarray) -> np.ndarray:
         return np.hstack([points, np.broadcast_to(values, (len(points), len(values)))])
@@ -153,7 +142,7 @@ class Confirmation:
                 largest = np.abs(points[left]).max(axis=1, keepdims=True)
                 sizes = np.repeat(np.where(largest > 0, largest, 1.0), points.shape[1], axis=1)
                 again = self._judged(points[left], values, finite[left], sizes, None)
-                judged = judged.replaced(left[again.regular], again.only(again.regular))
+                judged = judged.replace_rows(left[again.regular], again.select_rows(again.regular))
             return judged, finite & ~judged.regular & (length < PROMISING)
 
     def _judged(

@@ -23,7 +23,7 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.settings import Settings, named, tighter
-from nag.tracking.track import merged, track
+from nag.tracking.track import track
 
 Progress = Callable[[str, int, int], None]
 
@@ -116,7 +116,8 @@ def _once_more(
     begin: Start, paths: Paths, chosen: np.ndarray, settings: Settings, threads: int
 ) -> Paths:
     """The paths, those chosen tracked with other settings."""
-    return merged(paths, track(begin.homotopy, begin.points[chosen], settings, threads), chosen)
+    again = track(begin.homotopy, begin.points[chosen], settings, threads)
+    return paths.track_again(chosen, again)
 
 
 def begin_of(

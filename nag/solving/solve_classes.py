@@ -152,7 +152,7 @@ def _joined(
     free = free[np.argsort(found.at_infinity[free] + found.singular[free], kind="stable")]
     new = new[: len(free)]
     places = free[: len(new)]
-    ends = found.ends.replaced(places, other.ends.only(new))
+    ends = found.ends.replace_rows(places, other.ends.select_rows(new))
     flags = [f.copy() for f in (found.arrived, found.at_infinity, found.singular)]
     for flag, value in zip(flags, (True, False, False), strict=True):
         flag[places] = value
@@ -210,7 +210,7 @@ def track_classes(
         starts = line.starts(member[left])
         paths = track(line.homotopy, starts, chosen, threads, endgame=False, distinct=False)
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
-        ends = ends.replaced(left, confirm(line.affine(paths.points) * x, goal, threads))
+        ends = ends.replace_rows(left, confirm(line.affine(paths.points) * x, goal, threads))
         arrived = ends.regular & ~_repeated(symmetric, ends, x, near)
     left = np.flatnonzero(~arrived)
     infinite, singular = np.zeros_like(arrived), np.zeros_like(arrived)
@@ -219,7 +219,7 @@ def track_classes(
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
         points = line.affine(paths.points)
         points[paths.status == PathStatus.AT_INFINITY] = np.nan
-        ends = ends.replaced(left, confirm(points * x, goal, threads))
+        ends = ends.replace_rows(left, confirm(points * x, goal, threads))
         arrived = ends.regular & ~_repeated(symmetric, ends, x, near)
         infinite[left] = (paths.status == PathStatus.AT_INFINITY) & ~arrived[left]
         singular[left] = (paths.status == PathStatus.SINGULAR) & ~arrived[left]

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nag.numerics.array_table import ArrayTable
 from nag.numerics.discs import LEAST, UNIT, UP, Discs, magnitude, rounding_of_sum
 from nag.numerics.krawczyk import inverses
 from nag.tracking.moving_discs import MovingSystem, times
@@ -39,7 +40,7 @@ SIDES, BLOCK = 10, 256
 
 
 @dataclass(frozen=True, eq=False)
-class Located:
+class Located(ArrayTable):
     """Zeros, each by a box that it lies in, and a larger one that holds no other.
 
     Attributes:
@@ -55,10 +56,6 @@ class Located:
     def proved(self) -> np.ndarray:
         """Which of them there are, shape ``(P,)``."""
         return (self.outer > 0).all(axis=1)
-
-    def only(self, chosen: np.ndarray) -> Located:
-        """Some of them."""
-        return Located(self.centres[chosen], self.inner[chosen], self.outer[chosen])
 
     def same(self, other: Located) -> np.ndarray:
         """Which pairs are proved to be the same zero, one of each; shapes may be broadcast."""
@@ -193,7 +190,7 @@ def _tried(system: MovingSystem, state: _State, active: np.ndarray) -> np.ndarra
     radii = state.sides[active]
     tube = _tube(system, curve, t, end, radii)
     first, last = (_end_of(curve, tube.inner, radii, s) for s in (-1, 1))
-    proved = tube.proved & first.same(state.at.only(active))
+    proved = tube.proved & first.same(state.at.select_rows(active))
     done = active[proved]
     state.x[done], state.rates[done], state.t[done] = guess[proved], far_rates[proved], end[proved]
     state.at.centres[done], state.at.inner[done] = last.centres[proved], last.inner[proved]

@@ -19,7 +19,6 @@ from nag.tracking.homotopy import Homotopy
 from nag.tracking.jumps import collisions
 from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.settings import Settings, named
-from nag.tracking.track import merged, without
 
 # Words of a start point, and Newton's constant above which double-double is not tried first.
 WORDS, STEEP = 4, 1e11
@@ -98,8 +97,9 @@ def track_close(
         if not len(failed):
             break
         own = starts[failed], curvature[failed]
-        paths = merged(paths, _follow_in(words, homotopy, *own, chosen, threads, endgame), failed)
-    return without(paths, collisions(homotopy, paths))
+        again = _follow_in(words, homotopy, *own, chosen, threads, endgame)
+        paths = paths.track_again(failed, again)
+    return paths.mark_failed(collisions(homotopy, paths))
 
 
 def _follow_in(
@@ -116,4 +116,4 @@ def _follow_in(
     known = min(words, starts.shape[-1])
     own[..., :known] = starts[..., :known]
     paths = follow_whole(homotopy, own, curvature, settings, threads)
-    return paths if endgame else without(paths, paths.where(PathStatus.SINGULAR))
+    return paths if endgame else paths.mark_failed(paths.where(PathStatus.SINGULAR))

@@ -25,21 +25,12 @@ class PathOrbits:
     orbit: np.ndarray
     sources: np.ndarray
 
-    def expanded(self, paths: Paths, groups: Sequence[Sequence[int]]) -> Paths:
+    def expand(self, paths: Paths, groups: Sequence[Sequence[int]]) -> Paths:
         """All paths, from those chosen; steps count where they were taken."""
         steps = np.zeros(len(self.orbit), dtype=paths.steps.dtype)
         steps[self.chosen] = paths.steps
-        names = ("status", "winding", "accuracy", "condition", "precision", "reason", "simple")
-        columns = {name: getattr(paths, name)[self.orbit] for name in names}
-        points = np.take_along_axis(paths.points[self.orbit], self.sources, axis=1)
-        number = list(enumerate(self.orbit.tolist()))
-        balls = {p: paths.balls[k].permuted(self.sources[p]) for p, k in number if k in paths.balls}
-        branches = {
-            p: paths.branches[k].permuted(self.sources[p], groups)
-            for p, k in number
-            if k in paths.branches
-        }
-        return replace(paths, points=points, steps=steps, balls=balls, branches=branches, **columns)
+        every = paths.select_rows(self.orbit).permute(self.sources, groups)
+        return replace(every, steps=steps)
 
 
 @dataclass(frozen=True, eq=False)

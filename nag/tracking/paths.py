@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from fractions import Fraction
 
 import numpy as np
 
+from nag.numerics.array_table import ArrayTable
 from nag.tracking.homotopy import Homotopy
 
 # Errors of ends in more digits that may be as much larger.
@@ -68,7 +69,7 @@ class Ball:
             for re, im in self.centre
         ]
 
-    def permuted(self, sources: np.ndarray) -> Ball:
+    def permute(self, sources: np.ndarray) -> Ball:
         """The same with coordinate ``sources[i]`` in place ``i``."""
         return Ball(self.centre[sources], self.radii[sources])
 
@@ -89,7 +90,7 @@ class Branch:
     logs: np.ndarray
     bends: np.ndarray
 
-    def permuted(self, sources: np.ndarray, groups: Sequence[Sequence[int]]) -> Branch:
+    def permute(self, sources: np.ndarray, groups: Sequence[Sequence[int]]) -> Branch:
         """The same with coordinate ``sources[i]`` in place ``i``."""
         orders = tuple(self.orders[k] for k in sources)
         logs, bends = self.logs[sources], self.bends[sources]
@@ -118,7 +119,7 @@ def relative(
 
 
 @dataclass(frozen=True, eq=False)
-class Paths:
+class Paths(ArrayTable):
     """Ends of ``P`` paths.
 
     Attributes:
@@ -174,8 +175,44 @@ class Paths:
                     return False
         return True
 
-    def __len__(self) -> int:
-        return len(self.points)
+    def track_again(self, indices: np.ndarray, ends: Paths) -> Paths:
+        """The same, some of which were tracked to other ends; steps add up."""
+        found = self.replace_rows(indices, ends)
+        found.steps[indices] += self.steps[indices]
+        return found
+
+    def mark_failed(self, indices: np.ndarray) -> Paths:
+        """The same, some of which have failed: their ends ask for more digits."""
+        status, reason, winding = self.status.copy(), self.reason.copy(), self.winding.copy()
+        status[indices], reason[indices], winding[indices] = PathStatus.FAILED, Reason.ENDGAME, 0
+        simple = self.simple & (status != int(PathStatus.FAILED))
+        return replace(self, status=status, reason=reason, winding=winding, simple=simple)
+
+    def mark_infinite(self, indices: np.ndarray, homotopy: Homotopy) -> Paths:
+        """The same, some of which are known to lead to infinity, though not where."""
+        status, reason, points = self.status.copy(), self.reason.copy(), self.points.copy()
+        status[indices], reason[indices] = PathStatus.AT_INFINITY, Reason.NONE
+        infinite = np.array(homotopy.infinity)
+        least = infinite[np.abs(points[np.ix_(indices, infinite)]).argmin(axis=1)]
+        points[indices, least] = 0.0
+        points[indices] = homotopy.normalized(points[indices])
+        return replace(self, points=points, status=status, reason=reason)
+
+    def conjugate(self) -> Paths:
+        """The complex conjugates of regular ends, to which no path was tracked."""
+        sign = np.array([1.0, -1.0])[:, None]
+        balls = {k: Ball(ball.centre * sign, ball.radii) for k, ball in self.balls.items()}
+        steps = np.zeros_like(self.steps)
+        return replace(self, points=self.points.conj(), steps=steps, balls=balls)
+
+    def permute(self, sources: np.ndarray, groups: Sequence[Sequence[int]]) -> Paths:
+        """The same with coordinate ``sources[p, i]`` of path ``p`` in place ``i``."""
+        return replace(
+            self,
+            points=np.take_along_axis(self.points, sources, axis=1),
+            balls={p: ball.permute(sources[p]) for p, ball in self.balls.items()},
+            branches={p: b.permute(sources[p], groups) for p, b in self.branches.items()},
+        )
 
     def __repr__(self) -> str:
         counts = Counter(self.status.tolist())

@@ -8,7 +8,7 @@ that prove to have jumped are tracked again.
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -83,8 +83,9 @@ def track(
         if not len(jumped):
             return paths
         chosen = tighter(chosen)
-        paths = merged(paths, _attempt(homotopy, starts[jumped], chosen, threads, endgame), jumped)
-    return without(paths, collisions(homotopy, paths)) if distinct else paths
+        again = _attempt(homotopy, starts[jumped], chosen, threads, endgame)
+        paths = paths.track_again(jumped, again)
+    return paths.mark_failed(collisions(homotopy, paths)) if distinct else paths
 
 
 class RegularEnds(NamedTuple):
@@ -158,20 +159,20 @@ def _attempt(
     paths, regular = _judged(homotopy, raw)
     doubtful = paths.where(PathStatus.FAILED)
     if len(doubtful) and settings.digits >= 32:
-        every = paths if orbits is None else orbits.expanded(paths, homotopy.groups)
+        every = paths if orbits is None else orbits.expand(paths, homotopy.groups)
         if known.most is not None and _all_are_found(homotopy, every, known.most):
-            paths = _to_infinity(homotopy, paths, doubtful)
+            paths = paths.mark_infinite(doubtful, homotopy)
         else:
             infinite, ends = _infinite(homotopy, paths, doubtful[regular[doubtful]])
             if len(infinite):
-                paths = merged(paths, ends, infinite)
+                paths = paths.track_again(infinite, ends)
                 doubtful = paths.where(PathStatus.FAILED)
             if len(doubtful):
                 more = _followed(homotopy, starts, raw, regular, doubtful, settings, threads)
                 if not endgame:
-                    more = without(more, more.where(PathStatus.SINGULAR))
-                paths = merged(paths, more, doubtful)
-    return paths if orbits is None else orbits.expanded(paths, homotopy.groups)
+                    more = more.mark_failed(more.where(PathStatus.SINGULAR))
+                paths = paths.track_again(doubtful, more)
+    return paths if orbits is None else orbits.expand(paths, homotopy.groups)
 
 
 def _infinite(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> tuple[np.ndarray, Paths]:
@@ -213,17 +214,6 @@ def _all_are_found(homotopy: Homotopy, paths: Paths, most: int) -> bool:
         return False
     sizes = np.abs(paths.points[regular]).min(axis=1)
     return bool((sizes > NONZERO * paths.accuracy[regular]).all())
-
-
-def _to_infinity(homotopy: Homotopy, paths: Paths, chosen: np.ndarray) -> Paths:
-    """The same, with the paths ``chosen`` known to lead to infinity, though not where."""
-    status, reason, points = paths.status.copy(), paths.reason.copy(), paths.points.copy()
-    status[chosen], reason[chosen] = PathStatus.AT_INFINITY, Reason.NONE
-    infinite = np.array(homotopy.infinity)
-    least = infinite[np.abs(points[np.ix_(chosen, infinite)]).argmin(axis=1)]
-    points[chosen, least] = 0.0
-    points[chosen] = homotopy.normalized(points[chosen])
-    return replace(paths, points=points, status=status, reason=reason)
 
 
 def run_in_doubles(
@@ -318,28 +308,3 @@ def _judged(homotopy: Homotopy, raw: StraightRun) -> tuple[Paths, np.ndarray]:
     return Paths(
         points, status, winding, accuracy, condition, raw.steps, digits, reason, good
     ), regular
-
-
-def without(paths: Paths, lost: np.ndarray) -> Paths:
-    """The same, with the paths at ``lost`` failed."""
-    status, reason, winding = paths.status.copy(), paths.reason.copy(), paths.winding.copy()
-    status[lost], reason[lost], winding[lost] = PathStatus.FAILED, Reason.ENDGAME, 0
-    simple = paths.simple & (status != int(PathStatus.FAILED))
-    return replace(paths, status=status, reason=reason, winding=winding, simple=simple)
-
-
-def merged(old: Paths, new: Paths, indices: np.ndarray) -> Paths:
-    """``old`` with the paths at ``indices`` replaced; steps add up."""
-    fields = {}
-    for name in old.__dataclass_fields__:
-        if name in ("balls", "branches"):
-            continue
-        array = getattr(old, name).copy()
-        values = getattr(new, name)
-        array[indices] = array[indices] + values if name == "steps" else values
-        fields[name] = array
-    replaced = set(indices.tolist())
-    for name in ("balls", "branches"):
-        kept = {i: end for i, end in getattr(old, name).items() if i not in replaced}
-        fields[name] = kept | {int(indices[i]): end for i, end in getattr(new, name).items()}
-    return replace(old, **fields)

@@ -124,7 +124,7 @@ def _loop(
             every = np.vstack([f.x for f in fibres]).astype(complex)
             known, begin = located(out, every, 1.0, NEAR), 0
         for i in range(len(fibre)):
-            same = np.flatnonzero(ends.only(np.array([i])).same(known))
+            same = np.flatnonzero(ends.select_rows(np.array([i])).same(known))
             places.append(begin + int(same[0]) if len(same) == 1 else -1)
         steps += there.steps + again.steps
         first += len(fibre)

@@ -1,0 +1,68 @@
+"""Tables: of each of P things the same is known, and some are chosen, replaced or added.
+
+Columns are arrays of first length P, tables, or mappings by index of what only some things have.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, replace
+from typing import Any, Self
+
+import numpy as np
+
+
+class ArrayTable:
+    """A dataclass all of whose fields are columns."""
+
+    def _columns(self) -> Iterator[tuple[str, Any]]:
+        for each in fields(self):  # type: ignore[arg-type]
+            yield each.name, getattr(self, each.name)
+
+    def __len__(self) -> int:
+        return len(next(column for _, column in self._columns()))
+
+    def select_rows(self, indices: np.ndarray) -> Self:
+        """Those at some indices, in that order, or where a mask is true."""
+        indices = np.arange(len(self))[indices]
+        chosen: dict[str, Any] = {}
+        for name, column in self._columns():
+            if isinstance(column, Mapping):
+                places = enumerate(indices.tolist())
+                chosen[name] = {k: column[i] for k, i in places if i in column}
+            elif isinstance(column, ArrayTable):
+                chosen[name] = column.select_rows(indices)
+            else:
+                chosen[name] = column[indices]
+        return replace(self, **chosen)  # type: ignore[type-var]
+
+    def replace_rows(self, indices: np.ndarray, others: Self) -> Self:
+        """The same with others at some indices."""
+        gone, changed = set(indices.tolist()), {}
+        for name, column in self._columns():
+            new = getattr(others, name)
+            if isinstance(column, Mapping):
+                kept = {i: value for i, value in column.items() if i not in gone}
+                changed[name] = kept | {int(indices[k]): value for k, value in new.items()}
+            elif isinstance(column, ArrayTable):
+                changed[name] = column.replace_rows(indices, new)
+            else:
+                changed[name] = column.copy()
+                changed[name][indices] = new
+        return replace(self, **changed)  # type: ignore[type-var]
+
+    @classmethod
+    def concatenate(cls, tables: Sequence[Self]) -> Self:
+        """The rows of one table after those of another; there is at least one."""
+        firsts = np.cumsum([0, *map(len, tables)]).tolist()
+        whole: dict[str, Any] = {}
+        for name, column in tables[0]._columns():
+            parts = [getattr(table, name) for table in tables]
+            if isinstance(column, Mapping):
+                pairs = zip(firsts, parts, strict=False)
+                whole[name] = {first + k: part[k] for first, part in pairs for k in part}
+            elif isinstance(column, ArrayTable):
+                whole[name] = column.concatenate(parts)
+            else:
+                whole[name] = np.concatenate(parts)
+        return replace(tables[0], **whole)  # type: ignore[type-var]
