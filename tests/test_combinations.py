@@ -17,7 +17,7 @@ from systems import system
 
 import nag
 from nag.algebra.combinations import of_fewest_terms, of_lowest_degrees
-from nag.algebra.linear_algebra import rational_matrix
+from nag.algebra.exact_ranks import rational_matrix
 from nag.algebra.polynomial import Polynomial
 from nag.bench.atlas.families import FAMILIES
 from nag.solving.solve import solve

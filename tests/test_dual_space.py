@@ -6,7 +6,7 @@ import flint
 import pytest
 from singular_zeros import polynomials
 
-from nag.algebra.linear_algebra import PrimeField
+from nag.algebra.exact_ranks import PrimeField
 from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.null_space import Digits, Field, UnclearRank

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from linkages import general_loop
 
-from nag.algebra.linear_algebra import is_dependent
+from nag.algebra.exact_ranks import is_dependent
 from nag.algebra.number import Irrational
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition import isolated

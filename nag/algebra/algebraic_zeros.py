@@ -17,7 +17,9 @@ import numpy as np
 
 from nag.algebra.bivariate import zero_families
 from nag.algebra.elimination import linear_variables
+from nag.algebra.exact_ranks import are_independent_over
 from nag.algebra.factoring import Ring, ring
+from nag.algebra.flint_numbers import to_rational
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 
@@ -101,7 +103,7 @@ class AlgebraicZero:
     ) -> AlgebraicZero:
         """The zero with coordinates ``scales[i] x_i + origin[i]``."""
         moved = tuple(
-            c * flint.fmpq(*s.as_integer_ratio()) + flint.fmpq(*b.as_integer_ratio())
+            c * to_rational(s) + to_rational(b)
             for c, s, b in zip(self.coordinates, scales, origin, strict=True)
         )
         return replace(self, coordinates=moved, known={})
@@ -120,7 +122,9 @@ class AlgebraicZero:
         """Whether the gradients of exact polynomials are independent there, decided exactly."""
         key = tuple(polynomials)
         if key not in self.known:
-            self.known[key] = self._seen_independent(key) or self._independent(key)
+            self.known[key] = self._seen_independent(key) or are_independent_over(
+                [[self.value(f.derivative(i)) for i in range(f.n)] for f in key], self.minimal
+            )
         return self.known[key]
 
     def _seen_independent(self, polynomials: Sequence[Polynomial]) -> bool:
@@ -133,23 +137,6 @@ class AlgebraicZero:
             slopes = flint.acb_mat(rows)
             conjugate = flint.acb_mat([[c.conjugate() for c in row] for row in rows])
             return not (slopes * conjugate.transpose()).det().contains(0)
-
-    def _independent(self, polynomials: Sequence[Polynomial]) -> bool:
-        rows = [[self.value(f.derivative(i)) for i in range(f.n)] for f in polynomials]
-        while rows:
-            row = rows.pop()
-            pivot = next((i for i, c in enumerate(row) if c.degree() >= 0), None)
-            if pivot is None:
-                return False
-            common, inverse, _ = row[pivot].xgcd(self.minimal)
-            inverse = inverse / common[0]
-            for other in rows:
-                factor = other[pivot] * inverse % self.minimal
-                if factor.degree() >= 0:
-                    other[:] = [
-                        (a - factor * b) % self.minimal for a, b in zip(other, row, strict=True)
-                    ]
-        return True
 
 
 def algebraic_zeros(
@@ -262,7 +249,7 @@ def _at(f: Polynomial, x: Sequence[Any]) -> Any:
     """An exact polynomial at a point in balls."""
     total = flint.acb(0)
     for exponents, c in f.terms.items():
-        term = flint.acb(flint.fmpq(c.numerator, c.denominator))
+        term = flint.acb(to_rational(c))
         for z, k in zip(x, exponents, strict=True):
             if k:
                 term = term * z**k

@@ -9,6 +9,7 @@ from typing import Any
 import flint
 
 from nag.algebra.consequences import Consequences, consequences, generators
+from nag.algebra.exact_ranks import coefficient_rows, reduce_matrix
 from nag.algebra.factoring import Ring
 from nag.algebra.polynomial import Polynomial
 
@@ -318,9 +319,8 @@ class Search:
         monomials = sorted({e for row in rows for e in row}, reverse=True)
         if any(monomials[-1]) or len(rows) * len(monomials) > MOST_ENTRIES:
             return False
-        entries = [row.get(e, 0) for row in rows for e in monomials]
-        reduced, rank = flint.fmpq_mat(len(rows), len(monomials), entries).rref()
-        return all(reduced[rank - 1, j] == 0 for j in range(len(monomials) - 1))
+        _, pivots = reduce_matrix(flint.fmpq_mat(coefficient_rows(rows, monomials)))
+        return pivots[-1] == len(monomials) - 1
 
     def irredundant(self, leaves: Sequence[State]) -> list[State]:
         """The branches without those whose zero sets are seen to lie in others."""

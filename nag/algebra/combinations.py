@@ -19,7 +19,8 @@ from typing import Any
 
 import flint
 
-from nag.algebra.linear_algebra import LARGE
+from nag.algebra.exact_ranks import LARGE, coefficient_rows, reduce_matrix
+from nag.algebra.flint_numbers import to_fraction, to_rational
 from nag.algebra.polynomial import Exponents, Polynomial
 
 # Coefficients beyond which no combination of lower degree is looked for.
@@ -41,7 +42,8 @@ def of_lowest_degrees(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ..
     if len(given) * len(monomials) > MOST_COEFFICIENTS or _surely_lowest(given, monomials):
         return given
     rows = list(map(_row, given))
-    reduced = _echelon(rows, monomials)
+    table, _ = reduce_matrix(flint.fmpq_mat(coefficient_rows(rows, monomials)))
+    reduced = [{e: c for e, c in zip(monomials, row, strict=True) if c} for row in table]
     degrees = [sum(next(iter(row))) for row in reduced]
     if len(reduced) < len(given) or prod(degrees) == prod(f.degree for f in given):
         return given
@@ -51,7 +53,8 @@ def of_lowest_degrees(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ..
         of_degree = [(f, row) for f, row in zip(given, rows, strict=True) if f.degree == degree]
         of_degree += [(None, row) for d, row in zip(degrees, reduced, strict=True) if d == degree]
         tops = [{e: c for e, c in row.items() if sum(e) == degree} for _, row in of_degree]
-        for k in _first_independent(tops):
+        _, independent = reduce_matrix(flint.fmpq_mat(coefficient_rows(tops)).transpose())
+        for k in independent:
             f, row = of_degree[k]
             chosen.append(_whole(given[0].n, row) if f is None else f)
     shorter = sum(len(f.terms) for f in chosen) <= sum(len(f.terms) for f in given)
@@ -85,7 +88,7 @@ def of_fewest_terms(polynomials: Sequence[Polynomial]) -> tuple[Polynomial, ...]
         ]
     result = list(polynomials)
     for i in changed:
-        terms = {e: Fraction(int(c.p), int(c.q)) for e, c in found[i].items()}
+        terms = {e: to_fraction(c) for e, c in found[i].items()}
         result[places[i]] = Polynomial(result[places[i]].n, terms)
     return tuple(result)
 
@@ -96,14 +99,14 @@ def _surely_lowest(polynomials: Sequence[Polynomial], monomials: Sequence[Expone
         residues = [{e: LARGE.of(c) for e, c in f.terms.items()} for f in polynomials]
     except ZeroDivisionError:
         return False
-    rows = [[row.get(e, 0) for e in monomials] for row in residues]
+    rows = coefficient_rows(residues, monomials)
     _, pivots = LARGE.reduced(rows, len(monomials))
     degrees = [sum(monomials[k]) for k in pivots]
     return len(degrees) == len(rows) and prod(degrees) == prod(f.degree for f in polynomials)
 
 
 def _row(f: Polynomial) -> Row:
-    return {e: flint.fmpq(c.numerator, c.denominator) for e, c in f.terms.items()}
+    return {e: to_rational(c) for e, c in f.terms.items()}
 
 
 def _whole(n: int, row: Row) -> Polynomial:
@@ -115,24 +118,6 @@ def _whole(n: int, row: Row) -> Polynomial:
 def _descending(rows: Sequence[Mapping[Exponents, Any]]) -> list[Exponents]:
     """All monomials, those of the highest degree first."""
     return sorted({e for row in rows for e in row}, key=lambda e: (-sum(e), e))
-
-
-def _matrix(rows: Sequence[Row], monomials: Sequence[Exponents]) -> Any:
-    return flint.fmpq_mat([[row.get(e, 0) for e in monomials] for row in rows])
-
-
-def _echelon(rows: Sequence[Row], monomials: Sequence[Exponents]) -> list[Row]:
-    """The rows of the reduced echelon form, their terms in the order of the monomials."""
-    reduced, rank = _matrix(rows, monomials).rref()
-    table = reduced.tolist()[:rank]
-    return [{e: c for e, c in zip(monomials, row, strict=True) if c} for row in table]
-
-
-def _first_independent(rows: Sequence[Row]) -> list[int]:
-    """Indices of the rows that are no combinations of those before them."""
-    reduced, rank = _matrix(rows, _descending(rows)).transpose().rref()
-    table = reduced.tolist()[:rank]
-    return [next(k for k, c in enumerate(row) if c) for row in table]
 
 
 def _factor(f: Row, g: Row) -> Any:

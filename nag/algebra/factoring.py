@@ -17,7 +17,8 @@ from typing import Any
 import flint
 import numpy as np
 
-from nag.algebra.linear_algebra import LARGE
+from nag.algebra.exact_ranks import LARGE
+from nag.algebra.flint_numbers import to_fraction, to_rational
 from nag.algebra.polynomial import Exponents, Polynomial
 
 # Integer coefficients of more bits are divided by a power of two, so that they fit into doubles.
@@ -32,17 +33,16 @@ class Ring:
     def __init__(self, n: int) -> None:
         names = [f"x{i}" for i in range(n)]
         self.n = n
-        self._rational = flint.fmpq
         self.context = flint.fmpq_mpoly_ctx.get(names, flint.Ordering.lex)
 
     def of(self, f: Polynomial) -> Any:
         """An exact polynomial as FLINT's."""
-        terms = {e: self._rational(c.numerator, c.denominator) for e, c in f.terms.items()}
+        terms = {e: to_rational(c) for e, c in f.terms.items()}
         return self.context.from_dict(terms)
 
     def polynomial(self, f: Any) -> Polynomial:
         """The way back."""
-        terms = {tuple(map(int, e)): Fraction(int(c.p), int(c.q)) for e, c in f.to_dict().items()}
+        terms = {tuple(map(int, e)): to_fraction(c) for e, c in f.to_dict().items()}
         return Polynomial(self.n, terms)
 
     def factors(self, f: Any) -> list[tuple[Any, int]]:

@@ -13,8 +13,9 @@ from typing import Any
 
 import flint
 import numpy as np
-from flint import acb, arb, fmpq
+from flint import acb, arb
 
+from nag.algebra.flint_numbers import to_rational
 from nag.algebra.number import Number, to_mpf
 from nag.algebra.polynomial import Exponents, Polynomial
 
@@ -83,8 +84,7 @@ class BallValues:
             entries = [[0] * len(self._steps) for _ in self._polynomials]
             for row, f in zip(entries, self._polynomials, strict=True):
                 for exponents, c in f.terms.items():
-                    ratio = c.as_integer_ratio() if type(c) is Fraction else None
-                    value = arb(fmpq(*ratio)) if ratio else _number(c)
+                    value = _number(c)
                     row[self._places[exponents]] = abs(value) if absolute else value
             self._matrices[key] = matrix(entries)
         return self._matrices[key]
@@ -92,7 +92,7 @@ class BallValues:
 
 def _number(c: Number) -> Any:
     if isinstance(c, Fraction):
-        return arb(fmpq(c.numerator, c.denominator))
+        return arb(to_rational(c))
     sign, mantissa, exponent, _ = to_mpf(c, DIGITS)._mpf_
     return arb(int(-mantissa if sign else mantissa)) * arb(2) ** int(exponent)
 

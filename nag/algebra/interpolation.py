@@ -11,8 +11,9 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from flint import fmpq, fmpq_poly
+from flint import fmpq_poly
 
+from nag.algebra.flint_numbers import to_fraction, to_rational
 from nag.algebra.polynomial import Exponents, Polynomial
 from nag.algebra.system import PolynomialSystem
 
@@ -29,8 +30,8 @@ def rational_function(places: Sequence[Fraction], values: Sequence[Fraction]) ->
     modulus, interpolated = fmpq_poly([1]), fmpq_poly([0])
     for x, y in zip(places, values, strict=True):
         # Newton's form: one more value, one degree more.
-        at = _exact(x)
-        factor = (_exact(y) - interpolated(at)) / modulus(at)
+        at = to_rational(x)
+        factor = (to_rational(y) - interpolated(at)) / modulus(at)
         interpolated += modulus * factor
         modulus *= fmpq_poly([-at, 1])
     before, now = modulus, interpolated
@@ -41,7 +42,7 @@ def rational_function(places: Sequence[Fraction], values: Sequence[Fraction]) ->
         quotient, rest = divmod(before, now)
         before, now = now, rest
         weight_before, weight = weight, weight_before - quotient * weight
-    if any(weight(_exact(x)) == 0 for x in places):
+    if any(weight(to_rational(x)) == 0 for x in places):
         return None
     return now, weight
 
@@ -99,10 +100,5 @@ def _polynomial(places: Sequence[Fraction], parts: Sequence[Polynomial]) -> Poly
     terms: dict[Exponents, Fraction] = {}
     for e, (numerator, own) in functions.items():
         for power, c in enumerate((numerator * (denominator // own)).coeffs()):
-            terms[*e, power] = Fraction(int(c.p), int(c.q))
+            terms[*e, power] = to_fraction(c)
     return Polynomial(parts[0].n + 1, terms)
-
-
-def _exact(value: Fraction) -> Any:
-    value = Fraction(value)
-    return fmpq(value.numerator, value.denominator)

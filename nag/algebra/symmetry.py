@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, islice
+from operator import add
 from typing import Any
 
+from nag.algebra.exact_ranks import coefficient_rows, rank
 from nag.algebra.given import check_listed, check_type
 from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Exponents, Polynomial
@@ -185,54 +186,33 @@ def in_span(f: Polynomial, equations: Sequence[Polynomial]) -> bool:
         return True
     if not f.exact:
         return False
-    rest = f
-    basis: dict[Exponents, Mapping[Exponents, Fraction]] = {}
-    for multiple in _multiples(equations, max(g.degree for g in equations)):
-        row = _reduced(dict(multiple.terms), basis)
-        if not row:
-            continue
-        lead = max(row)
-        basis[lead] = {e: c / row[lead] for e, c in row.items()}
-        rest = Polynomial(f.n, _reduced(dict(rest.terms), basis))
-        if not rest:
+    # Those of lower degree first: mostly the equations themselves are enough.
+    spanning: list[Polynomial] = []
+    for multiples in _multiples(equations, max(g.degree for g in equations)):
+        spanning += multiples
+        rows = coefficient_rows([g.terms for g in (*spanning, f)])
+        if rank(rows) == rank(rows[:-1]):
             return True
-    return not rest
+    return False
 
 
-def _multiples(equations: Sequence[Polynomial], degree: int) -> Iterator[Polynomial]:
+def _multiples(equations: Sequence[Polynomial], degree: int) -> Iterator[list[Polynomial]]:
     """The equations, then their multiples by rising degree, none above ``degree``."""
     exact = [g for g in equations if g and g.exact and g.degree <= degree]
-    count = 0
+    left = MOST_MULTIPLES + len(exact)
     for extra in range(degree + 1):
-        for g in exact:
-            if g.degree + extra > degree:
-                continue
-            for chosen in combinations_with_replacement(range(g.n), extra):
-                count += 1
-                if count > MOST_MULTIPLES + len(exact):
-                    return
-                shift = tuple(chosen.count(i) for i in range(g.n))
-                yield Polynomial(
-                    g.n, {tuple(map(int.__add__, e, shift)): c for e, c in g.terms.items()}
-                )
+        chosen = (
+            (g, places)
+            for g in exact
+            if g.degree + extra <= degree
+            for places in combinations_with_replacement(range(g.n), extra)
+        )
+        found = [_times_monomial(g, places) for g, places in islice(chosen, left)]
+        if found:
+            yield found
+        left -= len(found)
 
 
-def _reduced(
-    row: dict[Exponents, Any], basis: Mapping[Exponents, Mapping[Exponents, Fraction]]
-) -> dict[Exponents, Any]:
-    """What is left of a row after elimination of the leading terms in ``basis``."""
-    done: dict[Exponents, Any] = {}
-    while row:
-        lead = max(row)
-        value = row.pop(lead)
-        if lead not in basis:
-            done[lead] = value
-            continue
-        for e, c in basis[lead].items():
-            if e != lead:
-                new = row.get(e, 0) - value * c
-                if new:
-                    row[e] = new
-                else:
-                    row.pop(e, None)
-    return done
+def _times_monomial(g: Polynomial, places: Sequence[int]) -> Polynomial:
+    shift = tuple(places.count(i) for i in range(g.n))
+    return Polynomial(g.n, {tuple(map(add, e, shift)): c for e, c in g.terms.items()})

@@ -16,17 +16,18 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, islice
 from math import comb, lcm
 from typing import NamedTuple
 
 import flint
 import numpy as np
 
+from nag.algebra.exact_ranks import primes_below
 from nag.algebra.polynomial import Exponents, Polynomial
 
 # Sums of so many products of residues are whole numbers that doubles hold.
-PRIMES = 2**21 - 9, 2**21 - 19
+PRIMES = tuple(islice(primes_below(2**21), 2))
 MOST_STANDARD = 2**11
 # Monomials up to degree D beyond which nothing is worked out: some 0.5 s.
 MOST_MONOMIALS = 1500

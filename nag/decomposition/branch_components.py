@@ -16,7 +16,7 @@ from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branch_equations import BranchEquations, BranchKind
 from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.linear_algebra import independent_polynomials
+from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation, SymmetryError, check_symmetry
 from nag.algebra.system import PolynomialSystem

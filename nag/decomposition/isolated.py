@@ -14,8 +14,8 @@ from math import prod
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
+from nag.algebra.exact_ranks import is_dependent
 from nag.algebra.high_precision import vanish
-from nag.algebra.linear_algebra import is_dependent
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem

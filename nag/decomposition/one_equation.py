@@ -20,8 +20,8 @@ from typing import Any
 import flint
 import numpy as np
 
+from nag.algebra.exact_ranks import null_space
 from nag.algebra.factoring import factored, most_absolute_factors
-from nag.algebra.linear_algebra import rational_matrix
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set, judged
 from nag.decomposition.hypersurface import NEARER
@@ -229,20 +229,10 @@ def _multidegree(reduction: Reduction, rng: np.random.Generator) -> np.ndarray |
     return degrees
 
 
-def _common_zero(rows: Sequence[Sequence[Fraction]]) -> list[Fraction] | None:
+def _common_zero(rows: Sequence[Sequence[Fraction]]) -> Sequence[Fraction] | None:
     """The direction in which all linear forms vanish; None if there are several."""
-    n = len(rows) + 1
-    reduced, rank = rational_matrix(rows).rref()
-    if rank < n - 1:
-        return None
-    pivots = [next(j for j in range(n) if reduced[i, j] != 0) for i in range(rank)]
-    (free,) = set(range(n)) - set(pivots)
-    direction = [Fraction(0)] * n
-    direction[free] = Fraction(1)
-    for i, j in enumerate(pivots):
-        value = -reduced[i, free]
-        direction[j] = Fraction(int(value.p), int(value.q))
-    return direction
+    directions = null_space(rows, len(rows) + 1)
+    return directions[0] if len(directions) == 1 else None
 
 
 def _degree_along(

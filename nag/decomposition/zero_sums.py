@@ -13,6 +13,8 @@ from __future__ import annotations
 import flint
 import numpy as np
 
+from nag.algebra.exact_ranks import row_echelon
+
 # Bits for each vector, beside those of the bound, that let other vectors be seen to be longer: of
 # random lattices reduced bases of 36 vectors needed 0.6, of 60 vectors 1.1.
 SPARE = 1.5
@@ -85,8 +87,7 @@ def _disjoint_sets(relations: list[list[int]]) -> list[list[int]] | None:
     """Disjoint sets whose indicators span what these vectors span; None if there are none such."""
     if not relations:
         return []
-    form, scale, _ = flint.fmpz_mat(relations).rref()
-    table = np.array([[int(x) for x in row] for row in form.table()], dtype=object)
-    if not np.isin(table, (0, int(scale))).all() or ((table != 0).sum(axis=0) > 1).any():
+    table = np.array(row_echelon(relations)[0], dtype=object)
+    if not np.isin(table, (0, 1)).all() or ((table != 0).sum(axis=0) > 1).any():
         return None
     return [np.flatnonzero(row).tolist() for row in table]

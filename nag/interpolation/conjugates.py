@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
+from nag.algebra.flint_numbers import to_rational
 from nag.interpolation.precise_samples import Sample, Source, SourceError
 from nag.interpolation.vanishing import DIGITS, InterpolationError
 from nag.numerics.ball_polynomials import BallPolynomials
@@ -157,7 +158,7 @@ def _polynomial(zeros: Sequence[flint.acb]) -> flint.fmpq_poly:
     if any(not c.imag.contains(0) for c in coefficients):
         raise TooFewDigitsError("coefficients are not real")
     numbers = [recognised(c.real) for c in coefficients]
-    return flint.fmpq_poly([flint.fmpq(q.numerator, q.denominator) for q in numbers])
+    return flint.fmpq_poly(list(map(to_rational, numbers)))
 
 
 def _classes(

@@ -14,7 +14,7 @@ import flint
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.linear_algebra import jacobian_rank
+from nag.algebra.exact_ranks import jacobian_rank
 from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError

@@ -8,6 +8,7 @@ from math import prod
 
 import flint
 
+from nag.algebra.exact_ranks import jacobian_rank
 from nag.algebra.groebner import (
     Divisor,
     Ideal,
@@ -17,7 +18,6 @@ from nag.algebra.groebner import (
     ideal_of,
     remainder,
 )
-from nag.algebra.linear_algebra import jacobian_rank
 from nag.algebra.multipliers import multipliers
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_function import FunctionField, RationalFunction

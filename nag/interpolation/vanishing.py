@@ -16,6 +16,7 @@ from math import comb, gcd, lcm
 import flint
 import numpy as np
 
+from nag.algebra.exact_ranks import coefficient_rows, first_independent_rows
 from nag.algebra.multipliers import order
 from nag.algebra.polynomial import Polynomial, divides
 from nag.errors import ComponentError
@@ -237,28 +238,8 @@ def _new_generators(
     for f in known:
         for e in (e for d in range(degree - f.degree + 1) for e in monomials_of_degree(k, d)):
             rows.append(f * Polynomial(k, {e: Fraction(1)}))
-    place: dict[Exponents, int] = {}
-    for f in (*rows, *new):
-        for e in f.terms:
-            place.setdefault(e, len(place))
-    rank, most = _rank(rows, place), _rank([*rows, *new], place)
-    kept: list[Polynomial] = []
-    for f in new:
-        if rank + len(kept) == most:
-            break
-        if _rank([*rows, *kept, f], place) > rank + len(kept):
-            kept.append(f)
-    return kept
-
-
-def _rank(polynomials: Sequence[Polynomial], place: dict[Exponents, int]) -> int:
-    entries = []
-    for f in map(primitive, polynomials):
-        row = [0] * len(place)
-        for e, c in f.terms.items():
-            row[place[e]] = int(c)
-        entries += row
-    return int(flint.fmpz_mat(len(polynomials), len(place), entries).rank())
+    independent = first_independent_rows(coefficient_rows([f.terms for f in (*rows, *new)]))
+    return [new[i - len(rows)] for i in independent if i >= len(rows)]
 
 
 def hypersurface_equation(cloud: Cloud, coordinates: Sequence[int], degree: int) -> Interpolated:

@@ -14,7 +14,7 @@ from fractions import Fraction
 from math import acos, degrees, sqrt
 from typing import Any
 
-from nag.algebra.linear_algebra import independent_polynomials
+from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError

@@ -17,7 +17,7 @@ from string import ascii_lowercase
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
-from nag.algebra.linear_algebra import independent_polynomials
+from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem

@@ -16,7 +16,7 @@ from string import ascii_lowercase
 from typing import Any
 
 from nag.algebra.elimination import Elimination, eliminate_linear
-from nag.algebra.linear_algebra import independent_polynomials, row_echelon
+from nag.algebra.exact_ranks import independent_polynomials, row_echelon
 from nag.algebra.number import Number, square_root
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem

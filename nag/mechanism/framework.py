@@ -129,12 +129,10 @@ class Framework:
         """Velocities of the placement that keep all lengths, modulo motions; None without one."""
         if self.placement is None:
             return None
-        from nag.algebra.linear_algebra import rational_rank, row_echelon
+        from nag.algebra.exact_ranks import rank
 
         rows = self._rigidity_matrix(self.placement)
-        exact = all(isinstance(x, Fraction) for place in self.placement for x in place)
-        rank = rational_rank(rows) if exact else len(row_echelon(rows)[0])
-        return self.dimension * len(self.points) - self.motions - rank
+        return self.dimension * len(self.points) - self.motions - rank(rows)
 
     def generic_motions(self) -> int:
         """The same for a general placement: 0 if the graph is rigid for almost all lengths.
@@ -143,7 +141,7 @@ class Framework:
         """
         import random
 
-        from nag.algebra.linear_algebra import LARGE
+        from nag.algebra.exact_ranks import LARGE
 
         draw = random.Random(0)
         places = [

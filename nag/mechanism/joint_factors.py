@@ -19,7 +19,7 @@ from functools import cached_property
 from math import gcd, lcm
 from typing import Any, Literal
 
-from nag.algebra.linear_algebra import independent_polynomials
+from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem

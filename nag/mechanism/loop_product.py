@@ -21,7 +21,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from nag.algebra.linear_algebra import left_inverse, null_space, row_echelon
+from nag.algebra.exact_ranks import left_inverse, null_space, rank
 from nag.algebra.number import Number, is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.errors import NagError
@@ -207,7 +207,7 @@ def closure_of(kept: Sequence[Element], piece: Sequence[Element]) -> Closure | N
         # The first factor's index runs fastest: 1, g, k, gk.
         products = [dual_multiply(p, g) for g in element.generators for p in products]
     basis = tuple(tuple(x for part in q for x in part) for q in products)
-    if len(row_echelon(basis)[0]) < 4:
+    if rank(basis) < 4:
         return None
     pair = sum(e.factor is not None for e in piece) == 2
     study = (dot4(p[0], q[1]) + dot4(p[1], q[0]) for p in products for q in products)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from nag.algebra.linear_algebra import row_echelon
+from nag.algebra.exact_ranks import rank
 from nag.decomposition.components import decompose
 from nag.decomposition.intersection import intersect_components
 from nag.mechanism.coordinates import euler_decomposition
@@ -112,7 +112,7 @@ def apart(structure: LoopStructure) -> bool:
         conditions = [mode_conditions(joint, mode) for mode in modes]
         for i in modes:
             for j in range(i):
-                if len(row_echelon([*conditions[i], *conditions[j]])[0]) < 4:
+                if rank([*conditions[i], *conditions[j]]) < 4:
                     return False
     return True
 

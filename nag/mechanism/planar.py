@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from nag.algebra.elimination import Elimination
-from nag.algebra.linear_algebra import independent_polynomials
+from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem

@@ -6,19 +6,19 @@ rank there is one over the numbers, and what vanishes over the numbers vanishes 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Any
 
 import flint
 
-from nag.algebra.linear_algebra import PrimeField
+from nag.algebra.exact_ranks import LARGEST_PRIME, PrimeField, primes_below
 from nag.algebra.number import Irrational, Number
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.power_series import Terms
 
-# Primes below this are tried, the largest first; half of them lack any one square root.
-LARGEST_PRIME = 2**62
+# How many primes are tried; half of them lack any one square root.
 MOST_PRIMES = 4000
 # Radicands are taken apart into primes, so that sqrt(2) sqrt(3) = sqrt(6); larger ones are not.
 LARGEST_RADICAND = 10**24
@@ -86,21 +86,12 @@ class _Images:
 
     def _of_square(self, a: int) -> int:
         if a not in self.roots:
-            # All primes here are 3 modulo 4.
+            # The primes are 3 modulo 4.
             root = pow(a, (self.modulus + 1) // 4, self.modulus)
             if root * root % self.modulus != a % self.modulus:
                 raise _OtherPrime("a square root does not exist")
             self.roots[a] = root
         return self.roots[a]
-
-
-def _primes() -> Iterator[int]:
-    p = LARGEST_PRIME - 1
-    for _ in range(MOST_PRIMES):
-        while not flint.fmpz(p).is_prime():
-            p -= 4
-        yield p
-        p -= 4
 
 
 def prime_images(system: ExactSystem, point: Sequence[Number], count: int) -> list[PrimeImage]:
@@ -110,7 +101,7 @@ def prime_images(system: ExactSystem, point: Sequence[Number], count: int) -> li
         point: in the system's scaled variables.
     """
     found: list[PrimeImage] = []
-    for p in _primes():
+    for p in islice(primes_below(LARGEST_PRIME), MOST_PRIMES):
         if len(found) == count:
             break
         images = _Images(p)

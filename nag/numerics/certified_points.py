@@ -18,7 +18,7 @@ import numpy as np
 from scipy.linalg import qr
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.linear_algebra import jacobian_rank
+from nag.algebra.exact_ranks import jacobian_rank
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import overlaps

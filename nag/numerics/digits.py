@@ -10,6 +10,7 @@ from math import log10
 import flint
 import numpy as np
 
+from nag.algebra.flint_numbers import to_rational
 from nag.algebra.number import Number, to_mpf
 
 LOG10_2 = 0.30102999566398120
@@ -27,7 +28,7 @@ def number(c: Number | complex | int | flint.acb) -> flint.acb:
     if isinstance(c, flint.acb):
         return c
     if isinstance(c, Fraction):
-        return flint.acb(flint.arb(flint.fmpq(c.numerator, c.denominator)))
+        return flint.acb(to_rational(c))
     if isinstance(c, int | float | complex | np.number):
         return flint.acb(complex(c)) if not isinstance(c, int) else flint.acb(c)
     sign, mantissa, exponent, _ = to_mpf(c, flint.ctx.dps + 5)._mpf_

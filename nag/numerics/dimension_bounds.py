@@ -14,8 +14,8 @@ import flint
 import numpy as np
 
 from nag.algebra.elimination import Elimination
+from nag.algebra.exact_ranks import PrimeField
 from nag.algebra.factoring import common_factor
-from nag.algebra.linear_algebra import PrimeField
 from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.algebraic_point import prime_images

@@ -12,7 +12,7 @@ from typing import Any
 import flint
 import numpy as np
 
-from nag.algebra.linear_algebra import PrimeField
+from nag.algebra.exact_ranks import PrimeField
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.digits import LOG10_2, log_norm, number

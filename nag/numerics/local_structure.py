@@ -10,7 +10,7 @@ from typing import Any
 import flint
 import numpy as np
 
-from nag.algebra.linear_algebra import PrimeField
+from nag.algebra.exact_ranks import FIELDS, PrimeField
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.clusters import close_zeros
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
@@ -29,7 +29,6 @@ from nag.numerics.singular_point import Place, SingularEnd
 REACHES = (1.0, 0.0, 2.0, 3.5)
 # Nothing is looked for further away than this.
 FURTHEST = -1.3
-FIELDS = PrimeField(4611686018427387847), PrimeField(4611686018427387817)
 # Decimal logarithms of what is zero, and of what is not, in 150 digits, where errors have grown
 # through some eliminations.
 NOTHING, SOMETHING = -90.0, -45.0

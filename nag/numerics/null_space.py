@@ -25,7 +25,7 @@ class UnclearRank(Exception):
 class Field(Protocol):
     """What a computation over a field needs beside ``+`` and ``*``.
 
-    `Digits` and `nag.algebra.linear_algebra.PrimeField` have it.
+    `Digits` and `nag.algebra.exact_ranks.PrimeField` have it.
     """
 
     modulus: int

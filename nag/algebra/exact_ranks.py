@@ -1,26 +1,44 @@
-"""Exact linear algebra: rows over the rationals, and matrices modulo a prime.
+"""Ranks of exact matrices: over the rationals by FLINT, and modulo primes.
 
-Row reduction, linear dependence of polynomials and ranks of Jacobians. What is modulo a prime is
-done by FLINT, which is loaded when a matrix is made.
+One of three ways to tell a rank; `nag.numerics.ball_ranks` has that of numbers with radii, and
+`nag.numerics.double_ranks` that of doubles. What decides is worked out over the rationals, or over
+the number field of a zero. Where a bound is enough, one prime gives it: a rank is no larger modulo
+a prime than it is, and smaller with a probability of some 1e-18 for random numbers. Irrational
+entries, which are zero where they are to many digits, take an elimination of our own.
+
+Nothing here has a tolerance.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from itertools import islice
+from typing import TYPE_CHECKING, Any
 
 import flint
 
-from nag.algebra.number import Number, is_zero
-from nag.algebra.polynomial import Polynomial
+from nag.algebra.flint_numbers import to_fraction, to_rational
+from nag.algebra.number import Irrational, Number, is_zero
+from nag.algebra.polynomial import Exponents, Polynomial
 from nag.errors import NagError
 
 if TYPE_CHECKING:
     import numpy as np
 
 Rows = Sequence[Sequence[int]]
+Row = tuple[Number, ...]
+
+
+def primes_below(bound: int) -> Iterator[int]:
+    """The largest primes first, of those that leave 3 modulo 4.
+
+    A square root modulo such a prime p is a power, the one of exponent (p + 1) / 4.
+    """
+    for p in range((bound - 4) // 4 * 4 + 3, 2, -4):
+        if flint.fmpz(p).is_prime():
+            yield p
 
 
 @dataclass(frozen=True)
@@ -64,9 +82,8 @@ class PrimeField:
         return [list(map(int, row)) for row in found.tolist()]
 
     def reduced(self, rows: Rows, columns: int) -> tuple[list[list[int]], list[int]]:
-        found, rank = self.matrix(rows).rref()
-        table = [list(map(int, row)) for row in found.tolist()][:rank]
-        return table, [next(j for j, c in enumerate(row) if c) for row in table]
+        table, pivots = reduce_matrix(self.matrix(rows))
+        return [list(map(int, row)) for row in table], pivots
 
     def null_space(self, rows: Rows, columns: int) -> list[list[int]]:
         if not rows:
@@ -75,19 +92,40 @@ class PrimeField:
         return [[int(basis[i, j]) for i in range(columns)] for j in range(nullity)]
 
 
-# For ranks and images of random numbers: wrong with a probability of some 1e-15.
-LARGE = PrimeField(2**61 - 1)
+# Residues and sums of two are integers of NumPy's too; what is not zero vanishes modulo so large a
+# prime by no accident. Two fields where one may be the exception.
+LARGEST_PRIME = 2**62
+FIELDS = tuple(map(PrimeField, islice(primes_below(LARGEST_PRIME), 2)))
+LARGE = FIELDS[0]
 
 
-Row = tuple[Number, ...]
+def rational_matrix(rows: Sequence[Sequence[Fraction | int]]) -> flint.fmpq_mat:
+    """Rows, of which there are some, as a matrix of FLINT's."""
+    return flint.fmpq_mat([[to_rational(c) for c in row] for row in rows])
+
+
+def reduce_matrix(matrix: Any) -> tuple[list[list[Any]], list[int]]:
+    """The reduced row echelon form of a matrix of FLINT's: its rows, and the pivots' columns."""
+    form, rank = matrix.rref()
+    table = form.tolist()[:rank]
+    return table, [next(j for j, c in enumerate(row) if c) for row in table]
 
 
 def row_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], list[int]]:
     """Reduced row echelon form without its zero rows, and the columns of its pivots."""
-    matrix = [list(r) for r in rows]
+    if not rows or not rows[0]:
+        return [], []
+    if any(isinstance(c, Irrational) for row in rows for c in row):
+        return _irrational_echelon(rows)
+    table, pivots = reduce_matrix(rational_matrix(rows))
+    return [tuple(map(to_fraction, row)) for row in table], pivots
+
+
+def _irrational_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], list[int]]:
+    matrix = [[Fraction(c) if isinstance(c, int) else c for c in row] for row in rows]
     pivots: list[int] = []
-    done = 0
-    for column in range(len(matrix[0]) if matrix else 0):
+    for column in range(len(matrix[0])):
+        done = len(pivots)
         found = next((i for i in range(done, len(matrix)) if not is_zero(matrix[i][column])), None)
         if found is None:
             continue
@@ -100,25 +138,14 @@ def row_echelon(rows: Sequence[Sequence[Number]]) -> tuple[list[Row], list[int]]
                 own = zip(row, matrix[done], strict=True)
                 matrix[i] = [x - factor * y if y else x for x, y in own]
         pivots.append(column)
-        done += 1
-        if done == len(matrix):
-            break
-    return [tuple(r) for r in matrix[:done]], pivots
+    return [tuple(r) for r in matrix[: len(pivots)]], pivots
 
 
-def independent_rows(rows: Sequence[Sequence[Number]]) -> list[int]:
-    """Indices of the first rows that span the row space."""
-    if not rows:
-        return []
-    transposed = [tuple(r[i] for r in rows) for i in range(len(rows[0]))]
-    return row_echelon(transposed)[1] if transposed else []
-
-
-def independent_polynomials(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-    """Those polynomials that are no linear combination of earlier ones."""
-    monomials = sorted({e for f in polynomials for e in f.terms})
-    rows = [[f.terms.get(e, Fraction(0)) for e in monomials] for f in polynomials]
-    return [polynomials[i] for i in independent_rows(rows)]
+def rank(rows: Sequence[Sequence[Number]]) -> int:
+    """The rank of a matrix that may be empty."""
+    if any(isinstance(c, Irrational) for row in rows for c in row):
+        return len(_irrational_echelon(rows)[1])
+    return int(rational_matrix(rows).rank()) if rows else 0
 
 
 def null_space(rows: Sequence[Sequence[Number]], columns: int) -> list[Row]:
@@ -160,19 +187,55 @@ def left_inverse(columns: Sequence[Sequence[Number]]) -> list[Row]:
     ]
 
 
-def rational_matrix(rows: Sequence[Sequence[Fraction | int]]) -> flint.fmpq_mat:
-    """Rows, of which there are some, as a matrix of FLINT's."""
-    return flint.fmpq_mat([[flint.fmpq(c.numerator, c.denominator) for c in row] for row in rows])
+def coefficient_rows(
+    polynomials: Sequence[Mapping[Exponents, Any]], monomials: Sequence[Exponents] | None = None
+) -> list[list[Any]]:
+    """The coefficients of polynomials, given by their terms, in one row each.
+
+    Args:
+        monomials: those of the columns, all that occur; in any order if they are left out.
+    """
+    if monomials is None:
+        monomials = list(dict.fromkeys(e for terms in polynomials for e in terms))
+    return [[terms.get(e, 0) for e in monomials] for terms in polynomials]
 
 
-def rational_rank(rows: Sequence[Sequence[Fraction | int]]) -> int:
-    """The rank of a matrix that may be empty."""
-    return int(rational_matrix(rows).rank()) if rows else 0
+def first_independent_rows(rows: Sequence[Sequence[Number]]) -> list[int]:
+    """Indices of the rows that are no linear combinations of those before them."""
+    return row_echelon(list(zip(*rows, strict=True)))[1]
+
+
+def independent_polynomials(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
+    """Those polynomials that are no linear combination of earlier ones."""
+    rows = coefficient_rows([f.terms for f in polynomials])
+    return [polynomials[i] for i in first_independent_rows(rows)]
 
 
 def jacobian_rank(polynomials: Sequence[Polynomial], point: Sequence[Fraction]) -> int:
     """The rank of the Jacobian of exact polynomials at a rational point."""
-    return rational_rank([[f.derivative(i)(point) for i in range(f.n)] for f in polynomials])
+    return rank([[f.derivative(i)(point) for i in range(f.n)] for f in polynomials])
+
+
+def are_independent_over(rows: Sequence[Sequence[Any]], minimal: flint.fmpq_poly) -> bool:
+    """Whether rows over a number field are linearly independent.
+
+    Args:
+        rows: of polynomials in a root of ``minimal``, of lower degree.
+        minimal: irreducible.
+    """
+    left = [list(row) for row in rows]
+    while left:
+        row = left.pop()
+        pivot = next((i for i, c in enumerate(row) if c.degree() >= 0), None)
+        if pivot is None:
+            return False
+        common, inverse, _ = row[pivot].xgcd(minimal)
+        inverse = inverse / common[0]
+        for other in left:
+            factor = other[pivot] * inverse % minimal
+            if factor.degree() >= 0:
+                other[:] = [(a - factor * b) % minimal for a, b in zip(other, row, strict=True)]
+    return True
 
 
 def is_dependent(polynomials: Sequence[Polynomial], rng: np.random.Generator) -> bool:
