@@ -289,6 +289,8 @@ class _Parser:
         )
 
     def _literal(self, token: Token) -> Fraction:
+        if token.text.isdigit() and len(token.text) <= MAX_DIGITS:
+            return Fraction(int(token.text))
         mantissa, _, exponent = token.text.lower().partition("e")
         too_long = len(mantissa) + len(exponent) > MAX_DIGITS
         if too_long or len(mantissa) + abs(int(exponent or 0)) > MAX_DIGITS:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
-from operator import le
+from operator import add, le
 from types import MappingProxyType
 from typing import Any
 
@@ -38,7 +38,7 @@ def multiply_terms(
     terms: dict[Exponents, Any] = {}
     for e, c in first.items():
         for f, d in second.items():
-            key = tuple(map(int.__add__, e, f))
+            key = tuple(map(add, e, f))
             product = c * d
             terms[key] = terms[key] + product if key in terms else product
     return terms
@@ -151,9 +151,9 @@ class Polynomial:
         """Integers that are the coefficients times their common denominator; None without one."""
         if not self.exact:
             return None
-        common = lcm(*(c.denominator for c in self.terms.values()))
-        terms = {e: c.numerator * (common // c.denominator) for e, c in self.terms.items()}
-        return terms, common
+        ratios = [c.as_integer_ratio() for c in self.terms.values()]
+        common = lcm(*[q for _, q in ratios])
+        return dict(zip(self.terms, [p * (common // q) for p, q in ratios], strict=True)), common
 
     def __truediv__(self, other: Number | int) -> Polynomial:
         if is_zero(other):

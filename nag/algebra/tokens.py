@@ -18,9 +18,9 @@ IMAGINARY_UNITS = ("I", "i")
 ONLY_REAL = "only real numbers are read here"
 
 _TOKEN = re.compile(
-    r"(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+    r"(?:(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)"
-    r"|(?P<operator>\*\*|==|[-+*/^()=])"
+    r"|(?P<operator>\*\*|==|[-+*/^()=]))\s*"
 )
 _SPACE = re.compile(r"\s*")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
@@ -56,8 +56,9 @@ def tokenize(text: str) -> list[Token]:
                 f"column {at + 1}: {quote(text[at])} has no meaning here; "
                 "write numbers, names, + - * / ^ and parentheses"
             )
-        tokens.append(Token(str(match.lastgroup), match.group(), at + 1))
-        at = _SPACE.match(text, match.end()).end()
+        kind = str(match.lastgroup)
+        tokens.append(Token(kind, match[kind], at + 1))
+        at = match.end()
     tokens.append(Token("end", "", len(text) + 1))
     return tokens
 

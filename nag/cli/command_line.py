@@ -123,7 +123,9 @@ def parser(words: Sequence[str]) -> argparse.ArgumentParser:
     root.add_argument("--version", action="version", version=f"nag {nag.__version__}")
     commands = root.add_subparsers(dest="command", metavar="COMMAND", required=True)
     named = next((word for word in words if not word.startswith("-")), None)
-    for name, text, description in COMMANDS:
+    # Behind a command's name all is for that command: the others are neither named nor listed.
+    asked = [row for row in COMMANDS if words[:1] == [row[0]]]
+    for name, text, description in asked or COMMANDS:
         command = commands.add_parser(name, allow_abbrev=False, help=text, description=description)
         if name == named:
             module = import_module(f"nag.cli.{name}")

@@ -74,14 +74,13 @@ class Logarithms:
         n = exponents.shape[1]
         if not self.counts:
             return np.full(n, near).astype(np.int64)
-        weights = np.ones(len(sizes))
+        # All weights are one at first.
+        total, weighted, weighted_sizes = np.array(self.counts, dtype=float), exponents, sizes
         for _ in range(SWEEPS + 1):
             # The normal equations, with the size of each equation at its best for these weights:
             # exponents are small whole numbers, and inertia keeps them regular.
-            total = np.add.reduceat(weights, first)
-            weighted = weights[:, None] * exponents
             sums = np.add.reduceat(weighted, first)
-            size_sums = np.add.reduceat(weights * sizes, first)
+            size_sums = np.add.reduceat(weighted_sizes, first)
             matrix = weighted.T @ exponents - (sums.T / total) @ sums
             matrix.flat[:: n + 1] += INERTIA**2
             right = (size_sums / total) @ sums - sizes @ weighted + INERTIA**2 * near
@@ -90,7 +89,9 @@ class Logarithms:
             if self._largest_range(off) <= ODD:
                 break
             weights = 1 / np.maximum(np.abs(self._beside_medians(off)), 1.0)
-        return np.rint(solution).clip(-LARGEST, LARGEST).astype(np.int64)
+            total = np.add.reduceat(weights, first)
+            weighted, weighted_sizes = weights[:, None] * exponents, weights * sizes
+        return np.minimum(np.maximum(np.rint(solution), -LARGEST), LARGEST).astype(np.int64)
 
     def spread(self, powers: np.ndarray) -> float:
         """Most binary orders between two coefficients of an equation, at scales."""
