@@ -8,11 +8,6 @@ caller may choose stands beside its argument, or in `nag.tracking.settings.Setti
 ==========================================  ======  ================================================
 name                                        value   what it decides, and why there
 ==========================================  ======  ================================================
-algebra.high_precision.VANISHES *           1e-80   Values, beside their terms, that are zero at
-                                                    zeros of 100 digits: all lay below 5e-87.
-algebra.high_precision.SHARP *              1e-85   Errors of zeros; larger ones get more digits:
-                                                    all lay below 5e-86.
-algebra.high_precision.NEAR                 1e-9    What Newton's method may move such a zero by.
 algebra.generic_multiplicity.INDEPENDENT    1e-6    Singular value of gradients of length one that
                                                     surely are independent; else no bound is given.
 algebra.generic_multiplicity.NOT_ZERO       1e-7    Errors of derivatives beside their terms.
@@ -27,6 +22,10 @@ numerics.zero_values.SINGULAR               1e-9    Singular values of a balance
                                                     point of a component below which the gap is
                                                     looked for where a rank is read
                                                     (witness.cutting.GAP).
+numerics.zero_values.VANISHES *             1e-80   Values, beside their terms, that are zero at
+                                                    zeros of 100 digits: all lay below 5e-87.
+numerics.precise_point.NEAR                 -9      Decimal logarithm of what Newton's method may
+                                                    move a zero in doubles by, relative.
 numerics.zero_values.SLACK                  1e3     Errors of a point that its estimate may be too
                                                     small by: a bound for exact tests, no decision.
 numerics.coincidence.SAFETY                 100     Estimated errors that two points may be apart
@@ -374,13 +373,14 @@ Other values of these give the same answers, sooner or later: sizes of steps and
 rounding, digits that are taken, where random numbers come from.
 
 algebra.evaluation: HUGE; algebra.number: LARGEST_ANGLE; numerics.certified_points: FLAT, LEAST;
-numerics.close_zeros: ROUNDING, REST, DEEP, LEAST; numerics.curves: CLOSE, CLOSER, PATIENCE;
+numerics.close_zeros: ROUNDING; numerics.curves: CLOSE, CLOSER, PATIENCE;
 numerics.deflated_system: MOST_DIGITS; numerics.deflation: MOST_WORK, MOST_WORK_ROUGHLY, TURNS_BACK;
 numerics.digits: LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_ROUGHLY, CONTRACTION,
 ROUNDING, FIRST, LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function:
 ROUNDING; numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
 REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
-numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR, SEVERAL_SIZES;
+numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR, SEVERAL_SIZES; numerics.newton: GAIN, FAST, LEFT, RESTS;
+numerics.precise_point: LEAST_ERROR, LARGEST_ERROR;
 numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
 numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP;
 numerics.zero_values: LEAST; numerics.series_zeros: RANK, ASTRAY, ARRIVED; tracking.certified_paths:

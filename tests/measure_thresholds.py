@@ -21,7 +21,6 @@ from unittest.mock import patch
 
 import numpy as np
 
-from nag.algebra import high_precision
 from nag.algebra.evaluation import Evaluator
 from nag.decomposition import (  # noqa: F401
     components,
@@ -187,11 +186,7 @@ def watch_digits(measured: Measured, stack: ExitStack) -> None:
     """Measure what is compared in many digits, by solving as by decomposing."""
 
     def relative(found: Any, *_: Any) -> None:
-        measured.add("VANISHES", high_precision.VANISHES, float(found))
-
-    def zeros(found: Any, *given: Any) -> None:
-        if found is not None and given[-1] == high_precision.DIGITS:
-            measured.add("SHARP (of zeros in digits)", high_precision.SHARP, found[1])
+        measured.add("VANISHES", zero_values.VANISHES, float(found))
 
     def negligible(numbers: Digits, size: float) -> bool:
         # Also of what is not decided, and raises an error.
@@ -202,10 +197,8 @@ def watch_digits(measured: Measured, stack: ExitStack) -> None:
         return judge(numbers, size)
 
     judge = Digits._negligible
-    own = around(high_precision._relative, relative)
-    stack.enter_context(patch.object(high_precision, "_relative", own))
     stack.enter_context(patch.object(Digits, "_negligible", negligible))
-    everywhere(stack, high_precision.zero_near, zeros)
+    everywhere(stack, zero_values.negligible_part, relative)
 
 
 def everywhere(stack: ExitStack, function: Callable[..., Any], note: Callable[..., None]) -> None:

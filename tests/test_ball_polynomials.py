@@ -10,6 +10,7 @@ import pytest
 
 from nag.algebra.expression import parse_polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import bits_of
 
 NAMES = ("x", "y", "z")
 TEXTS = ("x^3*y*z^2 - 2/7*z + 5", "y^2*z^2 - x + x^4", "3", "0", "x*y*z - 1/3*x*y + 11*z^4", "y")
@@ -29,7 +30,7 @@ def test_values_and_slopes_hold_the_exact_ones(bits: int) -> None:
         for _ in range(3):
             point = [Fraction(int(k), 13) for k in rng.integers(-99, 99, 3)]
             at = [flint.acb(flint.arb(x.numerator) / x.denominator) for x in point]
-            values, slopes = system(at).entries(), system.jacobian(at).tolist()
+            values, slopes = system.values(at, bits).entries(), system.jacobian(at, bits).tolist()
             for f, value, row in zip(POLYNOMIALS, values, slopes, strict=False):
                 assert value.real.contains(to_many_digits(f(point)))
                 for i, slope in enumerate(row):
@@ -46,24 +47,44 @@ def test_values_and_slopes_hold_the_exact_ones(bits: int) -> None:
 def test_the_same_polynomials_are_evaluated_to_the_bits_of_each_time() -> None:
     system, x = BallPolynomials.of(POLYNOMIALS[:1], SLICES[:0]), [flint.acb(3)] * 3
     for bits in (64, 512, 64):
-        with flint.ctx.workprec(bits):
-            for ball in (system(x)[0, 0], system.jacobian(x)[0, 2]):
-                assert 2.0 ** -(bits + 4) < float(ball.real.rad()) < 2.0 ** (16 - bits)
+        for ball in (system.values(x, bits)[0, 0], system.jacobian(x, bits)[0, 2]):
+            assert 2.0 ** -(bits + 4) < float(ball.real.rad()) < 2.0 ** (16 - bits)
 
 
 def test_terms_that_cancel_leave_what_is_beside_them_however_small() -> None:
     tiny = parse_polynomial("x^2 - y^2 + 1/2^900", NAMES)
-    with flint.ctx.workprec(128):
-        value = BallPolynomials.of([tiny], SLICES[:0])([flint.acb(3)] * 3)[0, 0]
-        assert value == flint.acb(2) ** -900
+    value = BallPolynomials.of([tiny]).values([flint.acb(3)] * 3, 128)[0, 0]
+    assert value == flint.acb(2) ** -900
 
 
 def test_slopes_on_a_box_hold_those_at_its_points() -> None:
     system, rng = BallPolynomials.of(POLYNOMIALS, SLICES), np.random.default_rng(1)
     centre, radius = rng.standard_normal(3) + 1j * rng.standard_normal(3), 2.0**-4
     disc = flint.acb(flint.arb(0, radius), flint.arb(0, radius))
-    on_box = system.jacobian([flint.acb(complex(z)) + disc for z in centre]).entries()
+    on_box = system.jacobian([flint.acb(complex(z)) + disc for z in centre], 53).entries()
     for _ in range(20):
         off = rng.uniform(-radius, radius, 3) + 1j * rng.uniform(-radius, radius, 3)
-        at = system.jacobian([flint.acb(complex(z)) for z in centre + off]).entries()
+        at = system.jacobian([flint.acb(complex(z)) for z in centre + off], 53).entries()
         assert all(box.contains(slope) for box, slope in zip(on_box, at, strict=True))
+
+
+@pytest.mark.parametrize("digits", [20, 200])
+def test_sizes_of_terms_are_right_to_the_last_digits(digits: int) -> None:
+    system, rng = BallPolynomials.of(POLYNOMIALS), np.random.default_rng(0)
+    with flint.ctx.workdps(digits + 5):
+        point = [Fraction(int(k), 13) for k in rng.integers(-99, 99, 3)]
+        at = [flint.acb(flint.arb(x.numerator) / x.denominator) for x in point]
+    for f, size in zip(POLYNOMIALS, system.sizes(at, bits_of(digits + 5)), strict=True):
+        terms = f([abs(x) for x in point], abs)
+        assert size.contains(to_many_digits(terms))
+        assert size.rad() <= float(1 + terms) * flint.arb(10) ** -digits
+
+
+def test_a_row_more_leaves_those_above_as_they_are() -> None:
+    x = [flint.acb(3, 1), flint.acb(-2), flint.acb(1, 7)]
+    whole, above = BallPolynomials.of(POLYNOMIALS, SLICES), BallPolynomials.of(POLYNOMIALS)
+    assert whole.above is above and len(whole) == len(above) + len(SLICES)
+    values = list(map(str, whole.values(x, 90).entries()))
+    assert values[: len(above)] == list(map(str, above.values(x, 90).entries()))
+    chosen = whole.rows_of([0, 7]).values(x, 90).entries()
+    assert list(map(str, chosen)) == [values[0], values[7]]

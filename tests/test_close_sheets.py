@@ -222,7 +222,7 @@ def test_close_zeros_are_known_to_as_many_digits_as_are_asked_for(e: int, power:
         exact = flint.arb(2) ** flint.fmpq(1, power) / flint.arb(10) ** e
         start = in_words([flint.acb(exact)], 10.0**e)
         found = zero_from([f], np.zeros((0, 2), dtype=complex), start, 150)
-        assert found is not None and abs(found[0][0] - exact) < flint.arb(10) ** -150
+        assert found is not None and abs(found.centre[0] - exact) < flint.arb(10) ** -150
 
 
 @pytest.mark.parametrize("k", [6, 9, 12, 20, 25])

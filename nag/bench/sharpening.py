@@ -13,7 +13,8 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.bench.reference import Reference
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import middle
+from nag.numerics.digits import bits_of
+from nag.numerics.newton import newton_step, subtract_step
 from nag.tracking.compiled import compile_rows
 from nag.tracking.ends.newton_steps import affine_points, newton_steps
 from nag.tracking.homotopy import Homotopy
@@ -59,7 +60,7 @@ def sharpening(
     for words, name in WORDS.items():
         curves[name] = _word_curve(system, reference, rough, words)
     count = min(MOST_IN_BALLS, len(rough))
-    exact = BallPolynomials.of(system.polynomials, np.zeros((0, 1 + system.n)))
+    exact = BallPolynomials.of(system.polynomials)
     for digits in DIGITS:
         name = f"balls of {digits} digits"
         curves[name] = _ball_curve(exact, reference, rough[:count], digits)
@@ -147,16 +148,13 @@ def _ball_curve(
     found = []
     points = [[flint.acb(complex(z)) for z in x] for x in rough]
     seconds, steps = 0.0, 0
-    with flint.ctx.workdps(digits):
-        while steps < MOST_STEPS and (steps < 2 or found[-1].largest < 0.8 * found[-2].largest):
-            begin = time.process_time()
-            for i, x in enumerate(points):
-                moves = (exact.jacobian(x).mid().inv().mid() * exact(x)).entries()
-                points[i] = [middle(a - b) for a, b in zip(x, moves, strict=True)]
-            seconds += time.process_time() - begin
-            steps += 1
-            errors = [reference.fine_error(x, i) for i, x in enumerate(points)]
-            found.append(
-                Sharpened(steps, seconds / len(points), max(errors), float(np.median(errors)))
-            )
+    bits = bits_of(digits)
+    while steps < MOST_STEPS and (steps < 2 or found[-1].largest < 0.8 * found[-2].largest):
+        begin = time.process_time()
+        for i, x in enumerate(points):
+            points[i] = subtract_step(x, newton_step(exact, x, bits), bits)
+        seconds += time.process_time() - begin
+        steps += 1
+        errors = [reference.fine_error(x, i) for i, x in enumerate(points)]
+        found.append(Sharpened(steps, seconds / len(points), max(errors), float(np.median(errors))))
     return found

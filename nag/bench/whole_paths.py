@@ -19,8 +19,9 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.bench.reference import NEAR, Found, Reference, compared, compared_in_balls
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import middle, number
-from nag.solving.isolated_zero import FinePoint
+from nag.numerics.digits import bits_of, number
+from nag.numerics.newton import newton_step, subtract_step
+from nag.solving.isolated_zero import affine_point
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
 from nag.solving.start.target import Start, Target
@@ -108,24 +109,19 @@ class WholePaths:
         parts[..., 0, 0], parts[..., 1, 0] = starts.real, starts.imag
         paths = follow_whole(homotopy, parts, 1 / np.maximum(least, TINY), settings)
         chosen = paths.where(PathStatus.REGULAR).tolist()
-        return [list(FinePoint.of_ball(self.begin, paths.balls[i]).coordinates) for i in chosen]
+        return [list(affine_point(self.begin, paths.balls[i]).centre) for i in chosen]
 
     def _in_balls(self, digits: int, settings: Settings) -> list[list[Any]]:
         n = self.target.n
-        rows = BallPolynomials.of(
-            [Polynomial(n, dict(row)) for row in self.target.rows], np.zeros((0, 1 + n))
-        )
+        rows = BallPolynomials.of([Polynomial(n, dict(row)) for row in self.target.rows])
         found = []
-        with flint.ctx.workdps(digits):
-            for point in self._in_doubles(settings, True):
-                x = [flint.acb(complex(z)) for z in point]
-                try:
-                    for _ in range(STEPS[digits]):
-                        moves = (rows.jacobian(x).mid().inv().mid() * rows(x)).entries()
-                        x = [middle(a - b) for a, b in zip(x, moves, strict=True)]
-                except ZeroDivisionError:
-                    # The matrix is singular: the end is no regular one.
-                    continue
+        for point in self._in_doubles(settings, True):
+            x: list[Any] | None = [flint.acb(complex(z)) for z in point]
+            for _ in range(STEPS[digits]):
+                step = None if x is None else newton_step(rows, x, bits_of(digits))
+                # Where the matrix is singular, the end is no regular one.
+                x = None if step is None else subtract_step(x, step, bits_of(digits))
+            if x is not None:
                 found.append(x)
         return found
 

@@ -106,7 +106,7 @@ class BranchComponent(GenericPoint):
     def in_digits(self) -> PointWithError:
         # Zeros of other branches may be close to it.
         if len(self.zeros) == 1:
-            return self.zeros[0].digits, WRITTEN
+            return self.zeros[0].precise.centre, WRITTEN
         return self.point, ACCURACY
 
     @property
@@ -124,7 +124,7 @@ class BranchComponent(GenericPoint):
         if self.witness.dimension or self.zero is not None or len(self.zeros) != 1:
             return Place.UNDECIDED
         rng = np.random.default_rng(0)
-        return analyse(equations, self.zeros[0].digits, WRITTEN, rng, place_only=True).place
+        return analyse(equations, self.in_digits()[0], WRITTEN, rng, place_only=True).place
 
     @cached_property
     def _fibre(self) -> Fibre | None:

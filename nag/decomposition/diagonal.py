@@ -22,7 +22,9 @@ from nag.decomposition.factor import NOT_MOVED, Factor, on_flag
 from nag.decomposition.hypersurface import intersect
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import are_new_alone
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import clusters, coincident, compared
+from nag.numerics.digits import bits_of
 from nag.numerics.zero_values import possible_zeros, vanishes_at, vanishes_at_all
 from nag.tracking.run import Run
 from nag.witness.close_points import CLOSE, DIGITS, STEEPEST, Fine, chosen, in_words
@@ -231,21 +233,16 @@ def _in_words(
 
     None if it is not found.
     """
-    import flint
-
-    from nag.numerics.digits import number
-
     there = zero_in_digits(cut, rows, z, known)
     if there is None:
         return None
     steep = known.curvature if known else 1.0
-    with flint.ctx.workdps(2 * DIGITS):
-        if probe is not None:
-            value = float(abs(probe(there[: probe.n], number)).mid())
-            terms = sum(abs(complex(c)) for c in probe.terms.values())
-            apart = value / terms / (1 + float(np.linalg.norm(z)))
-            steep = max(steep, STEEPER / max(apart, 1 / STEEPEST))
-        return in_words(there, steep)
+    if probe is not None:
+        values = BallPolynomials.of((probe,)).values(there.centre[: probe.n], bits_of(2 * DIGITS))
+        terms = sum(abs(complex(c)) for c in probe.terms.values())
+        apart = float(abs(values[0, 0]).mid()) / terms / (1 + float(np.linalg.norm(z)))
+        steep = max(steep, STEEPER / max(apart, 1 / STEEPEST))
+    return in_words(there.centre, steep)
 
 
 @dataclass(frozen=True, eq=False)

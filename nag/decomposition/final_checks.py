@@ -205,14 +205,14 @@ def _lifted(fibre: Fibre, reduction: Reduction) -> Fibre:
     return Fibre(reduction.lifted(fibre.cut), fibre.dimension, points, fine)
 
 
-def _smallest(fibres: Sequence[Fibre], rows: np.ndarray) -> np.ndarray | list[flint.acb]:
+def _smallest(fibres: Sequence[Fibre], rows: np.ndarray) -> np.ndarray | Sequence[flint.acb]:
     """The smallest point of fibres on a slice, in digits where it is close to others."""
     sizes = [np.linalg.norm(fibre.x, axis=1) for fibre in fibres]
     k = int(np.argmin([own.min() for own in sizes]))
     fibre, i = fibres[k], int(sizes[k].argmin())
     fine = fibre.fine.get(i)
     digits = zero_in_digits(fibre.cut, rows, fibre.points[i], fine) if fine is not None else None
-    return fibre.x[i] if digits is None else digits[: fibre.cut.n]
+    return fibre.x[i] if digits is None else digits.first(fibre.cut.n).centre
 
 
 def checked_witness_set(

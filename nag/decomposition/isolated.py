@@ -15,7 +15,6 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import is_dependent
-from nag.algebra.high_precision import vanish
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
@@ -23,8 +22,10 @@ from nag.algebra.zero_count import most_zeros
 from nag.decomposition.final_checks import judged
 from nag.decomposition.symmetric_images import in_orbits
 from nag.errors import StartError
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import coincident
-from nag.numerics.zero_values import NONZERO, SINGULAR
+from nag.numerics.precise_point import precise_zero
+from nag.numerics.zero_values import NONZERO, SINGULAR, vanishes
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
 from nag.tracking.run import Run
@@ -76,8 +77,8 @@ def _met(cut: PolynomialSystem, last: Polynomial, x: np.ndarray) -> bool:
     """Whether the last equation vanishes, or may do so, at a zero of the others on the plane."""
     *others, plane = cut.polynomials
     row = np.array([[float(plane.terms.get(e, 0)) for e in _linear(cut.n)]])
-    jacobian = Evaluator.of(others, cut.n).jacobian(x)
-    return vanish([last], others, row, jacobian, x) is not False
+    zero = precise_zero(BallPolynomials.of(others, row), x)
+    return zero is None or vanishes(last, zero) is not False
 
 
 def _linear(n: int) -> list[tuple[int, ...]]:

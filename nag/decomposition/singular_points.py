@@ -15,7 +15,6 @@ from itertools import combinations
 from math import comb
 from typing import Any
 
-import flint
 import numpy as np
 
 from nag.algebra.given import check_listed
@@ -27,8 +26,10 @@ from nag.decomposition.rank_drop import ROUNDED, SetOfPoints, rank_drop
 from nag.numerics.coincidence import coincident
 from nag.numerics.local_dimension import LocalDimension, local_dimension
 from nag.numerics.natural_coordinates import NaturalCoordinates
+from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array, fixed_mapping
 from nag.numerics.tangent_cone import TangentCone, form_text, tangent_cone
+from nag.numerics.zero_values import vanish
 from nag.text.json_text import pairs
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.change_of_coordinates import carry_decomposition, coordinates_of
@@ -36,8 +37,7 @@ from nag.witness.close_to_sets import are_same
 from nag.witness.component_equations import (
     component_fibres,
     component_system,
-    may_vanish,
-    point_in_balls,
+    precise_point,
 )
 from nag.witness.frame import expanded
 from nag.witness.given_component import check_decomposition, check_index
@@ -147,17 +147,18 @@ class SingularLocus:
 class _Candidate:
     """Points where something may be singular, and the component or pair that it was found from.
 
-    ``digits``: of an isolated point that equations cut, to a hundred digits; empty elsewhere.
+    ``precise``: an isolated point that equations cut; None elsewhere.
     """
 
     found: SetOfPoints
     source: tuple[int, ...]
-    digits: Sequence[flint.acb] = ()
+    precise: PrecisePoint | None = None
 
     def is_apart_from(self, other: _Candidate) -> bool:
         """Whether two isolated points are two in the digits of both, where these are known."""
-        known = bool(self.digits and other.digits)
-        return known and not are_same(self.digits, other.digits)
+        if self.precise is None or other.precise is None:
+            return False
+        return not are_same(self.precise, other.precise)
 
 
 @dataclass(eq=False)
@@ -212,7 +213,7 @@ class _Search:
             _Candidate(
                 SetOfPoints(c.dimension, c.degree, c.points, c.accuracy),
                 (i, j),
-                [] if c.dimension or not c.fibres else point_in_balls(c),
+                None if c.dimension or not c.fibres else precise_point(c),
             )
             for c in found.components
             if not c.note
@@ -389,7 +390,8 @@ def _judged(
         if _outside_hull(search.own[i][0], x, error):
             continue
         # Doubles may take a point that is close to a component for one of it.
-        if candidate.digits and not may_vanish(search.own[i][0].polynomials, candidate.digits):
+        equations = search.own[i][0].polynomials
+        if candidate.precise is not None and vanish(equations, candidate.precise) is False:
             continue
         # A multiple component is simple in equations of its own.
         own = search.own[i] if component.multiplicity != 1 else (whole.system, component)

@@ -18,7 +18,6 @@ import numpy as np
 from nag.algebra.flint_numbers import to_rational
 from nag.interpolation.precise_samples import Sample, Source, SourceError
 from nag.interpolation.vanishing import DIGITS, InterpolationError
-from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.rational_relations import TooFewDigitsError, recognised
 from nag.tracking.run import Run
 from nag.witness.moving import arrival
@@ -90,9 +89,7 @@ class RationalSlice:
             raise SourceError("a path to a rational slice failed")
         found = []
         for fibre in there.fibres:
-            total = fibre.cut.n + fibre.cut.aux
-            functions = BallPolynomials.of(fibre.cut.polynomials, np.zeros((0, 1 + total)))
-            found += [Sample(source.natural, fibre.cut, target, z, functions) for z in fibre.points]
+            found += [Sample(source.natural, fibre.cut, target, z) for z in fibre.points]
         return found
 
     def value(self, sample: Sample, digits: int) -> flint.acb:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import log10
 
 import flint
 import numpy as np
@@ -19,8 +20,9 @@ from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import number
+from nag.numerics.digits import bits_of, in_bits, number
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
+from nag.numerics.newton import find_zero
 from nag.numerics.zero_values import ON
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
@@ -34,8 +36,6 @@ from nag.witness.witness import WitnessSet
 
 # Digits beyond those asked for in which Newton's method computes.
 SPARE = 25
-# Steps of Newton's method before its digits double.
-FIRST_STEPS = 4
 # Relative error of an exact point that is rounded to doubles.
 ROUNDED = 1e-15
 
@@ -129,14 +129,12 @@ class Sample:
     Attributes:
         natural: the coordinates of all this.
         z: affine, with the unknowns that deflation added.
-        functions: the equations in balls; samples of one source share them.
     """
 
     natural: NaturalCoordinates
     cut: Cut
     rows: np.ndarray
     z: np.ndarray
-    functions: BallPolynomials
 
     @property
     def x(self) -> np.ndarray:
@@ -149,29 +147,14 @@ class Sample:
         Raises:
             SourceError: if Newton's method does not converge.
         """
-        rows = padded(self.rows, 1 + len(self.z))
-        with flint.ctx.workdps(digits + SPARE):
-            point = [flint.acb(complex(x)) for x in self.z]
-            sliced = [flint.acb(complex(c)) for row in rows for c in row]
-            slices = flint.acb_mat(len(rows), 1 + len(point), sliced)
-            normals = [[slices[i, 1 + j] for j in range(len(point))] for i in range(len(rows))]
-            small = flint.arb(10) ** -digits
-            for _ in range(FIRST_STEPS + digits.bit_length()):
-                values = self.functions(point).entries()
-                values += (slices * flint.acb_mat([[1], *([x] for x in point)])).entries()
-                slopes = [*self.functions.jacobian(point).tolist(), *normals]
-                try:
-                    step = _solution(slopes, values)
-                except ZeroDivisionError:
-                    raise SourceError("a sampled point is singular to rounding") from None
-                sizes = [1 + abs(x).mid() for x in point]
-                point = [(x - d).mid() for x, d in zip(point, step, strict=True)]
-                if all(abs(d) < small * s for d, s in zip(step, sizes, strict=True)):
-                    break
-            else:
-                raise SourceError("Newton's method does not converge at a sampled point")
+        exact = BallPolynomials.of(self.cut.polynomials, padded(self.rows, 1 + len(self.z)))
+        more = log10(1 + float(np.abs(self.z).max(initial=0.0)))
+        zero = find_zero(exact, [flint.acb(complex(x)) for x in self.z], digits + more)
+        if zero is None:
+            raise SourceError("Newton's method does not converge at a sampled point")
+        with in_bits(bits_of(digits + SPARE)):
             radius = flint.arb(10) ** -digits
-            x = [z + number(b) for z, b in zip(point, self.natural.origin, strict=False)]
+            x = [z + number(b) for z, b in zip(zero.point, self.natural.origin, strict=False)]
             return [_widened(z, radius * (1 + abs(z).mid())) for z in x]
 
 
@@ -203,7 +186,6 @@ def samples(source: Source, count: int, rng: np.random.Generator, run: Run) -> l
     n = source.system.n
     evaluator = Evaluator.of(source.natural.system(source.system).polynomials, n)
     found: list[Sample] = []
-    in_balls: dict[Cut, BallPolynomials] = {}
     while len(found) < count:
         target, there = at_random(source.fibres, source.rows, rng, run)
         if not (len(there.x) and np.isfinite(there.accuracy)):
@@ -214,9 +196,5 @@ def samples(source: Source, count: int, rng: np.random.Generator, run: Run) -> l
                 "some equations hold at the point alone and not on what moves through it: it is "
                 "singular; name a component"
             )
-        cut = fibre.cut
-        if cut not in in_balls:
-            total = cut.n + cut.aux
-            in_balls[cut] = BallPolynomials.of(cut.polynomials, np.zeros((0, 1 + total)))
-        found.append(Sample(source.natural, cut, target, fibre.points[0], in_balls[cut]))
+        found.append(Sample(source.natural, fibre.cut, target, fibre.points[0]))
     return found

@@ -22,7 +22,6 @@ from typing import Any
 
 import numpy as np
 
-from nag.algebra.high_precision import DIGITS, sharp_zero
 from nag.algebra.number import Number, to_mpf
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError, NagError
@@ -30,12 +29,14 @@ from nag.mechanism.axes import direction, dot
 from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
+from nag.numerics.precise_point import DIGITS
 from nag.numerics.read_only import fixed_mapping
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.component_equations import component_fibres
+from nag.witness.confirm import zero_in_digits
 from nag.witness.fibres import Fibre, move
 from nag.witness.points import with_fine
-from nag.witness.slices import padded, unit_complex
+from nag.witness.slices import unit_complex
 from nag.witness.witness import WitnessSet
 
 # Distances from an end, relative to the coordinate's size, at which the joints' norms are compared.
@@ -266,12 +267,11 @@ class _Ends:
         """A point near an end in many digits: eliminated joints lose most of them there."""
         import mpmath
 
-        jacobian = fibre.cut.evaluator.jacobian(z)
-        zero = sharp_zero(fibre.cut.polynomials, padded(rows, 1 + len(z)), jacobian, z)
+        zero = zero_in_digits(fibre.cut, rows, z)
         if zero is None:
             raise BondError("points near the ends of the curve are not regular")
         with mpmath.workdps(DIGITS):
-            parts = [[mpmath.mpf(_man_exp(part)) for part in (x.real, x.imag)] for x in zero]
+            parts = [[mpmath.mpf(_man_exp(part)) for part in (x.real, x.imag)] for x in zero.centre]
             return [mpmath.mpc(*both) for both in parts[: self.n]]
 
     def _rows(self, i: int, value: complex) -> np.ndarray:

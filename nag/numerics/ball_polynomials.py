@@ -1,10 +1,14 @@
-"""Exact polynomials and linear rows on boxes of FLINT's balls, at the working precision."""
+"""Systems of polynomials and linear rows in balls: values, Jacobians, sizes of the terms.
+
+In as many bits as each call asks for, whatever precision was worked in before. Every monomial is
+made once for all rows, of two earlier ones.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import flint
@@ -12,48 +16,65 @@ import numpy as np
 
 from nag.algebra.number import Irrational
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.digits import number
+from nag.numerics.digits import in_bits, number
 
 # Bits in which the value of an expression may be off, which is evaluated to more than those asked.
 GUARD = 4
+# Systems that are kept ready to be evaluated.
+KEPT = 128
 
+# The variables of a monomial, in their order, each with its exponent.
 Factors = tuple[tuple[int, int], ...]
 
 
+def factors_of(exponents: Iterable[int]) -> Factors:
+    """A monomial by its variables.
+
+    >>> factors_of((0, 2, 1))
+    ((1, 2), (2, 1))
+    """
+    return tuple((i, k) for i, k in enumerate(exponents) if k)
+
+
 @dataclass(frozen=True, eq=False)
-class Monomials:
-    """Products of powers of the variables, each made of an earlier one and one power.
+class MonomialProducts:
+    """A list of one, the variables, and products; a monomial is known by its place there.
 
     Attributes:
-        powers: pairs of a variable and an exponent.
-        made: for each product after the first, which is one, its part and a power, as places.
-        places: of the products, by their factors.
+        n: number of variables.
+        pairs: places of the factors of each product, both earlier ones.
     """
 
-    powers: tuple[tuple[int, int], ...]
-    made: tuple[tuple[int, int], ...]
-    places: dict[Factors, int]
+    n: int
+    pairs: list[tuple[int, int]] = field(default_factory=list)
+    _places: dict[Factors, int] = field(default_factory=dict)
 
-    @classmethod
-    def of(cls, wanted: Iterable[Factors]) -> Monomials:
-        places: dict[Factors, int] = {(): 0}
-        powers: dict[tuple[int, int], int] = {}
-        made = []
-        for factors in wanted:
-            for count in range(1, len(factors) + 1):
-                part = factors[:count]
-                if part not in places:
-                    places[part] = len(places)
-                    power = powers.setdefault(part[-1], len(powers))
-                    made.append((places[part[:-1]], power))
-        return cls(tuple(powers), tuple(made), places)
-
-    def values(self, x: Sequence[flint.acb]) -> list[flint.acb]:
-        powers = [x[i] if k == 1 else x[i] ** k for i, k in self.powers]
-        found = [flint.acb(1)]
-        for part, power in self.made:
-            found.append(found[part] * powers[power] if part else powers[power])
+    def place(self, monomial: Factors) -> int:
+        """The place of a monomial, which is appended with all that it needs where it is new."""
+        found = self._places.get(monomial)
+        if found is None:
+            found = self._places[monomial] = self._append(monomial)
         return found
+
+    def _append(self, monomial: Factors) -> int:
+        if not monomial:
+            return 0
+        *first, (i, k) = monomial
+        if first:
+            parts: tuple[Factors, Factors] = tuple(first), ((i, k),)
+        elif k == 1:
+            return 1 + i
+        else:
+            parts = ((i, k // 2),), ((i, k - k // 2),)
+        self.pairs.append((self.place(parts[0]), self.place(parts[1])))
+        return self.n + len(self.pairs)
+
+    def values(self, x: Sequence[Any]) -> list[Any]:
+        """The values of all of them at a point in balls."""
+        values = [flint.acb(1), *x]
+        for i, j in self.pairs:
+            values.append(values[i] * values[j])
+        return values
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,47 +94,82 @@ class Slopes:
 
 @dataclass(frozen=True, eq=False)
 class BallPolynomials:
-    """Rows of terms: pairs of a coefficient and the variables in it with their exponents."""
+    """Rows of terms: pairs of an exact coefficient and the monomial that it stands before.
+
+    Attributes:
+        above: rows that stand before these.
+    """
 
     n: int
     rows: tuple[tuple[tuple[Any, Factors], ...], ...]
+    above: BallPolynomials | None = None
     _terms: dict[int, list[list[tuple[flint.acb, int]]]] = field(default_factory=dict, repr=False)
     _matrices: dict[int, list[flint.acb_mat]] = field(default_factory=dict, repr=False)
 
     @classmethod
-    def of(cls, polynomials: Sequence[Polynomial], slices: np.ndarray) -> BallPolynomials:
+    def of(
+        cls, polynomials: Sequence[Polynomial], slices: np.ndarray | None = None
+    ) -> BallPolynomials:
         """Exact polynomials, and rows on ``(1, x)``, of exact doubles, shape ``(d, 1 + n)``."""
-        rows = [
-            tuple((c, tuple((i, k) for i, k in enumerate(e) if k)) for e, c in f.terms.items())
-            for f in polynomials
-        ]
+        n = polynomials[0].n if slices is None else slices.shape[1] - 1
+        exact = _of_polynomials(tuple(polynomials), n)
+        if slices is None or not len(slices):
+            return exact
+        rows = []
         for row in slices:
             terms = [(complex(c), ((j, 1),)) for j, c in enumerate(row[1:])]
             rows.append(((complex(row[0]), ()), *terms))
-        return cls(slices.shape[1] - 1, tuple(rows))
+        return cls(n, tuple(rows), exact)
+
+    @property
+    def all_rows(self) -> tuple[tuple[tuple[Any, Factors], ...], ...]:
+        """The rows, those above first."""
+        return self.rows if self.above is None else self.above.all_rows + self.rows
+
+    def __len__(self) -> int:
+        """Number of rows."""
+        return len(self.rows) + (0 if self.above is None else len(self.above))
 
     def rows_of(self, chosen: Sequence[int]) -> BallPolynomials:
         """Some of the rows."""
-        return BallPolynomials(self.n, tuple(self.rows[i] for i in chosen))
+        rows = self.all_rows
+        return BallPolynomials(self.n, tuple(rows[i] for i in chosen))
 
-    def __call__(self, x: Sequence[flint.acb]) -> flint.acb_mat:
+    def values(self, x: Sequence[flint.acb], bits: int) -> flint.acb_mat:
         """Values, a column."""
-        monomials, bits = self._monomials, flint.ctx.prec
+        with in_bits(bits):
+            values = self._values(x, bits)
+            return flint.acb_mat(len(values), 1, values)
+
+    def _values(self, x: Sequence[flint.acb], bits: int) -> list[flint.acb]:
         if bits not in self._terms:
-            places = monomials.places
-            self._terms[bits] = [[(_ball(c), places[f]) for c, f in row] for row in self.rows]
-        at, values = monomials.values(x), []
+            place = self._monomials.place
+            self._terms[bits] = [[(_ball(c), place(f)) for c, f in row] for row in self.rows]
+        at = self._monomials.values(x)
+        values = [] if self.above is None else self.above._values(x, bits)
         for row in self._terms[bits]:
             # Terms that cancel exactly leave no error, as they would in a product of matrices.
             total = flint.acb(0)
             for c, place in row:
                 total = total + c * at[place]
             values.append(total)
-        return flint.acb_mat(len(values), 1, values)
+        return values
 
-    def jacobian(self, x: Sequence[flint.acb]) -> flint.acb_mat:
+    def sizes(self, x: Sequence[Any], bits: int) -> list[flint.arb]:
+        """Sums of the absolute values of each row's terms at a point."""
+        with in_bits(bits):
+            at = [abs(z) for z in self._monomials.values(x)]
+            terms = [[(_ball(c), self._monomials.place(f)) for c, f in row] for row in self.rows]
+            above = [] if self.above is None else self.above.sizes(x, bits)
+            return above + [sum((abs(c) * at[i] for c, i in row), flint.arb(0)) for row in terms]
+
+    def jacobian(self, x: Sequence[flint.acb], bits: int) -> flint.acb_mat:
         """The Jacobian matrix."""
-        (monomials, slopes), bits = self._slopes, flint.ctx.prec
+        with in_bits(bits):
+            return flint.acb_mat(len(self), self.n, self._jacobian(x, bits))
+
+    def _jacobian(self, x: Sequence[flint.acb], bits: int) -> list[flint.acb]:
+        monomials, slopes = self._slopes
         if bits not in self._matrices:
             self._matrices[bits] = [_matrix(s) for s in slopes]
         at = monomials.values(x)
@@ -122,20 +178,31 @@ class BallPolynomials:
             column = flint.acb_mat(len(row.monomials), 1, [at[m] for m in row.monomials])
             for i, slope in zip(row.variables, (matrix * column).entries(), strict=True):
                 entries[r * self.n + i] = slope
-        return flint.acb_mat(len(self.rows), self.n, entries)
+        return entries if self.above is None else self.above._jacobian(x, bits) + entries
 
     @cached_property
-    def _monomials(self) -> Monomials:
-        return Monomials.of(f for row in self.rows for _, f in row)
+    def _monomials(self) -> MonomialProducts:
+        made = MonomialProducts(self.n)
+        for row in self.rows:
+            for _, f in row:
+                made.place(f)
+        return made
 
     @cached_property
-    def _slopes(self) -> tuple[Monomials, list[Slopes]]:
+    def _slopes(self) -> tuple[MonomialProducts, list[Slopes]]:
+        made = MonomialProducts(self.n)
         derivatives = [
-            [(i, _lower(f, place), (c, k)) for c, f in row for place, (i, k) in enumerate(f)]
+            [(i, made.place(_lower(f, at)), (c, k)) for c, f in row for at, (i, k) in enumerate(f)]
             for row in self.rows
         ]
-        monomials = Monomials.of(f for row in derivatives for _, f, _ in row)
-        return monomials, [_slopes_of(row, monomials) for row in derivatives]
+        return made, [_slopes_of(row) for row in derivatives]
+
+
+@lru_cache(maxsize=KEPT)
+def _of_polynomials(polynomials: tuple[Polynomial, ...], n: int) -> BallPolynomials:
+    """The same polynomials are asked about at one point after another."""
+    rows = tuple(tuple((c, factors_of(e)) for e, c in f.terms.items()) for f in polynomials)
+    return BallPolynomials(n, rows)
 
 
 def _lower(factors: Factors, place: int) -> Factors:
@@ -144,16 +211,14 @@ def _lower(factors: Factors, place: int) -> Factors:
     return factors[:place] + (((i, k - 1),) if k > 1 else ()) + factors[place + 1 :]
 
 
-def _slopes_of(
-    derivatives: Sequence[tuple[int, Factors, tuple[Any, int]]], monomials: Monomials
-) -> Slopes:
+def _slopes_of(derivatives: Sequence[tuple[int, int, tuple[Any, int]]]) -> Slopes:
     variables = {i: v for v, i in enumerate(sorted({i for i, _, _ in derivatives}))}
     columns: dict[int, int] = {}
-    for _, f, _ in derivatives:
-        columns.setdefault(monomials.places[f], len(columns))
+    for _, place, _ in derivatives:
+        columns.setdefault(place, len(columns))
     entries: list[tuple[Any, int] | None] = [None] * (len(variables) * len(columns))
-    for i, f, entry in derivatives:
-        entries[variables[i] * len(columns) + columns[monomials.places[f]]] = entry
+    for i, place, entry in derivatives:
+        entries[variables[i] * len(columns) + columns[place]] = entry
     return Slopes(tuple(variables), tuple(columns), tuple(entries))
 
 

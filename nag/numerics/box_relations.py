@@ -8,6 +8,7 @@ import flint
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
+from nag.numerics.digits import in_bits
 from nag.numerics.discs import UNIT, UP
 from nag.numerics.krawczyk import Boxes, FineBox
 
@@ -51,7 +52,7 @@ def one_zero(a: FineBox, b: FineBox) -> bool | None:
 
     None where that is not known.
     """
-    with flint.ctx.workprec(1024):
+    with in_bits(1024):
         distance = [abs(x - y) for x, y in zip(a.centre, b.centre, strict=True)]
         sums = zip(distance, a.inner, b.inner, strict=True)
         if any(d > r + s for d, r, s in sums):
@@ -88,7 +89,7 @@ def real_zeros(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
     for i in boxes.fine:
         box = boxes.fine[i]
         real[i] = holds_conjugate(box)
-        with flint.ctx.workprec(1024):
+        with in_bits(1024):
             off = [abs(z.imag) for z in box.centre]
             complex_[i] = any(d > r for d, r in zip(off, box.inner, strict=True))
     return real, complex_
@@ -96,6 +97,6 @@ def real_zeros(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
 
 def holds_conjugate(box: FineBox) -> bool:
     """Whether a box holds the conjugate of its zero as well."""
-    with flint.ctx.workprec(1024):
+    with in_bits(1024):
         triples = zip(box.centre, box.inner, box.outer, strict=True)
         return all(2 * abs(z.imag) + r < s for z, r, s in triples)

@@ -35,7 +35,7 @@ from nag.numerics.zero_values import (
 )
 
 # A point, in doubles or in balls, and how far the exact one may be from it.
-PointWithError = tuple["np.ndarray | Sequence[flint.acb | tuple[str, str]]", "float | np.ndarray"]
+PointWithError = tuple["np.ndarray | Sequence[flint.acb]", "float | np.ndarray"]
 
 
 class GenericPoint(ABC):

@@ -25,7 +25,7 @@ from nag.numerics.box_relations import overlaps
 from nag.numerics.close_zeros import close_zeros, matched
 from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
-from nag.numerics.digits import middle, number, rational_point
+from nag.numerics.digits import in_bits, middle, number, rational_point
 from nag.numerics.discs import UP
 from nag.numerics.krawczyk import BITS, Boxes, FineBox, box_about, boxes_of, enter_box
 from nag.numerics.singular_point import Place, analyse
@@ -332,11 +332,11 @@ def _others(
     box = box_about(BallPolynomials.of(square, slices), start, (BITS[-1],))
     if box is None:
         return EVIDENCE / 2, False
-    rest = BallPolynomials.of(others, np.zeros((0, 1 + len(point)), dtype=complex))
+    rest = BallPolynomials.of(others, slices[:0])
     digits = vanishing_digits(rest, box)
     if len(slices) or not digits:
         return digits, False
-    with flint.ctx.workprec(BITS[-1]):
+    with in_bits(BITS[-1]):
         exact = rational_point(box.centre, DIGITS)
         if exact is None or any(f(exact) for f in [*square, *others]):
             return digits, False
@@ -362,7 +362,7 @@ def _singular(
     point = boxes.centres[i]
     error = max(accuracy, LEAST) if np.isfinite(accuracy) else NEAR
     end = analyse(equations, point, error, rng, slices if len(slices) else None)
-    if end.place is not Place.ISOLATED or not end.digits:
+    if end.place is not Place.ISOLATED or end.precise is None:
         return False
     if end.rational is not None and not len(slices):
         if any(f(end.rational) for f in equations):
@@ -374,7 +374,7 @@ def _singular(
         proofs[i], result.digits[i], result.real[i] = Proof.EXACT, np.inf, True
         result.multiplicities[i] = end.multiplicity
         return False
-    found = deflated_zero(equations, slices, end.digits, rng)
+    found = deflated_zero(equations, slices, end.precise, rng)
     if found is None or found.vanishing < EVIDENCE:
         return False
     if not found.rounds:
@@ -389,7 +389,7 @@ def _singular(
 
 
 def _rational_box(point: Sequence[Fraction]) -> FineBox:
-    with flint.ctx.workprec(BITS[-1]):
+    with in_bits(BITS[-1]):
         exact = [number(c) for c in point]
         centre = tuple(middle(z) for z in exact)
         off = tuple(flint.acb(abs(z - c)).abs_upper() for z, c in zip(exact, centre, strict=True))

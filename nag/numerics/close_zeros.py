@@ -15,16 +15,13 @@ from scipy.optimize import linear_sum_assignment
 
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import holds_conjugate, one_zero
-from nag.numerics.digits import log_norm
-from nag.numerics.krawczyk import BITS, FineBox, ball_box, newton_step
+from nag.numerics.krawczyk import BITS, FineBox, ball_box
+from nag.numerics.newton import newton_to_rest
 
 # Places to begin at, for each zero, and steps from there: each may lead part of the way only.
 PLACES, STEPS = 10, 200
-# Rounding of a double, beside the point; and steps, as decimal logarithms, below which one that is
-# no shorter than the one before is rounding, and any is.
-ROUNDING, REST, DEEP = 2.0**-52, -45.0, -140.0
-# Size of a point that is zero, as decimal logarithm.
-LEAST = -300.0
+# Rounding of a double, beside the point.
+ROUNDING = 2.0**-52
 
 
 def close_zeros(
@@ -41,36 +38,21 @@ def close_zeros(
     spread = float(np.abs(points - points[0]).max(initial=0.0))
     least = 4 * ROUNDING * size
     found: list[FineBox] = []
-    with flint.ctx.workprec(BITS[-1]):
-        for place in range(PLACES * len(points)):
-            begin = points[place % len(points)]
-            # Distances of all sizes: the points may be zeros of several groups.
-            off = least * max(1.0, spread / least) ** rng.random()
-            shape = rng.standard_normal(len(begin)) + 1j * rng.standard_normal(len(begin))
-            box = _zero_from(system, begin + off * shape)
-            if box is None or not _near(box, points, reach):
-                continue
-            if all(one_zero(box, other) is False for other in found):
-                found.append(box)
-            if len(found) == len(points):
-                break
+    for place in range(PLACES * len(points)):
+        begin = points[place % len(points)]
+        # Distances of all sizes: the points may be zeros of several groups.
+        off = least * max(1.0, spread / least) ** rng.random()
+        shape = rng.standard_normal(len(begin)) + 1j * rng.standard_normal(len(begin))
+        start = [flint.acb(complex(z)) for z in begin + off * shape]
+        x = newton_to_rest(system, start, BITS[-1], STEPS)
+        box = None if x is None else ball_box(system, x, BITS[-1])
+        if box is None or not _near(box, points, reach):
+            continue
+        if all(one_zero(box, other) is False for other in found):
+            found.append(box)
+        if len(found) == len(points):
+            break
     return found
-
-
-def _zero_from(system: BallPolynomials, start: np.ndarray) -> FineBox | None:
-    """The box of the simple zero that Newton's method leads to, however slowly, or None."""
-    x, last = [flint.acb(complex(z)) for z in start], np.inf
-    for _ in range(STEPS):
-        step = newton_step(system, x)
-        if step is None:
-            return None
-        x, length = step
-        # The origin itself has no size.
-        length -= max(log_norm(x), LEAST)
-        if length < DEEP or last <= length < REST:
-            return ball_box(system, x)
-        last = length
-    return None
 
 
 def _near(box: FineBox, points: np.ndarray, reach: float) -> bool:

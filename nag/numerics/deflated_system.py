@@ -21,9 +21,10 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import holds_conjugate
-from nag.numerics.digits import log_norm, middle
+from nag.numerics.digits import bits_of, in_bits, log_norm, middle
 from nag.numerics.krawczyk import BITS, FineBox, box_about
 from nag.numerics.pivots import pivots
+from nag.numerics.precise_point import PrecisePoint
 
 # Digits in which ranks are taken, and below which an entry is zero (decimal logarithm).
 DIGITS, ZERO = 150, -50.0
@@ -56,7 +57,7 @@ class DeflatedZero:
 def deflated_zero(
     polynomials: Sequence[Polynomial],
     slices: np.ndarray,
-    digits: Sequence[tuple[str, str]],
+    zero: PrecisePoint,
     rng: np.random.Generator,
 ) -> DeflatedZero | None:
     """Prove a zero of deflated equations next to a singular zero; None if that does not succeed.
@@ -64,15 +65,15 @@ def deflated_zero(
     Args:
         polynomials: exact, in ``n`` variables.
         slices: further linear equations, rows on ``(1, x)``, whose doubles are exact.
-        digits: of the zero, real and imaginary parts as decimals, a hundred of them.
+        zero: to about a hundred digits.
     """
     equations, rows = list(polynomials), slices
-    with flint.ctx.workdps(DIGITS):
-        point = [middle(flint.acb(flint.arb(re), flint.arb(im))) for re, im in digits]
+    with in_bits(bits_of(DIGITS)):
+        point = list(zero.centre)
         rounds, of_real = 0, not len(slices)
         while len(point) <= MOST_UNKNOWNS:
             system = BallPolynomials.of(equations, rows)
-            entries = [[middle(z) for z in row] for row in system.jacobian(point).tolist()]
+            entries = system.jacobian(point, bits_of(DIGITS)).mid().tolist()
             chosen, columns = pivots(lambda _, m=entries: m, len(point), 0, ZERO)
             if len(columns) == len(point):
                 return _proved(system, point, chosen, rounds, of_real)
@@ -141,19 +142,14 @@ def _proved(
     box = box_about(square, point, (BITS[-1],))
     if box is None:
         return None
-    rest = [i for i in range(len(system.rows)) if i not in set(chosen)]
+    rest = [i for i in range(len(system)) if i not in set(chosen)]
     vanishing = vanishing_digits(system.rows_of(rest), box)
     return DeflatedZero(box, rounds, len(rest), vanishing, of_real and holds_conjugate(box))
 
 
 def vanishing_digits(system: BallPolynomials, box: FineBox) -> float:
     """Decimal digits to which rows vanish at all points of the inner box; 0 if one does not."""
-    with flint.ctx.workprec(BITS[-1]):
-        x = [
-            z + flint.acb(flint.arb(0, r), flint.arb(0, r))
-            for z, r in zip(box.centre, box.inner, strict=True)
-        ]
-        values = system(x).entries()
-        if not all(z.contains(0) for z in values):
-            return 0.0
-        return min(MOST_DIGITS, max(0.0, -log_norm(flint.acb(z.abs_upper()) for z in values)))
+    values = system.values(box.balls, BITS[-1]).entries()
+    if not all(z.contains(0) for z in values):
+        return 0.0
+    return min(MOST_DIGITS, max(0.0, -log_norm(flint.acb(z.abs_upper()) for z in values)))

@@ -14,9 +14,8 @@ from math import comb
 import flint
 
 from nag.numerics.digits import log_norm
-from nag.numerics.exact_system import ExactSystem
+from nag.numerics.exact_system import ExactSystem, PointValues
 from nag.numerics.implicit_function import eliminate
-from nag.numerics.point_values import PointValues
 from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives, evaluate
 
 Point = list[flint.acb]

@@ -18,9 +18,23 @@ LOG10_2 = 0.30102999566398120
 SMALLEST, LARGEST = 1e-290, 1e290
 
 
+# Bits in which products with powers of two are exact.
+EXACT = 1 << 20
+
+
+def bits_of(digits: float) -> int:
+    """Bits of numbers with so many decimal digits."""
+    return round((digits + 1) / LOG10_2)
+
+
+def in_bits(bits: int) -> AbstractContextManager[object]:
+    """A context in which FLINT's numbers have so many bits: it has no other way to be told."""
+    return flint.ctx.workprec(bits)
+
+
 def working(digits: int) -> AbstractContextManager[object]:
     """A context in which arithmetic has so many decimal digits."""
-    return flint.ctx.workdps(digits)
+    return in_bits(bits_of(digits))
 
 
 def number(c: Number | complex | int | flint.acb) -> flint.acb:
@@ -36,19 +50,20 @@ def number(c: Number | complex | int | flint.acb) -> flint.acb:
     return flint.acb(value * flint.arb(2) ** int(exponent))
 
 
-def point(x: Iterable[complex | str | tuple[str, str] | flint.acb]) -> list[flint.acb]:
-    """A point of exact doubles, decimal texts (real and imaginary ones in pairs) or balls."""
-    result = []
-    for v in x:
-        if isinstance(v, str):
-            v = (v, "0")
-        result.append(middle(flint.acb(*map(flint.arb, v)) if isinstance(v, tuple) else number(v)))
-    return result
+def point(x: Iterable[complex | flint.acb]) -> list[flint.acb]:
+    """A point of exact doubles, or the middles of balls."""
+    return [middle(number(v)) for v in x]
 
 
 def middle(z: flint.acb) -> flint.acb:
     """The midpoint of a ball, as an exact number."""
     return z.mid()
+
+
+def times_power_of_two(z: flint.acb, k: int) -> flint.acb:
+    """``2^k z``, which rounds nothing."""
+    with in_bits(EXACT):
+        return z * flint.arb(2) ** k
 
 
 def log_size(z: flint.acb | int) -> float:

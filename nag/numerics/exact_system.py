@@ -15,8 +15,8 @@ import numpy as np
 from nag.algebra.exact_ranks import PrimeField
 from nag.algebra.number import Number
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.digits import LOG10_2, log_norm, number
-from nag.numerics.point_values import PointValues
+from nag.numerics.ball_polynomials import BallPolynomials, factors_of
+from nag.numerics.digits import LOG10_2, bits_of, in_bits, log_norm, number
 from nag.numerics.power_series import Terms
 
 
@@ -34,7 +34,6 @@ class ExactSystem:
     rows: tuple[tuple[tuple[tuple[int, ...], Any], ...], ...]
     scales: tuple[int, ...]
     _known: dict[int, list[Terms]] = field(default_factory=dict, repr=False)
-    _values: dict[int, PointValues] = field(default_factory=dict, repr=False)
     _above: ExactSystem | None = field(default=None, repr=False)
 
     @classmethod
@@ -65,29 +64,28 @@ class ExactSystem:
         """The system with one more polynomial in the scaled variables."""
         made = ExactSystem(self.n, (*self.rows, tuple(row)), self.scales, _above=self)
         for digits, rows in self._known.items():
-            with flint.ctx.workdps(digits):
+            with in_bits(bits_of(digits)):
                 made._known[digits] = [*rows, [(e, number(c)) for e, c in row]]
         return made
 
     def at(self, digits: int) -> list[Terms]:
         """The rows with coefficients of so many digits."""
         if digits not in self._known:
-            with flint.ctx.workdps(digits):
+            with in_bits(bits_of(digits)):
                 self._known[digits] = [[(e, number(c)) for e, c in row] for row in self.rows]
         return self._known[digits]
 
+    @cached_property
+    def functions(self) -> BallPolynomials:
+        """The rows in balls."""
+        above = None if self._above is None else self._above.functions
+        rows = self.rows if above is None else self.rows[len(above) :]
+        terms = tuple(tuple((c, factors_of(e)) for e, c in row) for row in rows)
+        return BallPolynomials(self.n, terms, above)
+
     def values_at(self, digits: int) -> PointValues:
         """The rows as functions at points of so many digits."""
-        if digits not in self._values:
-            exact = next((known for known in self._values.values() if known.exact), None)
-            self._values[digits] = exact or self._functions(digits)
-        return self._values[digits]
-
-    def _functions(self, digits: int) -> PointValues:
-        with flint.ctx.workdps(digits):
-            if self._above is None:
-                return PointValues.of(self.at(digits), self.n)
-            return PointValues.of(self.at(digits)[-1:], self.n, above=self._above.values_at(digits))
+        return PointValues(self.functions, bits_of(digits))
 
     def modulo(self, field: PrimeField) -> list[Terms]:
         """The rows modulo a prime.
@@ -137,8 +135,7 @@ class ExactSystem:
 
     def log_residual(self, y: Sequence[flint.acb], digits: int) -> float:
         """Decimal logarithm of the largest value at a point of so many digits."""
-        with flint.ctx.workdps(digits):
-            return log_norm(self.values_at(digits).values(y))
+        return log_norm(self.values_at(digits).values(y))
 
     def vanishes_on_an_axis(self, point: Sequence[Fraction]) -> bool:
         """Whether rational equations vanish where all coordinates but one are those of a point."""
@@ -157,6 +154,27 @@ class ExactSystem:
     def vanishes_exactly(self, y: Sequence[Fraction]) -> bool:
         """Whether all rows vanish at a rational point."""
         return all(value(row, y) == 0 for row in self.rows)
+
+
+@dataclass(frozen=True)
+class PointValues:
+    """Rows as functions at exact points, in so many bits: their values are middles of balls."""
+
+    functions: BallPolynomials
+    bits: int
+
+    @property
+    def n(self) -> int:
+        """Number of variables."""
+        return self.functions.n
+
+    def values(self, x: Sequence[flint.acb]) -> list[flint.acb]:
+        """The value of each row."""
+        return list(self.functions.values(x, self.bits).mid().entries())
+
+    def jacobian(self, x: Sequence[flint.acb]) -> list[list[flint.acb]]:
+        """The derivatives of each row."""
+        return list(self.functions.jacobian(x, self.bits).mid().tolist())
 
 
 def _odd_bits(k: int) -> int:

@@ -19,8 +19,9 @@ from typing import Any
 
 import flint
 
+from nag.numerics.ball_polynomials import MonomialProducts, factors_of
 from nag.numerics.digits import log_norm, middle
-from nag.numerics.point_values import MonomialProducts, PointValues
+from nag.numerics.exact_system import PointValues
 from nag.numerics.power_series import Series, SeriesRing, Terms, composed, product_of, shifted
 
 
@@ -44,7 +45,7 @@ class Composition:
     def of(cls, rows: Sequence[Terms], n: int, ring: SeriesRing) -> Composition:
         """Polynomials in ``n`` variables, for series of which nothing is known yet."""
         made = MonomialProducts(n)
-        places = {e: made.place(e) for row in rows for e, _ in row}
+        places = {e: made.place(factors_of(e)) for row in rows for e, _ in row}
         width = 1 + n + len(made.pairs)
         matrix: list[list[Any]] = []
         for row in rows:

@@ -22,7 +22,7 @@ import numpy as np
 
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import log_norm, middle
+from nag.numerics.digits import in_bits
 from nag.numerics.discs import (
     LEAST,
     UP,
@@ -31,6 +31,7 @@ from nag.numerics.discs import (
     magnitude,
     matrix_product,
 )
+from nag.numerics.newton import Functions, inverse_of, newton_step, newton_to_rest
 
 # A box that is not mapped into itself is enlarged so many times; how much each side exceeds that
 # of the image, and the side of a coordinate that is zero, relative to the largest.
@@ -62,6 +63,14 @@ class FineBox:
     centre: tuple[flint.acb, ...]
     outer: tuple[flint.arb, ...]
     inner: tuple[flint.arb, ...]
+
+    @property
+    def balls(self) -> list[flint.acb]:
+        """The box in which the zero lies."""
+        return [
+            flint.acb(flint.arb(z.real, r), flint.arb(z.imag, r))
+            for z, r in zip(self.centre, self.inner, strict=True)
+        ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,93 +244,77 @@ def box_about(
         ladder: bits of the balls, tried one after the other.
     """
     for bits in ladder:
-        with flint.ctx.workprec(bits):
-            x = _newton(system, start)
-            box = None if x is None else ball_box(system, x)
-            if box is not None:
-                return box
+        x = newton_to_rest(system, start, bits, STEPS)
+        box = None if x is None else ball_box(system, x, bits)
+        if box is not None:
+            return box
     return None
 
 
-def newton_step(
-    system: BallPolynomials, x: Sequence[flint.acb]
-) -> tuple[list[flint.acb], float] | None:
-    """Where a step of Newton's method leads, and its length as a logarithm; None if nowhere."""
-    try:
-        moves = (system.jacobian(x).mid().inv().mid() * system(x)).entries()
-    except ZeroDivisionError:
-        return None
-    return [middle(a - b) for a, b in zip(x, moves, strict=True)], log_norm(map(middle, moves))
-
-
-def _newton(system: BallPolynomials, start: Sequence[flint.acb]) -> list[flint.acb] | None:
-    """Where Newton's method comes to rest from a point; None at a singular matrix."""
-    x, last = list(start), np.inf
-    for _ in range(STEPS):
-        step = newton_step(system, x)
-        if step is None:
-            return None
-        x, size = step
-        # A step that is no shorter than the one before it is rounding.
-        if size >= last or size == -np.inf:
-            break
-        last = size
-    return x
-
-
-def ball_box(system: BallPolynomials, x: list[flint.acb]) -> FineBox | None:
+def ball_box(system: Functions, x: list[flint.acb], bits: int) -> FineBox | None:
     """Krawczyk's test in balls about ``x``, for boxes from large to small."""
-    try:
-        inverse = system.jacobian(x).mid().inv().mid()
-    except ZeroDivisionError:
+    about = BallOperator.about(system, x, bits)
+    if about is None:
         return None
-    step = [z.abs_upper() for z in (inverse * system(x)).entries()]
-    scale = max([abs(z).mid() for z in x if abs(z).mid() > 0], default=flint.arb(1))
-    alike = [scale] * len(x)
-    for exponent in range(FIRST_SIDE, -flint.ctx.prec + LAST_SIDE, -SIDES_APART):
-        part = flint.arb(2) ** exponent
-        # Sides of one size, and sides as the coordinates have them.
-        for sizes in (alike, [abs(z).mid() + scale * part for z in x]):
-            outer = [(size * part).mid() for size in sizes]
-            image = _ball_image(system, x, outer, inverse, step)
-            if all(a < r for a, r in zip(image, outer, strict=True)):
-                return FineBox(tuple(x), tuple(outer), _shrunk(system, x, image, inverse, step))
+    with in_bits(bits):
+        scale = max([abs(z).mid() for z in x if abs(z).mid() > 0], default=flint.arb(1))
+        alike = [scale] * len(x)
+        for exponent in range(FIRST_SIDE, -bits + LAST_SIDE, -SIDES_APART):
+            part = flint.arb(2) ** exponent
+            # Sides of one size, and sides as the coordinates have them.
+            for sizes in (alike, [abs(z).mid() + scale * part for z in x]):
+                outer = [(size * part).mid() for size in sizes]
+                image = about.image(outer)
+                if all(a < r for a, r in zip(image, outer, strict=True)):
+                    return FineBox(tuple(x), tuple(outer), _shrunk(about, image))
     return None
 
 
-def _shrunk(
-    system: BallPolynomials,
-    x: list[flint.acb],
-    sides: list[flint.arb],
-    inverse: flint.acb_mat,
-    step: list[flint.arb],
-) -> tuple[flint.arb, ...]:
+@dataclass(frozen=True, eq=False)
+class BallOperator:
+    """Krawczyk's operator about an exact point, in balls of so many bits.
+
+    Attributes:
+        inverse: a matrix near the inverse Jacobian at ``x``; step: Newton's by it, in balls.
+    """
+
+    system: Functions
+    x: list[flint.acb]
+    bits: int
+    inverse: flint.acb_mat
+    step: list[flint.acb]
+
+    @classmethod
+    def about(cls, system: Functions, x: list[flint.acb], bits: int) -> BallOperator | None:
+        """None where the Jacobian has no inverse."""
+        inverse = inverse_of(system.jacobian(x, bits), bits)
+        step = None if inverse is None else newton_step(system, x, bits, inverse)
+        return None if step is None else cls(system, x, bits, inverse, step)
+
+    def image(self, sides: Sequence[flint.arb]) -> list[flint.arb]:
+        """Upper bounds of the distances of K(X) from ``x``, for discs X of these radii about it."""
+        with in_bits(self.bits):
+            box = [
+                z + flint.acb(flint.arb(0, r), flint.arb(0, r))
+                for z, r in zip(self.x, sides, strict=True)
+            ]
+            product, n = self.inverse * self.system.jacobian(box, self.bits), len(self.x)
+            found = []
+            for i in range(n):
+                total = self.step[i].abs_upper()
+                for j in range(n):
+                    total = total + abs(product[i, j] - int(i == j)) * sides[j]
+                found.append(flint.acb(total).abs_upper())
+            return found
+
+
+def _shrunk(about: BallOperator, sides: list[flint.arb]) -> tuple[flint.arb, ...]:
     """Sides of the smallest box that the zero is seen to lie in."""
     for _ in range(SMALLER):
-        last, sides = sides, _ball_image(system, x, sides, inverse, step)
+        last, sides = sides, about.image(sides)
         if not any(2 * a < b for a, b in zip(sides, last, strict=True)):
             break
     return tuple(sides)
-
-
-def _ball_image(
-    system: BallPolynomials,
-    x: list[flint.acb],
-    sides: list[flint.arb],
-    inverse: flint.acb_mat,
-    step: list[flint.arb],
-) -> list[flint.arb]:
-    """Upper bounds of the distances of K(X) from ``x``."""
-    n = len(x)
-    box = [z + flint.acb(flint.arb(0, r), flint.arb(0, r)) for z, r in zip(x, sides, strict=True)]
-    product = inverse * system.jacobian(box)
-    result = []
-    for i in range(n):
-        total = step[i]
-        for j in range(n):
-            total = total + abs(product[i, j] - int(i == j)) * sides[j]
-        result.append(flint.acb(total).abs_upper())
-    return result
 
 
 def enter_box(boxes: Boxes, i: int, fine: FineBox) -> None:

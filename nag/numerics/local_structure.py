@@ -16,12 +16,20 @@ from nag.numerics.clusters import close_zeros
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
 from nag.numerics.descent import work
-from nag.numerics.digits import LOG10_2, doubles, log_norm, middle, point, rational_point, working
+from nag.numerics.digits import (
+    LOG10_2,
+    doubles,
+    point,
+    rational_point,
+    times_power_of_two,
+    working,
+)
 from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.null_space import Digits, Field, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing
+from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.sharpening import DIGITS, ZERO, sharpen
 from nag.numerics.singular_point import Place, SingularEnd
 
@@ -86,7 +94,7 @@ def judged(
         if units is None:
             # Errors count relative to the whole point, the scales to each of its coordinates.
             spread = LOG10_2 * (max(system.scales, default=0) - min(system.scales, default=0))
-        y = [middle(c / flint.arb(2) ** k) for c, k in zip(precise, system.scales, strict=True)]
+        y = [times_power_of_two(c, -k) for c, k in zip(precise, system.scales, strict=True)]
         reach = log10(max(accuracy, 1e-300))
         return _judged(system, y, max(reach, 5.0 - DIGITS), rng, effort, spread or 0.0)
 
@@ -151,7 +159,7 @@ def _at_zero(
         reason = "the equations vanish along a smooth set that was followed"
         end = _end(system, found, Place.ON_COMPONENT, 0, reason, found.free)
         other = point_beside(system, found) if found.corank == found.free else None
-        return end if other is None else replace(end, beside=_write_decimals(system, other))
+        return end if other is None else replace(end, beside=_precise(system, found, other))
     if not system.most_zeros:
         reason = "there are fewer equations than variables"
         missing = system.n - len(system.rows)
@@ -271,7 +279,7 @@ def _resolved(
     Of those on a component of positive dimension there is one, the last.
     """
     result: list[SingularEnd] = []
-    known: list[list[flint.acb]] = []
+    known: list[PrecisePoint] = []
     component: SingularEnd | None = None
     for start, size, regular in close_zeros(system, found, reach, rng):
         if component is not None and not regular:
@@ -280,12 +288,11 @@ def _resolved(
         if end.dimension:
             component = end
         for one in end.nearby or (end,):
-            if one.place is not Place.ISOLATED:
+            if one.place is not Place.ISOLATED or one.precise is None:
                 continue
-            place = point(one.digits)
-            apart = (log_norm(a - b for a, b in zip(place, p, strict=True)) for p in known)
+            apart = (one.precise.log_distance(other) for other in known)
             if all(distance > REPEATED - WRITTEN for distance in apart):
-                known.append(place)
+                known.append(one.precise)
                 result.append(one)
     return result if component is None else [*result, component]
 
@@ -307,18 +314,21 @@ def _cluster(system: ExactSystem, found: Deflated, nearby: Sequence[SingularEnd]
         np.inf,
         reason,
         dimension,
-        digits=end.digits,
+        precise=end.precise,
         nearby=isolated,
-        radii=end.radii,
     )
 
 
-def _write_decimals(system: ExactSystem, y: Sequence[flint.acb]) -> tuple[tuple[str, str], ...]:
-    return tuple((decimal(c.real), decimal(c.imag)) for c in _unscaled(system, y))
+def _precise(system: ExactSystem, found: Deflated, y: Sequence[flint.acb]) -> PrecisePoint:
+    """A zero as well as the conditions of one beside it let it be known."""
+    x = _unscaled(system, y)
+    error = max(ERROR, 10.0 ** max(found.inverse, 0.0) * ROUNDED)
+    radii = error * np.exp2(system.scales) + 10.0 ** (1 - WRITTEN) * np.abs(doubles(x))
+    return PrecisePoint(tuple(x), np.maximum(radii, LEAST))
 
 
 def _unscaled(system: ExactSystem, y: Sequence[flint.acb]) -> list[flint.acb]:
-    return [c * flint.arb(2) ** k for c, k in zip(y, system.scales, strict=True)]
+    return [times_power_of_two(c, k) for c, k in zip(y, system.scales, strict=True)]
 
 
 def _end(
@@ -329,30 +339,20 @@ def _end(
     reason: str,
     dimension: int = 0,
 ) -> SingularEnd:
-    x = _unscaled(system, found.point)
-    digits = _write_decimals(system, found.point)
+    precise = _precise(system, found, found.point)
+    x = precise.centre
     exact = rational_point(x, DIGITS) if system.rational and not found.free else None
-    condition = 10.0 ** max(found.inverse, 0.0)
-    rounded = doubles(x)
-    error = max(ERROR, condition * ROUNDED)
-    radii = error * np.exp2(system.scales) + 10.0 ** (1 - WRITTEN) * np.abs(rounded)
     return SingularEnd(
-        rounded,
+        precise.doubles,
         place,
         multiplicity,
         float(np.finfo(float).eps),
-        condition,
+        10.0 ** max(found.inverse, 0.0),
         reason,
         dimension,
-        digits,
+        precise,
         tuple(exact) if exact is not None else None,
-        radii=np.maximum(radii, LEAST),
     )
-
-
-def decimal(a: flint.arb) -> str:
-    """A number as text, to `WRITTEN` digits."""
-    return a.mid().str(WRITTEN, radius=False)
 
 
 def known_digits(a: flint.arb) -> str:

@@ -21,6 +21,7 @@ from nag.numerics.box_relations import fine_box, one_zero
 from nag.numerics.certified_points import EVIDENCE, CertifiedPoints, Proof, independent_equations
 from nag.numerics.claims import Standing
 from nag.numerics.deflated_system import vanishing_digits
+from nag.numerics.digits import in_bits
 from nag.numerics.discs import DiscPolynomials, Discs, magnitude
 from nag.numerics.krawczyk import BITS, FineBox, box_about
 
@@ -94,7 +95,7 @@ def _error_standing(boxes: SharpBoxes, i: int, radii: Sequence[float]) -> Standi
 
 def _within(box: FineBox, point: np.ndarray, radii: Sequence[float]) -> Standing | None:
     """Whether the zero in a box is within radii of a point; None where the box does not say."""
-    with flint.ctx.workprec(2 * BITS[-1]):
+    with in_bits(2 * BITS[-1]):
         off = [abs(z - complex(p)) for z, p in zip(box.centre, point, strict=True)]
         known = list(zip(off, box.inner, radii, strict=True))
         if all(d + r <= said for d, r, said in known):
@@ -143,7 +144,7 @@ def corank_standings(
     A rank is no smaller than in balls that hold the zero, which is a proof; that it is no larger is
     evidence, but for simple zeros on a slice.
     """
-    jacobian = BallPolynomials.of(equations, np.zeros((0, slices.shape[1]))).jacobian
+    jacobian = BallPolynomials.of(equations, slices[:0]).jacobian
     boxes, found = SharpBoxes(equations, slices, points), []
     for i, proof in enumerate(points.proofs):
         if proof is Proof.NONE:
@@ -153,21 +154,13 @@ def corank_standings(
             found.append(Standing.PROVED if said == len(slices) else Standing.REFUTED)
             continue
         box = boxes.box(i)
-        with flint.ctx.workprec(BITS[-1]):
-            most = len(box.centre) - _least_rank(jacobian(_balls(box)))
+        with in_bits(BITS[-1]):
+            most = len(box.centre) - _least_rank(jacobian(box.balls, BITS[-1]))
         if said > most:
             found.append(Standing.REFUTED)
         else:
             found.append(Standing.EVIDENCE if said == most else Standing.DOUBTED)
     return found
-
-
-def _balls(box: FineBox) -> list[flint.acb]:
-    """The box in which a zero lies, as balls."""
-    return [
-        z + flint.acb(flint.arb(0, r), flint.arb(0, r))
-        for z, r in zip(box.centre, box.inner, strict=True)
-    ]
 
 
 def _least_rank(matrix: flint.acb_mat) -> int:
@@ -230,7 +223,7 @@ def zero_digits(
     """
     P, n = points.points.shape
     none = np.zeros((0, 1 + n), dtype=complex)
-    rows = [BallPolynomials.of([f], none) for f in polynomials]
+    rows = [BallPolynomials.of([f]) for f in polynomials]
     digits = np.zeros(P)
     boxes = SharpBoxes(equations, none if slices is None else slices, points)
     chosen = points.boxes.proved if among is None else points.boxes.proved & among

@@ -19,8 +19,8 @@ import flint
 
 from nag.numerics.descent import Point, Round
 from nag.numerics.digits import LOG10_2, log_norm, middle
+from nag.numerics.exact_system import PointValues
 from nag.numerics.implicit_function import Matrix
-from nag.numerics.point_values import PointValues
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.precise_point import PrecisePoint
 
 
 class Place(Enum):
@@ -35,12 +36,11 @@ class SingularEnd:
         reason: what the judgement rests on, or why there is none.
         dimension: of a set of zeros through the point, or among the zeros of a cluster: a lower
             bound; 0 if there is none.
-        digits: real and imaginary parts as decimals, to 100 digits; empty if undecided.
+        precise: the zero to about a hundred digits; None if undecided.
         rational: the exact coordinates, if they are rational.
         nearby: the isolated zeros of a cluster, each judged by itself.
-        radii: errors of ``digits``, absolute, shape ``(n,)``; None if undecided.
-        beside: another point of the set of zeros through this one, as ``digits``, where all zeros
-            near the point are those of a smooth set; else empty.
+        beside: another point of the set of zeros through this one, where all zeros near the point
+            are those of a smooth set; else None.
     """
 
     point: np.ndarray
@@ -50,16 +50,15 @@ class SingularEnd:
     condition: float
     reason: str = ""
     dimension: int = 0
-    digits: tuple[tuple[str, str], ...] = ()
+    precise: PrecisePoint | None = None
     rational: tuple[Fraction, ...] | None = None
     nearby: tuple[SingularEnd, ...] = ()
-    radii: np.ndarray | None = None
-    beside: tuple[tuple[str, str], ...] = ()
+    beside: PrecisePoint | None = None
 
 
 def analyse(
     polynomials: Sequence[Polynomial],
-    x: np.ndarray | Sequence[complex | str | tuple[str, str] | flint.acb],
+    x: np.ndarray | Sequence[complex | flint.acb],
     accuracy: float | np.ndarray,
     rng: np.random.Generator,
     slices: np.ndarray | None = None,
@@ -75,8 +74,7 @@ def analyse(
 
     Args:
         polynomials: exact, in ``n`` variables.
-        x: the point: complex doubles, decimal texts (or pairs of them, real and imaginary parts),
-            or `flint.acb`.
+        x: the point: complex doubles, or balls, of which the middles count.
         accuracy: how far the zero may be, relative to the size of ``x`` or to one; or how far each
             of its coordinates, absolute, shape ``(n,)``.
         rng: chooses directions and hyperplanes.

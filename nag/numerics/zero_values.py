@@ -14,8 +14,9 @@ from collections.abc import Sequence
 import flint
 import numpy as np
 
-from nag.algebra.high_precision import BallValues, vanish_at
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 
 # Zeros lie below 2.5e-13 at sharpened points, others above 2e-6 in all systems measured.
@@ -37,15 +38,15 @@ def widened(x: np.ndarray, accuracy: float) -> float:
 ALIKE, NOTHING = 1e-6, 1e-60
 # Relative error of a zero that is known by its written digits.
 WRITTEN = 1e-90
-# Decimal digits in which balls about zeros are evaluated.
-DIGITS = 150
-# Of the centres of balls that doubles are known to.
-BITS = 128
+# Values beside their terms that are zero at zeros of a hundred digits.
+VANISHES = 1e-80
+# Bits in which values at points in balls are taken, and such as doubles are the middles of.
+BITS, LEAST_BITS = 502, 128
 
 
 def possible_zeros(
     equations: Sequence[Polynomial],
-    x: np.ndarray | Sequence[tuple[str, str] | flint.acb],
+    x: np.ndarray | Sequence[flint.acb],
     accuracy: float | np.ndarray,
     rng: np.random.Generator,
     slices: np.ndarray | None = None,
@@ -75,17 +76,46 @@ def alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularEnd, ...
     return tuple(chosen) if len(chosen) == 1 else tuple(zeros)
 
 
-def vanishes_at(zero: SingularEnd, f: Polynomial) -> bool:
-    """Whether a polynomial vanishes at a zero, in the digits that each coordinate is known to."""
-    if zero.radii is not None and zero.digits:
-        with flint.ctx.workdps(DIGITS):
-            ball = [
-                flint.acb(flint.arb(re, r), flint.arb(im, r))
-                for (re, im), r in zip(zero.digits, zero.radii.tolist(), strict=True)
-            ]
-            if not bool(BallValues((f,)).at(ball[: f.n])[0].contains(0)):
-                return False
-    return vanish_at([f], zero.digits)
+def vanishes(f: Polynomial, point: PrecisePoint) -> bool | None:
+    """Whether a polynomial in the first of its variables vanishes at the zero that a point holds.
+
+    It does not where its value on the balls is not zero. Else it does where its value at their
+    middles is zero beside its terms, to nearly all digits that zeros are worked out to; None where
+    it is larger, and the balls are too wide.
+    """
+    point, row = point.first(f.n), BallPolynomials.of((f,))
+    if not row.values(point.balls, BITS)[0, 0].contains(0):
+        return False
+    return True if is_negligible(f, point.centre) else None
+
+
+def vanish(equations: Sequence[Polynomial], point: PrecisePoint) -> bool | None:
+    """Whether all of some polynomials vanish at the zero that a point holds."""
+    unknown = False
+    for f in equations:
+        answer = vanishes(f, point)
+        if answer is False:
+            return False
+        unknown |= answer is None
+    return None if unknown else True
+
+
+def is_negligible(f: Polynomial, x: Sequence[flint.acb]) -> bool:
+    """Whether a value is nothing beside its terms, coordinates below one counted as one."""
+    return negligible_part(f, x) < VANISHES
+
+
+def negligible_part(f: Polynomial, x: Sequence[flint.acb]) -> float:
+    """The size of ``f(x)`` beside its terms, at exact numbers of at least a hundred digits."""
+    row, x = BallPolynomials.of((f,)), x[: f.n]
+    sizes = [flint.acb(max(abs(z).mid(), flint.arb(1))) for z in x]
+    (bound,), value = row.sizes(sizes, LEAST_BITS), row.values(x, BITS)[0, 0]
+    return float(abs(value.mid()).mid() / bound.mid()) if bound != 0 else 0.0
+
+
+def vanishes_at(zero: SingularEnd, f: Polynomial) -> bool | None:
+    """Whether a polynomial vanishes at a zero; None where that is not known."""
+    return None if zero.precise is None else vanishes(f, zero.precise)
 
 
 def vanishes_at_all(zeros: Sequence[SingularEnd], f: Polynomial) -> bool | None:
@@ -104,12 +134,8 @@ def surely_differs(f: Polynomial, x: np.ndarray, radii: np.ndarray) -> bool:
         radii: errors of the coordinates, shape ``(n,)``; to them comes that of writing them.
     """
     wide = SLACK * (radii + np.finfo(float).eps * np.abs(x))
-    with flint.ctx.workprec(BITS):
-        ball = [
-            flint.acb(flint.arb(z.real, r), flint.arb(z.imag, r))
-            for z, r in zip(x.tolist(), wide.tolist(), strict=True)
-        ]
-        return not bool(BallValues((f,)).at(ball)[0].contains(0))
+    point = PrecisePoint(tuple(map(flint.acb, x.tolist())), wide)
+    return not BallPolynomials.of((f,)).values(point.balls, LEAST_BITS)[0, 0].contains(0)
 
 
 def multiplicity_of_all(zeros: Sequence[SingularEnd]) -> int | None:

@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import flint
 import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
@@ -21,6 +20,7 @@ from nag.algebra.branches import search_branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.branch_union import (
     BranchZeros,
     GenericPoint,
@@ -28,6 +28,7 @@ from nag.numerics.branch_union import (
     find_repeats,
     multiplicities_in_scheme,
 )
+from nag.numerics.digits import bits_of
 from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import (
@@ -100,12 +101,9 @@ class _Found(GenericPoint):
         if self.tracked is not None and len(self._zeros) != 1:
             return _known(self.solution)
         # Zeros of other branches may be close to it.
-        from nag.numerics.digits import number, point
-
-        with flint.ctx.workdps(WORKING):
-            y = point(self._zeros[0].digits) if self.tracked is not None else []
-            images = self.branch.elimination.images
-            return [flint.acb(f(y, number)).mid() for f in images], WRITTEN
+        y = self._zeros[0].precise.centre if self.tracked is not None else ()
+        images = BallPolynomials.of(self.branch.elimination.images)
+        return list(images.values(y, bits_of(WORKING)).mid().entries()), WRITTEN
 
     def carry_solution(
         self, solution: Solution, natural: NaturalCoordinates, equations: Evaluator

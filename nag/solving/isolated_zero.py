@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import flint
 import numpy as np
 
 from nag.numerics.coincidence import SAFETY
+from nag.numerics.digits import bits_of, in_bits
+from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import SingularEnd
 from nag.solving.start.target import Start
 from nag.tracking.ends.terms import number
@@ -25,53 +26,20 @@ TWO = 1e-80
 REAL = 1e-10
 
 
-@dataclass(frozen=True, eq=False)
-class FinePoint:
-    """Coordinates in FLINT's ``acb``, and their errors, absolute, shape ``(n,)``."""
-
-    coordinates: tuple[Any, ...]
-    radii: np.ndarray
-
-    @classmethod
-    def of_ball(cls, begin: Start, ball: Ball) -> FinePoint:
-        """The affine coordinates of an end that a path reached in more digits."""
-        shift, radii = len(begin.groups), ball.radii
-        values: dict[int, Any] = {}
-        errors: dict[int, float] = {}
-        with flint.ctx.workdps(DIGITS):
-            x = [number(c) for c in ball.centre]
-            for k, group in enumerate(begin.groups):
-                size = float(abs(x[k]).mid())
-                for i in group:
-                    values[i] = (x[shift + i] / x[k]).mid()
-                    own = float(abs(values[i]).mid())
-                    errors[i] = (radii[shift + i] + own * radii[k]) / size
-        order = sorted(values)
-        return cls(tuple(values[i] for i in order), np.array([errors[i] for i in order]))
-
-    @classmethod
-    def of_end(cls, end: SingularEnd, scales: Sequence[int] = ()) -> FinePoint | None:
-        """The coordinates that the judgement of an end gives; None if it gives none.
-
-        Args:
-            scales: powers of two over which the end's variables are these.
-        """
-        if not end.digits or end.radii is None:
-            return None
-        from nag.numerics.digits import point
-
-        with flint.ctx.workdps(DIGITS):
-            x, radii = point(end.digits), end.radii
-            if len(scales):
-                x = [c * flint.arb(2) ** int(k) for c, k in zip(x, scales, strict=True)]
-                radii = radii * np.exp2(scales)
-            return cls(tuple(x), radii)
-
-    @property
-    def error(self) -> float:
-        """The largest error, relative to the coordinate's size or to one."""
-        sizes = np.array([float(abs(c).mid()) for c in self.coordinates])
-        return float((self.radii / (1 + sizes)).max(initial=0.0))
+def affine_point(begin: Start, ball: Ball) -> PrecisePoint:
+    """The affine coordinates of an end that a path reached in more digits."""
+    shift, x = len(begin.groups), [number(c) for c in ball.centre]
+    values: dict[int, flint.acb] = {}
+    errors: dict[int, float] = {}
+    with in_bits(bits_of(DIGITS)):
+        for k, group in enumerate(begin.groups):
+            size = float(abs(x[k]).mid())
+            for i in group:
+                values[i] = (x[shift + i] / x[k]).mid()
+                own = float(abs(values[i]).mid())
+                errors[i] = (ball.radii[shift + i] + own * ball.radii[k]) / size
+    order = sorted(values)
+    return PrecisePoint(tuple(values[i] for i in order), np.array([errors[i] for i in order]))
 
 
 class IsolatedZero(NamedTuple):
@@ -83,7 +51,7 @@ class IsolatedZero(NamedTuple):
     accuracy: float
     condition: float
     precision: int
-    fine: FinePoint | None = None
+    fine: PrecisePoint | None = None
 
     @property
     def radii(self) -> np.ndarray | None:
@@ -96,14 +64,14 @@ class IsolatedZero(NamedTuple):
     def of_end(cls, end: SingularEnd, residual: float, precision: int) -> IsolatedZero:
         """An end that was judged to be one."""
         numbers = residual, end.accuracy, end.condition, precision
-        return cls(end.point, end.multiplicity, *numbers, FinePoint.of_end(end))
+        return cls(end.point, end.multiplicity, *numbers, end.precise)
 
     def is_apart_from(self, other: IsolatedZero) -> bool:
         """Whether two zeros are two, in the digits that both are known to."""
         if self.fine is None or other.fine is None:
             return False
         error = max(TWO, self.fine.error + other.fine.error)
-        pairs = zip(self.fine.coordinates, other.fine.coordinates, strict=True)
+        pairs = zip(self.fine.centre, other.fine.centre, strict=True)
         return any(float(abs(a - b).mid()) > error * (1 + float(abs(a).mid())) for a, b in pairs)
 
 
@@ -123,7 +91,7 @@ def which_are_real(zeros: Sequence[IsolatedZero]) -> np.ndarray:
     in_doubles = np.array([zero.fine is None for zero in zeros], dtype=bool)
     for i in np.flatnonzero(~in_doubles).tolist():
         fine = zeros[i].fine
-        parts = np.array([float(abs(z.imag).mid()) for z in fine.coordinates])
+        parts = np.array([float(abs(z.imag).mid()) for z in fine.centre])
         # A small coordinate may be known far better than others.
         over = parts / np.maximum(fine.radii, TWO * (1 + np.abs(points[i])))
         imaginary[i], errors[i] = over.max(initial=0.0), SAFETY

@@ -10,12 +10,11 @@ from itertools import repeat
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import vanish_at
 from nag.algebra.zero_count import ZeroCount
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.numerics.zero_values import ON
-from nag.solving.isolated_zero import FinePoint, IsolatedZero, which_are_real
+from nag.numerics.zero_values import ON, vanishes_at
+from nag.solving.isolated_zero import IsolatedZero, affine_point, which_are_real
 from nag.solving.larger_sets import LargerSets, is_set_excluded
 from nag.solving.solutions import Solution
 from nag.solving.square_problem import SquareProblem
@@ -205,7 +204,7 @@ def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> li
     fine = repeat(None)
     if paths.balls:
         balls = [paths.balls.get(i) for i in path.tolist()]
-        fine = [None if ball is None else FinePoint.of_ball(begin, ball) for ball in balls]
+        fine = [None if ball is None else affine_point(begin, ball) for ball in balls]
     points = zeros.points[chosen]
     return list(map(IsolatedZero, points, repeat(1), *(c.tolist() for c in columns), fine))
 
@@ -265,7 +264,8 @@ def _is_excluded(problem: SquareProblem, end: SingularEnd) -> bool | None:
         return False
     if end.place is Place.ISOLATED:
         # On random equations that cut the set it is a generic point of it.
-        return any(vanish_at([g], end.digits) for g in problem.nonzero)
+        answers = [vanishes_at(end, g) for g in problem.nonzero]
+        return True if True in answers else None if None in answers else False
     return is_set_excluded(problem.nonzero, end) if end.place is Place.ON_COMPONENT else None
 
 

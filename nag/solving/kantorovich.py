@@ -16,11 +16,14 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 
+import flint
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator, PlacedDerivatives
 from nag.algebra.family import Family
 from nag.numerics.array_table import ArrayTable
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import bits_of, doubles
 
 EPS = float(np.finfo(float).eps)
 # Newton steps in doubles at most, and with residuals in `DIGITS` digits.
@@ -198,16 +201,10 @@ class Confirmation:
 
     def _exact(self, point: np.ndarray, values: np.ndarray) -> np.ndarray:
         """Values of the equations in more digits, scaled as the evaluator's, shape ``(1, n)``."""
-        import mpmath
-
-        with mpmath.workdps(DIGITS):
-            z = [mpmath.mpc(complex(x)) for x in (*point[0], *values)]
-            result = [
-                f(z, lambda c: mpmath.mpf(c.numerator) / c.denominator)
-                / float(max(abs(c) for c in f.terms.values()))
-                for f in self.family.polynomials
-            ]
-            return np.array([[complex(v) for v in result]])
+        z = [flint.acb(complex(x)) for x in (*point[0], *values)]
+        found = BallPolynomials.of(self.family.polynomials).values(z, bits_of(DIGITS))
+        sizes = [float(max(abs(c) for c in f.terms.values())) for f in self.family.polynomials]
+        return doubles(found.mid().entries())[None] / np.array(sizes)
 
 
 def _sizes(points: np.ndarray) -> np.ndarray:

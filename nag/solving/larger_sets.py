@@ -11,10 +11,10 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from nag.algebra.high_precision import vanish_at
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.read_only import fixed_array
 from nag.numerics.singular_point import SingularEnd
+from nag.numerics.zero_values import vanishes, vanishes_at
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +78,10 @@ def is_set_excluded(nonzero: Sequence[Polynomial], end: SingularEnd) -> bool | N
 
     None where that is not known.
     """
-    near = [g for g in nonzero if vanish_at([g], end.digits)]
+    near = [g for g in nonzero if vanishes_at(end, g) is not False]
     if not near:
         return False
-    return any(vanish_at([g], end.beside) for g in near) if end.beside else None
+    if end.beside is None:
+        return None
+    answers = [vanishes(g, end.beside) for g in near]
+    return True if True in answers else None if None in answers else False

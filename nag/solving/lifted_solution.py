@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import flint
 import numpy as np
 
 from nag.algebra.elimination import Elimination
-from nag.algebra.high_precision import DIGITS
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import bits_of, doubles
+from nag.numerics.precise_point import DIGITS
 from nag.numerics.zero_values import possible_zeros
 from nag.solving.isolated_zero import ROUNDING
 from nag.solving.solutions import Solution
@@ -49,12 +50,9 @@ def _in_digits(
 
     None if there is none.
     """
-    from nag.numerics.digits import doubles, number, point
-
     zeros = possible_zeros(elimination.system.polynomials, y, error, np.random.default_rng(0))
-    if len(zeros) != 1 or zeros[0].multiplicity != 1 or zeros[0].radii is None:
+    if len(zeros) != 1 or zeros[0].multiplicity != 1 or zeros[0].precise is None:
         return None
-    with flint.ctx.workdps(DIGITS):
-        zero = point(zeros[0].digits)
-        x = [flint.acb(image(zero, number)).mid() for image in elimination.images]
-    return doubles(x), zeros[0].radii
+    zero = zeros[0].precise
+    images = BallPolynomials.of(elimination.images).values(zero.centre, bits_of(DIGITS))
+    return doubles(images.mid().entries()), zero.radii

@@ -15,7 +15,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.zero_count import ZeroCount, most_zeros
 from nag.errors import StartError
 from nag.numerics.singular_point import Place, analyse
-from nag.solving.isolated_zero import FinePoint, IsolatedZero
+from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.judged_ends import JudgedEnds, enlarged
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import FEW
@@ -58,7 +58,7 @@ def with_missing_zeros(
             z.end.accuracy,
             z.end.condition,
             DIGITS,
-            FinePoint.of_end(z.end, z.scales),
+            None if z.end.precise is None else z.end.precise.scaled(z.scales),
         )
         for z in far
     ]

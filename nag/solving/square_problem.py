@@ -7,17 +7,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import prod
-from typing import Any
 
 import numpy as np
 
 from nag.algebra.combinations import of_lowest_degrees
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import sharp_zero, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.natural_coordinates import natural_coordinates
-from nag.numerics.zero_values import NONZERO, possible_zeros, vanishes_at_all
+from nag.numerics.precise_point import PrecisePoint, precise_zero
+from nag.numerics.zero_values import NONZERO, possible_zeros, vanish, vanishes, vanishes_at_all
 from nag.solving.isolated_zero import IsolatedZero
 from nag.solving.start.choice import FEW
 from nag.solving.start.target import Target, most_digits
@@ -70,7 +70,7 @@ class SquareProblem:
         None if there is no such zero.
         """
         zero = self._zero(x)
-        return None if zero is None else vanish_in_balls(self.equations, zero)
+        return None if zero is None else vanish(self.equations, zero)
 
     def may_be_excluded(self, x: np.ndarray) -> bool:
         """Whether a polynomial that must not vanish seems to do so at a point."""
@@ -85,28 +85,26 @@ class SquareProblem:
             return False
         zero = self._zero(x) if found.multiplicity == 1 and found.fine is None else None
         if zero is not None:
-            return any(vanish_in_balls([g], zero) for g in near)
+            answers = [vanishes(g, zero) for g in near]
+            return True if True in answers else None if None in answers else False
         start, error = x, found.accuracy
         if found.fine is not None:
-            start, error = found.fine.coordinates, found.fine.error
+            start, error = found.fine.centre, found.fine.error
         zeros = possible_zeros(self.equations, start, error, np.random.default_rng(0))
         answers = [vanishes_at_all(zeros, g) for g in near]
         return True if True in answers else None if None in answers else False
 
-    def _zero(self, x: np.ndarray) -> list[Any] | None:
-        """The square system's exact zero near ``x`` in balls, if there is one."""
-        square, evaluator = self._square
-        slices = np.zeros((0, 1 + self.target.n))
-        return sharp_zero(square, slices, evaluator.jacobian(x), x)
+    def _zero(self, x: np.ndarray) -> PrecisePoint | None:
+        """The square system's exact zero near ``x``, if there is one."""
+        return precise_zero(self._square, x)
 
     @cached_property
     def _nonzero(self) -> Evaluator:
         return Evaluator.of(self.nonzero, self.target.n)
 
     @cached_property
-    def _square(self) -> tuple[list[Polynomial], Evaluator]:
-        square = [Polynomial(self.target.n, dict(row)) for row in self.target.rows]
-        return square, Evaluator.of(square, self.target.n)
+    def _square(self) -> BallPolynomials:
+        return BallPolynomials.of([Polynomial(self.target.n, dict(r)) for r in self.target.rows])
 
 
 def _random_linear(n: int, rng: np.random.Generator) -> Polynomial:

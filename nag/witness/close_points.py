@@ -9,19 +9,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import flint
 import numpy as np
 
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import neighbours
-from nag.numerics.digits import log_norm, log_size
+from nag.numerics.digits import EXACT, bits_of, in_bits, number
+from nag.numerics.newton import find_zero, inverse_of, newton_step, subtract_step
+from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.read_only import fixed_array
 from nag.witness.slices import padded
 
 if TYPE_CHECKING:
     from nag.algebra.polynomial import Polynomial
-    from nag.numerics.ball_polynomials import BallPolynomials
 
 # Points are close whose distance, relative to their size, is less than this: corrections that need
 # not contract any more may be as large as a hundredth of it.
@@ -31,15 +33,12 @@ CLOSE = 1e-4
 CLOSE_AFAR = 1e-9
 # Sums of so many doubles, and the digits that they hold.
 WORDS, DIGITS = 4, 62
-# Newton's method for close points: corrections, and the part of the distance to the next point
-# that it may move a point by.
-STEPS, BASIN = 14, 0.1
+# The part of the distance to the next point that Newton's method may move a close point by.
+BASIN = 0.1
 # Digits behind the point to which Newton's constant is probed: beyond all distances of points that
 # can be tracked, before what is left of their digits. And digits that are computed with: twice as
 # many, and as many as rounding may take of a point.
 OFF, PROBED = 56, 4 * DIGITS
-# Digits more than are asked of a zero, for the rounding errors of Newton's method.
-SPARE = 10
 # Newton's constant where no more is known than that the next point is near; more asks for no more
 # digits.
 STEEPEST = 1e100
@@ -88,12 +87,13 @@ class Fine:
         """The point in doubles."""
         return self.words[:, 0, 0] + 1j * self.words[:, 1, 0]
 
-    def balls(self) -> list[Any]:
-        """The coordinates in FLINT's ``acb``; the working precision must hold the words."""
-        return [
-            flint.acb(*(sum(map(flint.arb, part.tolist()), flint.arb(0)) for part in parts))
-            for parts in self.words
-        ]
+    def balls(self) -> list[flint.acb]:
+        """The coordinates as exact numbers."""
+        with in_bits(EXACT):
+            return [
+                flint.acb(*(sum(map(flint.arb, part.tolist()), flint.arb(0)) for part in parts))
+                for parts in self.words
+            ]
 
     @property
     def homogeneous(self) -> np.ndarray:
@@ -104,21 +104,22 @@ class Fine:
         return np.ldexp(words, -int(np.frexp(np.linalg.norm(words[:, :, 0]))[1]))
 
 
-def in_words(values: Sequence[Any], curvature: float) -> Fine:
-    """A point from FLINT's ``acb`` coordinates."""
+def in_words(values: Sequence[flint.acb], curvature: float) -> Fine:
+    """A point from the middles of coordinates."""
     words = np.zeros((len(values), 2, WORDS))
-    for j, z in enumerate(values):
-        for k, rest in enumerate((z.real.mid(), z.imag.mid())):
-            for i in range(WORDS):
-                words[j, k, i] = float(rest)
-                rest = (rest - words[j, k, i]).mid()
+    with in_bits(EXACT):
+        for j, z in enumerate(values):
+            for k, rest in enumerate((z.real.mid(), z.imag.mid())):
+                for i in range(WORDS):
+                    words[j, k, i] = float(rest)
+                    rest = (rest - words[j, k, i]).mid()
     return Fine(words, curvature)
 
 
 def affine_fine(centre: np.ndarray, curvature: float) -> Fine:
     """The affine point of homogeneous coordinates in words, shape ``(N, 2, words)``."""
-    with flint.ctx.workdps(2 * DIGITS):
-        first, *others = Fine(centre, curvature).balls()
+    first, *others = Fine(centre, curvature).balls()
+    with in_bits(bits_of(2 * DIGITS)):
         return in_words([z / first for z in others], curvature)
 
 
@@ -127,34 +128,28 @@ def rated(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> F
 
     Two of Newton's corrections from a point that is a little off: their quotient over the first.
     """
-    from nag.numerics.ball_polynomials import BallPolynomials
-
     exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
-    size, most = 1 + float(np.linalg.norm(point.rounded)), 1.0
-    with flint.ctx.workdps(PROBED):
-        centre, off = point.balls(), flint.arb(10) ** -OFF * size
-        for turn in (1, 2):
-            way = np.exp(1j * np.arange(1, len(centre) + 1) ** 2 * turn)
-            x = [z + flint.acb(complex(v)) * off for z, v in zip(centre, way, strict=True)]
-            lengths = []
-            for _ in range(2):
-                try:
-                    step = exact.jacobian(x).mid().solve(exact(x).mid())
-                except ZeroDivisionError:
-                    return Fine(point.words, STEEPEST)
-                x = [_middle(z - step[i, 0]) for i, z in enumerate(x)]
-                lengths.append(float(max(abs(step[i, 0]) for i in range(len(x))).mid()) / size)
-            # One after the other, as the square of a step may leave the range of doubles.
-            most = max(most, lengths[1] / lengths[0] / lengths[0]) if lengths[0] else STEEPEST
+    size, most, bits = 1 + float(np.linalg.norm(point.rounded)), 1.0, bits_of(PROBED)
+    centre = point.balls()
+    for turn in (1, 2):
+        way = np.exp(1j * np.arange(1, len(centre) + 1) ** 2 * turn) * size
+        off = [flint.acb(complex(v)) * flint.arb(10) ** -OFF for v in way]
+        x, lengths = subtract_step(centre, off, bits), []
+        for _ in range(2):
+            step = newton_step(exact, x, bits)
+            if step is None:
+                return Fine(point.words, STEEPEST)
+            x = subtract_step(x, step, bits)
+            lengths.append(float(max(abs(z.mid()) for z in step).mid()) / size)
+        # One after the other, as the square of a step may leave the range of doubles.
+        most = max(most, lengths[1] / lengths[0] / lengths[0]) if lengths[0] else STEEPEST
     return Fine(point.words, min(most, STEEPEST))
 
 
 def with_roots(point: Fine, f: Polynomial) -> list[Fine]:
     """A point with each root of ``u^m = f`` there, for f of degree m, as a further coordinate."""
-    from nag.numerics.digits import number
-
-    with flint.ctx.workdps(2 * DIGITS):
-        x, m = point.balls(), f.degree
+    x, m = point.balls(), f.degree
+    with in_bits(bits_of(2 * DIGITS)):
         root = f(x[: f.n], number).root(m)
         turns = [flint.acb(flint.fmpq(2 * k, m)).exp_pi_i() for k in range(m)]
         return [in_words([*x, root * turn], point.curvature) for turn in turns]
@@ -162,68 +157,15 @@ def with_roots(point: Fine, f: Polynomial) -> list[Fine]:
 
 def zero_from(
     polynomials: Sequence[Polynomial], rows: np.ndarray, start: Fine, digits: int
-) -> tuple[list[Any], float] | None:
-    """The zero of a square system on a slice near a point, by Newton's method in many digits.
+) -> PrecisePoint | None:
+    """The zero of a square system on a slice near a point, to so many digits.
 
-    It is computed in as many more digits as rounding takes of it: where equations fall to ``e^m``
-    times their terms between zeros at a distance e, these are about m times those of e.
-
-    Returns:
-        The coordinates in ``acb`` without radii, and an estimate of their errors, to be below
-        ``10 ** -digits`` relative to the point; None if Newton's method does not converge at
-        once to a zero that is far nearer than the next one.
+    None if Newton's method does not converge at once to a zero that is far nearer than the next
+    one.
     """
-    from nag.numerics.ball_polynomials import BallPolynomials
-
     exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(start.words)))
-    with flint.ctx.workdps(PROBED):
-        x = [_middle(z) for z in start.balls()]
-        lost = _digits_lost(exact, x)
-    if lost is None:
-        return None
-    with flint.ctx.workdps(digits + lost + SPARE):
-        return _converged(exact, x, start.curvature, digits)
-
-
-def _digits_lost(exact: BallPolynomials, x: list[Any]) -> int | None:
-    """How many digits a zero near ``x`` has less than its equations; None if all are lost.
-
-    The working precision, which the answer does not depend on, must exceed it.
-    """
-    try:
-        inverse = exact.jacobian(x).mid().inv().tolist()
-    except ZeroDivisionError:
-        return None
-    # Few digits have exact products: coordinates are as rounded as those that they lead to.
-    unit = flint.arb(1, flint.arb(10) ** -flint.ctx.dps)
-    radii = [log_size(flint.acb(z.rad())) for z in exact([z * unit for z in x]).entries()]
-    errors = [log_size(z) + r for row in inverse for z, r in zip(row, radii, strict=True)]
-    lost = flint.ctx.dps + max(errors, default=-np.inf) - log_norm([flint.acb(1), *x])
-    return max(0, int(lost)) if lost < flint.ctx.dps else None
-
-
-def _converged(
-    exact: BallPolynomials, x: list[Any], curvature: float, digits: int
-) -> tuple[list[Any], float] | None:
-    """Newton's method for `zero_from`."""
-    size = 1 + max((float(abs(z)) for z in x), default=0.0)
-    moved, last = 0.0, None
-    for _ in range(STEPS):
-        try:
-            step = exact.jacobian(x).mid().solve(exact(x).mid())
-        except ZeroDivisionError:
-            return None
-        x = [_middle(z - step[i, 0]) for i, z in enumerate(x)]
-        length = max((abs(step[i, 0]).upper() for i in range(len(x))), default=flint.arb(0))
-        moved += float(length)
-        done = length < flint.arb(10) ** -digits * size
-        contracts = last is None or length < last / 4
-        if not moved * curvature <= BASIN * size or not (contracts or done):
-            return None
-        if done and last is not None:
-            return x, float(length)
-        last = length
-    return None
+    found = find_zero(exact, start.balls(), digits, np.log10(BASIN / start.curvature))
+    return None if found is None else PrecisePoint.of(found.point, found.error)
 
 
 def follow_slice(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fine) -> Fine:
@@ -232,25 +174,18 @@ def follow_slice(polynomials: Sequence[Polynomial], rows: np.ndarray, point: Fin
     The step along the tangent may be much longer than other zeros are far, as these move along:
     only what is left after it, of the order of its square, has to be small beside their distance.
     """
-    from nag.numerics.ball_polynomials import BallPolynomials
-
     exact = BallPolynomials.of(polynomials, padded(rows, 1 + len(point.words)))
-    with flint.ctx.workdps(2 * DIGITS):
-        x = [_middle(z) for z in point.balls()]
-        off = exact(x).mid()
-        for i in range(len(polynomials)):
-            off[i, 0] = 0
-        try:
-            step = exact.jacobian(x).mid().solve(off)
-        except ZeroDivisionError:
-            return point
-        there = in_words([_middle(z - step[i, 0]) for i, z in enumerate(x)], point.curvature)
-        found = zero_from(polynomials, rows, there, DIGITS)
-        return there if found is None else in_words(found[0], point.curvature)
-
-
-def _middle(z: Any) -> Any:
-    return flint.acb(z.real.mid(), z.imag.mid())
+    x, bits = point.balls(), bits_of(2 * DIGITS)
+    off, inverse = exact.values(x, bits).mid(), inverse_of(exact.jacobian(x, bits), bits)
+    if inverse is None:
+        return point
+    for i in range(len(polynomials)):
+        off[i, 0] = 0
+    with in_bits(bits):
+        step = (inverse * off).entries()
+    there = in_words(subtract_step(x, step, bits), point.curvature)
+    found = zero_from(polynomials, rows, there, DIGITS)
+    return there if found is None else in_words(found.centre, point.curvature)
 
 
 def close_pairs(x: np.ndarray, close: float = CLOSE) -> list[tuple[int, int]]:

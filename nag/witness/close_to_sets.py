@@ -10,11 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-import flint
 import numpy as np
 
 from nag.numerics.coincidence import coincident
-from nag.numerics.digits import log_norm, point
+from nag.numerics.precise_point import PrecisePoint
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
@@ -59,7 +58,7 @@ def meant(
         whole: whether errors are relative to the point, not to each of its coordinates.
     """
     zeros: list[SingularEnd] = []
-    met: list[list[flint.acb]] = []
+    met: list[PrecisePoint] = []
     slices, decided, located = padded(rows, 1 + equations.n), True, True
     seen = np.zeros((0, equations.n), dtype=complex)
     # What lies within the error of one end is looked at with it: the least known ones come first.
@@ -74,31 +73,28 @@ def meant(
         )
         seen = np.vstack([seen, x])
         decided &= end.place is not Place.UNDECIDED
-        located &= bool(end.digits)
+        located &= end.precise is not None
         for zero in end.nearby or ((end,) if end.place is Place.ISOLATED else ()):
-            with flint.ctx.workdps(DIGITS):
-                here = point(zero.digits)
-                new = not any(are_same(here, z) for z in met)
-            if new:
+            if zero.precise is not None and not any(are_same(zero.precise, z) for z in met):
                 zeros.append(zero)
-                met.append(here)
+                met.append(zero.precise)
     return Meant(tuple(zeros), decided, located)
 
 
 def among(zero: SingularEnd, fibres: Sequence[Fibre], rows: np.ndarray) -> bool | None:
     """Whether a zero is one of the points of fibres on ``rows``, in digits; None if left open."""
-    unknown = False
-    with flint.ctx.workdps(DIGITS):
-        here = point(zero.digits)
+    unknown, here = False, zero.precise
+    if here is None:
+        return None
     for fibre in fibres:
         for i in np.flatnonzero(coincident(fibre.x, zero.point, CLOSE)).tolist():
             there = zero_in_digits(fibre.cut, rows, fibre.points[i], fibre.fine.get(i))
-            if there is not None and are_same(here, there[: len(here)]):
+            if there is not None and are_same(here, there.first(len(here))):
                 return True
             unknown |= there is None
     return None if unknown else False
 
 
-def are_same(x: Sequence[flint.acb], y: Sequence[flint.acb]) -> bool:
+def are_same(x: PrecisePoint, y: PrecisePoint) -> bool:
     """Whether points that are known to a hundred digits are one."""
-    return log_norm(a - b for a, b in zip(x, y, strict=True)) < SAME
+    return x.log_distance(y) < SAME

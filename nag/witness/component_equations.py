@@ -10,13 +10,11 @@ import numpy as np
 
 from nag.algebra.branches import Branch, branches
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import DIGITS, vanish_in_balls
-from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
-from nag.numerics.digits import number
 from nag.numerics.natural_coordinates import scale_coordinates
-from nag.numerics.zero_values import ON
+from nag.numerics.precise_point import PrecisePoint
+from nag.numerics.zero_values import ON, vanish
 from nag.witness.change_of_coordinates import carry_component, carry_fibres, coordinates_of
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
@@ -70,8 +68,8 @@ def _cut(
     # Of branches that come near to each other the nearest one is meant, if digits do not say more.
     parts = [part for _, part in sorted(near, key=lambda pair: pair[0])]
     if len(parts) > 1:
-        balls = point_in_balls(component)
-        parts = [part for part in parts if may_vanish(part.polynomials, balls)]
+        point = precise_point(component)
+        parts = [part for part in parts if vanish(part.polynomials, point) is not False]
     if len(parts) > 1:
         together = dict.fromkeys(f for part in parts for f in part.polynomials)
         parts.append(replace(system, polynomials=tuple(together)))
@@ -85,24 +83,16 @@ def _cut(
     return None, None
 
 
-def may_vanish(polynomials: Sequence[Polynomial], balls: Sequence[flint.acb]) -> bool:
-    """Whether no polynomial is certainly not zero at a point in balls."""
-    with flint.ctx.workdps(DIGITS):
-        return all(
-            vanish_in_balls([f], balls) or bool(f(balls, number).contains(0)) for f in polynomials
-        )
-
-
-def point_in_balls(component: WitnessSet) -> list[flint.acb]:
+def precise_point(component: WitnessSet) -> PrecisePoint:
     """A witness point in balls, from the equations that cut it where the component holds them."""
     if component.fibres:
         fibre, n = component.fibres[0], component.points.shape[1]
         rows, fine = component.slice.rows, fibre.fine.get(0)
         zero = zero_in_digits(fibre.cut, rows, fibre.points[0], fine)
         if zero is not None:
-            return zero[:n]
-    pairs = zip(component.points[0].tolist(), component.radii[0].tolist(), strict=True)
-    return [flint.acb(flint.arb(z.real, r), flint.arb(z.imag, r)) for z, r in pairs]
+            return zero.first(n)
+    x, radii = component.points[0], component.radii[0]
+    return PrecisePoint(tuple(map(flint.acb, x.tolist())), radii)
 
 
 def find_fibres(

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-import flint
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.high_precision import DIGITS, sharp_zero, vanish, vanish_in_balls
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.precise_point import DIGITS, PrecisePoint, precise_zero
 from nag.numerics.singular_point import Place, analyse
-from nag.numerics.zero_values import ON, vanishes_at
+from nag.numerics.zero_values import ON, vanish
 from nag.witness.close_points import Fine, zero_from
 from nag.witness.cutting import Cut
 from nag.witness.multiplicity import ACCURACY
@@ -90,12 +90,12 @@ def _at_close_zero(
 ) -> bool | None:
     """Whether equations vanish at a zero that is close to others; None if it was not found."""
     found = zero_in_digits(cut, rows, fine.rounded, fine)
-    return None if found is None else vanish_in_balls(equations, found)
+    return None if found is None else vanish(equations, found)
 
 
 def zero_in_digits(
     cut: Cut, rows: np.ndarray, z: np.ndarray, fine: Fine | None = None
-) -> list[flint.acb] | None:
+) -> PrecisePoint | None:
     """A regular zero of ``cut`` on the slice, added unknowns included, to `DIGITS` digits.
 
     Args:
@@ -107,24 +107,20 @@ def zero_in_digits(
         None where Newton's method does not lead to it.
     """
     if fine is None:
-        return sharp_zero(cut.polynomials, padded(rows, 1 + len(z)), cut.evaluator.jacobian(z), z)
+        return precise_zero(BallPolynomials.of(cut.polynomials, padded(rows, 1 + len(z))), z)
     more = int(2 * np.log10(max(fine.curvature, 1.0)))
-    found = zero_from(cut.polynomials, rows, fine, DIGITS + more)
-    return None if found is None else found[0]
+    return zero_from(cut.polynomials, rows, fine, DIGITS + more)
 
 
 def _at_zero(
     cut: Cut, equations: Sequence[Polynomial], rows: np.ndarray, z: np.ndarray
 ) -> bool | None:
     """Whether equations vanish at the zero of ``cut`` near ``z``; None if none was found there."""
-    jacobian, slices = cut.evaluator.jacobian(z), padded(rows, 1 + len(z))
-    answer = None
-    if np.isfinite(jacobian).all():
-        answer = vanish(equations, cut.polynomials, slices, jacobian, z)
-    if answer is not None or cut.aux:
-        return answer
-    # Coordinates may differ too much in size for Newton's method with an inverse in doubles.
+    found = zero_in_digits(cut, rows, z)
+    if found is not None or cut.aux:
+        return None if found is None else vanish(equations, found)
+    slices = padded(rows, 1 + len(z))
     zero = analyse(cut.polynomials, z, ACCURACY, np.random.default_rng(0), slices)
-    if zero.place is not Place.ISOLATED:
+    if zero.place is not Place.ISOLATED or zero.precise is None:
         return None
-    return all(vanishes_at(zero, f) for f in equations)
+    return vanish(equations, zero.precise)

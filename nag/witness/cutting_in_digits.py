@@ -12,12 +12,12 @@ from collections.abc import Sequence
 import flint
 import numpy as np
 
-from nag.algebra.high_precision import vanish_in_balls
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import middle, point
+from nag.numerics.digits import bits_of, in_bits, middle
 from nag.numerics.pivots import pivots
 from nag.numerics.singular_point import SingularEnd
+from nag.numerics.zero_values import is_negligible, vanish
 from nag.witness.close_points import CLOSE, Fine, in_words, rated
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import MOST_DEFLATIONS, Cut, Equations, dyadic
@@ -49,8 +49,10 @@ def admit_zero(
     A cut is found if there is none: some of the equations, of a deflation if the zero is multiple.
     As `nag.witness.fibres.admit`, for zeros that doubles need not tell from others.
     """
-    with flint.ctx.workdps(DIGITS):
-        x = point(zero.digits)
+    if zero.precise is None:
+        return False
+    x = list(zero.precise.centre)
+    with in_bits(bits_of(DIGITS)):
         for i, fibre in enumerate(fibres):
             if fibre.cut.deflated != (zero.multiplicity != 1):
                 continue
@@ -82,7 +84,7 @@ def is_alone(fibre: Fibre, i: int, equations: Equations, rows: np.ndarray) -> bo
     ):
         return False
     digits = zero_in_digits(cut, rows, z)
-    return digits is not None and vanish_in_balls(equations.polynomials, digits[: cut.n])
+    return digits is not None and vanish(equations.polynomials, digits) is True
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -122,7 +124,7 @@ def _lifted(cut: Cut, x: list[flint.acb]) -> list[flint.acb] | None:
 
 
 def _is_regular_zero(cut: Cut, rows: np.ndarray, z: list[flint.acb]) -> bool:
-    if not vanish_in_balls(cut.polynomials, z):
+    if not all(is_negligible(f, z) for f in cut.polynomials):
         return False
     return _independent(cut.polynomials, padded(rows, 1 + len(z)), z) is not None
 
@@ -174,7 +176,7 @@ def _unknowns(
 
 def _slopes(polynomials: Sequence[Polynomial], z: list[flint.acb]) -> flint.acb_mat:
     blank = np.zeros((0, 1 + len(z)), dtype=complex)
-    return BallPolynomials.of(polynomials, blank).jacobian(z).mid()
+    return BallPolynomials.of(polynomials, blank).jacobian(z, bits_of(DIGITS)).mid()
 
 
 def _times(slopes: flint.acb_mat, q: np.ndarray) -> list[list[flint.acb]]:
@@ -201,7 +203,7 @@ def _independent(
 ) -> list[int] | None:
     """As many equations as determine a point on slices; None if they do not."""
     n, need = len(x), len(x) - len(slices)
-    jacobian = BallPolynomials.of(polynomials, slices).jacobian(x).tolist()
+    jacobian = BallPolynomials.of(polynomials, slices).jacobian(x, bits_of(DIGITS)).tolist()
     matrix = []
     for i, row in enumerate(jacobian):
         size = _size(row)

@@ -18,8 +18,9 @@ from typing import Any
 import flint
 import numpy as np
 
-from nag.algebra.high_precision import zero_near
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.precise_point import PrecisePoint, precise_zero
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import WRITTEN, alike, possible_zeros
 from nag.tracking.newton import Refined, refine
@@ -43,8 +44,6 @@ STEP, RESIDUAL = 16.0, 1e-31
 ARRIVED = 1e-6
 # Splits a double into halves of 26 digits: 2^27 + 1.
 SPLITTER = 134217729.0
-# Digits beyond those asked for in which Newton's method computes: residuals lose some.
-SPARE = 25
 # Bits beyond the digits that are asked for.
 GUARD = 40
 BITS_PER_DIGIT = np.log2(10.0)
@@ -85,7 +84,7 @@ def together(parts: Sequence[ExactPoints]) -> ExactPoints:
 
 def of_balls(points: Sequence[Sequence[Any]]) -> ExactPoints:
     """Points from balls (FLINT's ``acb``) that hold their coordinates, in the fewest digits."""
-    bits = bits_of(FEWEST)
+    bits = unit_of(FEWEST)
     values = np.array([_whole(point, bits) for point in points], dtype=object)
     radii = [max((float(z.rad()) for z in point), default=0.0) for point in points]
     return ExactPoints(
@@ -93,7 +92,7 @@ def of_balls(points: Sequence[Sequence[Any]]) -> ExactPoints:
     )
 
 
-def bits_of(digits: int) -> int:
+def unit_of(digits: int) -> int:
     """The unit's exponent for numbers of so many digits behind the point."""
     return int(np.ceil(digits * BITS_PER_DIGIT)) + GUARD
 
@@ -105,7 +104,7 @@ def exact_points(fibre: Fibre, rows: np.ndarray, digits: int) -> ExactPoints:
         digits: behind the decimal point of coordinates of size one. Those of double-double are as
             many as the condition of the point leaves; ``radii`` tells.
     """
-    n, bits = fibre.cut.n, bits_of(digits)
+    n, bits = fibre.cut.n, unit_of(digits)
     values = np.zeros((len(fibre), 2 * n), dtype=object)
     radii = np.full(len(fibre), np.inf)
     if digits <= DOUBLE_DOUBLE:
@@ -113,10 +112,10 @@ def exact_points(fibre: Fibre, rows: np.ndarray, digits: int) -> ExactPoints:
     radii[list(fibre.fine)] = np.inf
     balls = ~np.isfinite(radii)
     for i in np.flatnonzero(balls).tolist():
-        if i in fibre.fine:
-            values[i], radii[i] = _from_fine(fibre.cut, rows, fibre.fine[i], digits, bits)
-        else:
-            values[i], radii[i] = _in_balls(fibre.cut, rows, fibre.points[i], digits, bits)
+        found = _in_balls(fibre.cut, rows, fibre.points[i], fibre.fine.get(i), digits)
+        if found is not None:
+            values[i] = _whole(found.centre[:n], bits)
+            radii[i] = float(found.radii.max(initial=0.0)) + 2.0**-bits
     return ExactPoints(values, bits, radii, balls)
 
 
@@ -184,37 +183,22 @@ def fixed(z: np.ndarray, bits: int) -> np.ndarray:
     return result
 
 
-def _from_fine(
-    cut: Cut, rows: np.ndarray, fine: Fine, digits: int, bits: int
-) -> tuple[np.ndarray, float]:
-    """A point that is close to others, from the digits that it has."""
-    lost = int(np.log10(max(fine.curvature, 1.0)))
-    found = zero_from(cut.polynomials, rows, fine, digits + lost)
-    if found is None:
-        return np.zeros(2 * cut.n, dtype=object), np.inf
-    with flint.ctx.workdps(digits + SPARE + lost):
-        return _whole(found[0][: cut.n], bits), found[1] + 2.0**-bits
-
-
-def _whole(point: Sequence[Any], bits: int) -> np.ndarray:
+def _whole(point: Sequence[flint.acb], bits: int) -> np.ndarray:
     """Coordinates as integers of the unit ``2 ** -bits``, real and then imaginary parts."""
     parts = [x.real for x in point] + [x.imag for x in point]
-    return np.array([int((x * 2**bits).mid().floor().unique_fmpz()) for x in parts], dtype=object)
+    ratios = [(int(m), int(e) + bits) for m, e in (x.mid().man_exp() for x in parts)]
+    return np.array([m << e if e > 0 else m >> -e for m, e in ratios], dtype=object)
 
 
 def _in_balls(
-    cut: Cut, rows: np.ndarray, z: np.ndarray, digits: int, bits: int
-) -> tuple[np.ndarray, float]:
-    """By Newton's method in as many digits as are asked for."""
-    n = cut.n
-    nothing = np.zeros(2 * n, dtype=object)
-    slices = padded(rows, 1 + len(z))
-    with flint.ctx.workdps(digits + SPARE):
-        found = zero_near(cut.polynomials, slices, cut.evaluator.jacobian(z), z, digits + SPARE)
-        if found is None:
-            return nothing, np.inf
-        point, error = found
-        return _whole(point[:n], bits), error
+    cut: Cut, rows: np.ndarray, z: np.ndarray, fine: Fine | None, digits: int
+) -> PrecisePoint | None:
+    """A point to so many digits; to as many more as it is close to others by, if it is."""
+    if fine is None:
+        return precise_zero(
+            BallPolynomials.of(cut.polynomials, padded(rows, 1 + len(z))), z, digits
+        )
+    return zero_from(cut.polynomials, rows, fine, digits + int(np.log10(max(fine.curvature, 1.0))))
 
 
 # Digits that double-double is said to have, and those that are asked of balls.
@@ -291,9 +275,9 @@ def exact_zeros(
         index: of the witness point.
     """
     x, radii, rows = component.points[index], component.radii[index], component.slice.rows
-    digits = _close_in_digits(component, index)
-    if digits is not None:
-        return possible_zeros(equations, digits, WRITTEN, np.random.default_rng(0), rows)
+    known = _close_in_digits(component, index)
+    if known is not None:
+        return possible_zeros(equations, known.centre, WRITTEN, np.random.default_rng(0), rows)
     isolated = not component.fibres and not component.dimension
     each_known, simple = isolated and bool(np.ptp(radii) > 0), component.multiplicity == 1
     accuracy: float | np.ndarray = component.accuracy
@@ -309,14 +293,14 @@ def exact_zeros(
     return alike(zeros, x) if len(zeros) > 1 else zeros
 
 
-def _close_in_digits(component: WitnessSet, index: int) -> list[flint.acb] | None:
+def _close_in_digits(component: WitnessSet, index: int) -> PrecisePoint | None:
     """A witness point that is close to others, to 100 digits; None of one that is not known so."""
     for fibre in component.fibres:
         if index < len(fibre):
             fine, n = fibre.fine.get(index), fibre.cut.n
             rows, z = component.slice.rows, fibre.points[index]
             found = None if fine is None else zero_in_digits(fibre.cut, rows, z, fine)
-            return None if found is None else found[:n]
+            return None if found is None else found.first(n)
         index -= len(fibre)
     return None
 

@@ -15,8 +15,11 @@ from nag.algebra.given import check_error
 from nag.algebra.number import Number, is_zero
 from nag.algebra.system import PolynomialSystem
 from nag.errors import ComponentError
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import compared
+from nag.numerics.digits import bits_of, doubles, in_bits, number
 from nag.numerics.natural_coordinates import NaturalCoordinates
+from nag.numerics.newton import newton_step
 from nag.numerics.singular_point import Place, analyse
 from nag.numerics.zero_values import NONZERO
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -225,29 +228,19 @@ def _at_end(
 
 def _beside(cut: Cut, point: np.ndarray) -> float:
     """How far the set beside a point is, by Newton's method; infinite if that is unknown."""
-    from nag.numerics.ball_polynomials import BallPolynomials
-
     if cut.aux or not cut.polynomials:
         return np.inf
-    exact = BallPolynomials.of(cut.polynomials, np.zeros((0, 1 + cut.n), dtype=complex))
-    with flint.ctx.workdps(2 * DIGITS):
-        x = [flint.acb(complex(v)) for v in point]
-        slopes = exact.jacobian(x).mid()
-        across = slopes.conjugate().transpose()
-        try:
-            step = across * (slopes * across).solve(exact(x).mid(), algorithm="approx")
-        except ZeroDivisionError:
-            return np.inf
-        return float(np.linalg.norm([complex(v.mid()) for v in step.entries()]))
+    x = [flint.acb(complex(v)) for v in point]
+    step = newton_step(BallPolynomials.of(cut.polynomials), x, bits_of(2 * DIGITS))
+    return np.inf if step is None else float(np.linalg.norm(doubles(step)))
 
 
 def _angle(cut: Cut, rows: np.ndarray, end: Fine) -> float:
     """The least singular value of the gradients and the slice, all of length one."""
-    from nag.numerics.ball_polynomials import BallPolynomials
-
     exact = BallPolynomials.of(cut.polynomials, padded(rows, 1 + len(end.words)))
-    with flint.ctx.workdps(2 * DIGITS):
-        slopes = exact.jacobian(end.balls())
+    bits = bits_of(2 * DIGITS)
+    with in_bits(bits):
+        slopes = exact.jacobian(end.balls(), bits)
         lengths = [
             sum((abs(slopes[i, j]) ** 2 for j in range(slopes.ncols())), flint.arb(0)).sqrt()
             for i in range(slopes.nrows())
@@ -333,7 +326,7 @@ def _meet_near(
     together = tuple(dict.fromkeys(f for part in parts for f in part))
     error = SPREAD * accuracy
     zero = analyse(together, point, error, np.random.default_rng(0), place_only=True)
-    return zero.place is not Place.UNDECIDED and not (len(parts) == 1 and zero.beside)
+    return zero.place is not Place.UNDECIDED and not (len(parts) == 1 and zero.beside is not None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -468,16 +461,14 @@ def _is_exactly(
 
     The latter is known to 100 digits, and is the only zero within the error of these.
     """
-    from nag.numerics.digits import number
-    from nag.numerics.digits import point as in_digits
-
     zeros = exact_zeros(system.polynomials, isolated, index)
-    if len(zeros) != 1 or zeros[0].radii is None:
+    known = zeros[0].precise if len(zeros) == 1 else None
+    if known is None:
         return None
-    with flint.ctx.workdps(EXACTLY):
-        pairs = zip(in_digits(zeros[0].digits), map(number, point), strict=True)
+    with in_bits(bits_of(EXACTLY)):
+        pairs = zip(known.centre, map(number, point), strict=True)
         gaps = [float(abs(a - b).mid()) for a, b in pairs]
-    return bool((np.array(gaps) <= SPREAD * zeros[0].radii).all())
+    return bool((np.array(gaps) <= SPREAD * known.radii).all())
 
 
 class UndecidedError(ComponentError):

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-import flint
 import numpy as np
 
 from nag.tracking.run import Run
@@ -96,10 +95,7 @@ class Points:
         steep = STEEPER * self._size(i) / max(apart, 1e-300)
         cut, start = self.cuts[self.which[i]], Fine.of_doubles(self.z[i], steep)
         found = zero_from(cut.polynomials, self.rows, start, DIGITS)
-        if found is None:
-            return None
-        with flint.ctx.workdps(2 * DIGITS):
-            return in_words(found[0], steep)
+        return None if found is None else in_words(found.centre, steep)
 
     def __len__(self) -> int:
         return len(self.z)

@@ -10,6 +10,7 @@ import flint
 import numpy as np
 
 from nag.algebra.number import Irrational, Number, rounded_fraction
+from nag.numerics.digits import EXACT, in_bits
 from nag.tracking.homotopy import Homotopy
 
 # Bits of working precision for numbers of as many words.
@@ -78,8 +79,9 @@ class Terms:
 
 
 def real(parts: np.ndarray) -> Any:
-    """A sum of doubles."""
-    return sum(map(flint.arb, parts.tolist()), flint.arb(0))
+    """A sum of doubles, exactly."""
+    with in_bits(EXACT):
+        return sum(map(flint.arb, parts.tolist()), flint.arb(0))
 
 
 def number(parts: np.ndarray) -> Any:
@@ -90,10 +92,11 @@ def number(parts: np.ndarray) -> Any:
 def doubles(z: Any, words: int) -> np.ndarray:
     """Real and imaginary part as sums of so many doubles, shape ``(2, words)``."""
     parts = np.zeros((2, words))
-    for k, rest in enumerate((z.real.mid(), z.imag.mid())):
-        for i in range(words):
-            parts[k, i] = float(rest)
-            rest = (rest - parts[k, i]).mid()
+    with in_bits(EXACT):
+        for k, rest in enumerate((z.real.mid(), z.imag.mid())):
+            for i in range(words):
+                parts[k, i] = float(rest)
+                rest = (rest - parts[k, i]).mid()
     return parts
 
 

@@ -1,0 +1,157 @@
+"""Newton's method in balls: to so many digits, or until rounding governs what is left.
+
+A step at an exact point x is ``Y F(x)`` for a matrix Y near the inverse Jacobian there: by least
+squares where there are more equations than unknowns, the shortest where there are fewer. Values are
+balls, and so is the step: how wide it is says what rounding may have made of it. Where that governs
+a step, the next one is made in more bits; no other estimate of an error is needed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf
+from typing import Protocol
+
+import flint
+
+from nag.numerics.digits import LOG10_2, bits_of, in_bits, log_norm, middle
+
+# Bits of first steps; what a later one needs beside the digits that it is to have; and how many are
+# taken at a time. At most there are so many, and so many times those of the digits asked for.
+FIRST_BITS, MORE_BITS, UNIT_BITS = 128, 32, 64
+MOST_BITS, MOST_TIMES = 1024, 4
+STEPS = 60
+# Decimal logarithm of what a step must be shorter than the one before.
+GAIN = 0.3
+# An inverse by which a step gains so many digits, and this part of those that are left, is kept.
+FAST, LEFT = 12.0, 1 / 6
+# The part of all digits that a point has where a step that is no shorter than the last is rounding.
+RESTS = 0.3
+
+
+class Functions(Protocol):
+    """Equations in balls, such as `nag.numerics.ball_polynomials.BallPolynomials`."""
+
+    def values(self, x: Sequence[flint.acb], bits: int) -> flint.acb_mat: ...
+
+    def jacobian(self, x: Sequence[flint.acb], bits: int) -> flint.acb_mat: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Converged:
+    """Where Newton's method has led to.
+
+    Attributes:
+        point: exact numbers.
+        error: the last step at most, rounding included: the decimal logarithm of its largest
+            coordinate.
+    """
+
+    point: list[flint.acb]
+    error: float
+
+
+def inverse_of(matrix: flint.acb_mat, bits: int) -> flint.acb_mat | None:
+    """A matrix near the inverse of one by its middles, or its pseudo-inverse; None if singular."""
+    with in_bits(bits):
+        matrix, rows, columns = matrix.mid(), matrix.nrows(), matrix.ncols()
+        try:
+            if rows == columns:
+                return matrix.inv().mid()
+            across = matrix.conjugate().transpose()
+            if rows > columns:
+                return (across * matrix).solve(across).mid()
+            return (across * (matrix * across).inv().mid()).mid()
+        except ZeroDivisionError:
+            return None
+
+
+def newton_step(
+    system: Functions, x: Sequence[flint.acb], bits: int, inverse: flint.acb_mat | None = None
+) -> list[flint.acb] | None:
+    """Newton's step in balls, to be subtracted; None at a singular Jacobian.
+
+    Args:
+        inverse: a matrix near that of the Jacobian, if one is known.
+    """
+    if inverse is None:
+        inverse = inverse_of(system.jacobian(x, bits), bits)
+    if inverse is None:
+        return None
+    with in_bits(bits):
+        return list((inverse * system.values(x, bits)).entries())
+
+
+def subtract_step(x: Sequence[flint.acb], step: Sequence[flint.acb], bits: int) -> list[flint.acb]:
+    """The point that a step leads to, an exact one."""
+    with in_bits(bits):
+        return [middle(a - middle(b)) for a, b in zip(x, step, strict=True)]
+
+
+def find_zero(
+    system: Functions, start: Sequence[flint.acb], digits: float, within: float = inf
+) -> Converged | None:
+    """The zero that Newton's method leads to from an exact point near it, to so many digits.
+
+    Args:
+        digits: relative to the point's largest coordinate or to one.
+        within: decimal logarithm of how far the zero may be, relative likewise.
+
+    Returns:
+        None if steps do not become shorter at once, or lead further away, or if the digits are more
+        than conditions leave of many bits.
+    """
+    x, size = list(start), max(0.0, log_norm(start))
+    most = MOST_BITS + MOST_TIMES * bits_of(digits)
+    bits, last, inverse = FIRST_BITS, inf, None
+    for _ in range(STEPS):
+        if inverse is None:
+            inverse = inverse_of(system.jacobian(x, bits), bits)
+        step = None if inverse is None else newton_step(system, x, bits, inverse)
+        if step is None:
+            return None
+        length, rounding = log_norm(map(middle, step)), log_norm(flint.acb(z.rad()) for z in step)
+        lost = max(0.0, rounding - size + LOG10_2 * bits)
+        error = max(length, rounding)
+        done = error < size - digits
+        if not done and rounding > length - GAIN:
+            # What is left is rounding: more bits of the same point.
+            if bits > most:
+                return None
+            bits, inverse = 2 * bits, None
+            continue
+        x = subtract_step(x, step, max(bits, bits_of(digits) + MORE_BITS))
+        moved = log_norm(a - b for a, b in zip(x, start, strict=True))
+        if (length > last - GAIN and not done) or moved - size > within:
+            return None
+        if done and (last < inf or length == -inf):
+            return Converged(x, error)
+        left = length - size + digits
+        if not last - length > max(FAST, LEFT * left):
+            inverse = None
+        last = length
+        known = min(4 * (size - length), digits) if length > -inf else digits
+        bits = max(bits, UNIT_BITS * -(-(bits_of(known + lost) + MORE_BITS) // UNIT_BITS))
+    return None
+
+
+def newton_to_rest(
+    system: Functions, start: Sequence[flint.acb], bits: int, steps: int
+) -> list[flint.acb] | None:
+    """Where Newton's method comes to rest from a point, in so many bits and after so many steps.
+
+    That is where rounding governs a step. None at a singular Jacobian.
+    """
+    x, last = list(start), inf
+    for _ in range(steps):
+        step = newton_step(system, x, bits)
+        if step is None:
+            return None
+        length, x = log_norm(map(middle, step)), subtract_step(x, step, bits)
+        if all(z.contains(0) for z in step):
+            break
+        if length >= last and length - log_norm(x) < -RESTS * LOG10_2 * bits:
+            break
+        last = length
+    return x
