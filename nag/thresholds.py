@@ -379,8 +379,8 @@ numerics.digits: LOG10_2, SMALLEST, LARGEST; numerics.far_along: SMALL, SMALL_RO
 ROUNDING, FIRST, LEAST, GOOD; numerics.discs: UNIT, PRODUCT, UP, LEAST; numerics.implicit_function:
 ROUNDING; numerics.krawczyk: WIDER, LEAST_SIDE, GROWTH; numerics.local_structure: ERROR, LEAST,
 REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: LOG10_2;
-numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR, SEVERAL_SIZES; numerics.newton: GAIN, FAST, LEFT, RESTS;
-numerics.precise_point: LEAST_ERROR, LARGEST_ERROR;
+numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR, SEVERAL_SIZES;
+numerics.newton: GAIN, FAST, LEFT, RESTS; numerics.precise_point: LEAST_ERROR, LARGEST_ERROR;
 numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
 numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP;
 numerics.zero_values: LEAST; numerics.series_zeros: RANK, ASTRAY, ARRIVED; tracking.certified_paths:
