@@ -147,8 +147,8 @@ tracking.track.NONZERO                      1e3     A coordinate over the error 
                                                     that all zeros are found: others get 32 digits.
 tracking.certified_paths.SHORTEST           1e-9    Steps, relative to t, at which a path is left
                                                     without a proof.
-tracking.ends.at_infinity.ZERO              1e-150  Coordinates of size one that are zero in 154
-                                                    digits, and Newton's last step.
+tracking.ends.at_infinity.ZERO              -150    Decimal logarithm of coordinates, beside the
+                                                    largest, that are zero in 160 digits.
 tracking.ends.follow.KNOWN *                1e3     A coordinate, over its error, that is not zero.
 tracking.ends.linear_algebra.RESOLVED       1e3     The same in the kernels.
 tracking.ends.follow.SHARP                  1e-15   The same part in more digits.

@@ -144,7 +144,7 @@ class BallPolynomials:
     def _values(self, x: Sequence[flint.acb], bits: int) -> list[flint.acb]:
         if bits not in self._terms:
             place = self._monomials.place
-            self._terms[bits] = [[(_ball(c), place(f)) for c, f in row] for row in self.rows]
+            self._terms[bits] = [[(in_ball(c), place(f)) for c, f in row] for row in self.rows]
         at = self._monomials.values(x)
         values = [] if self.above is None else self.above._values(x, bits)
         for row in self._terms[bits]:
@@ -159,7 +159,7 @@ class BallPolynomials:
         """Sums of the absolute values of each row's terms at a point."""
         with in_bits(bits):
             at = [abs(z) for z in self._monomials.values(x)]
-            terms = [[(_ball(c), self._monomials.place(f)) for c, f in row] for row in self.rows]
+            terms = [[(in_ball(c), self._monomials.place(f)) for c, f in row] for row in self.rows]
             above = [] if self.above is None else self.above.sizes(x, bits)
             return above + [sum((abs(c) * at[i] for c, i in row), flint.arb(0)) for row in terms]
 
@@ -223,11 +223,14 @@ def _slopes_of(derivatives: Sequence[tuple[int, int, tuple[Any, int]]]) -> Slope
 
 
 def _matrix(slopes: Slopes) -> flint.acb_mat:
-    entries = [flint.acb(0) if e is None else _ball(e[0]) * e[1] for e in slopes.entries]
+    entries = [flint.acb(0) if e is None else in_ball(e[0]) * e[1] for e in slopes.entries]
     return flint.acb_mat(len(slopes.variables), len(slopes.monomials), entries)
 
 
-def _ball(c: Any) -> flint.acb:
+def in_ball(c: Any) -> flint.acb:
+    """An exact coefficient in the digits that are worked with; a pair has an imaginary part."""
+    if isinstance(c, tuple):
+        return in_ball(c[0]) + in_ball(c[1]) * flint.acb(0, 1)
     value = number(c)
     if isinstance(c, Irrational):
         off = abs(value) * flint.arb(2) ** (GUARD - flint.ctx.prec)

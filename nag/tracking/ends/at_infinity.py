@@ -8,25 +8,21 @@ is therefore looked at in more.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import log2
-from typing import Any
 
 import flint
 import numpy as np
 
-from nag.tracking.ends.inclusion import patches_through, system_at
+from nag.numerics.digits import log_norm, log_size
+from nag.numerics.newton import find_zero
 from nag.tracking.ends.terms import Terms, doubles, number
 from nag.tracking.homotopy import Homotopy
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.projective import ROUNDING
 
-BITS = 700
-# Coordinates of size one that are zero; Newton's method has arrived before a step as small.
-ZERO = 1e-150
-MOST_STEPS = 12
-# Bits in which Newton's method takes its first step, and those that a later one needs beside the
-# digits that it brings.
-FIRST_BITS, MORE_BITS = 256, 128
+# Digits that zeros are worked out to, and bits of the patches through the points they are near.
+DIGITS, BITS = 160, 700
+# Decimal logarithm of coordinates that are zero, beside the largest.
+ZERO = -150.0
 # Errors of coordinates of size one in two words.
 DOUBLE_DOUBLE = 2.0**-104
 
@@ -35,13 +31,11 @@ def at_infinity(terms: Terms, centre: np.ndarray, coordinates: Sequence[int]) ->
     """Whether one of the coordinates of the regular zero near a point vanishes.
 
     Args:
-        terms: the homotopy's, not yet worked out in fewer digits.
+        terms: the homotopy's.
         centre: a point near enough for Newton's method, shape ``(N, 2, words)``.
         coordinates: those that are asked for.
     """
-    with flint.ctx.workprec(BITS):
-        terms.work_out()
-        return _zero(flint, terms, [number(c) for c in centre], coordinates) is not None
+    return _zero_at_infinity(terms, [number(c) for c in centre], coordinates) is not None
 
 
 def regular_paths(
@@ -54,16 +48,13 @@ def regular_paths(
         condition: of the Jacobian there, shape ``(P,)``.
     """
     terms, balls = Terms(homotopy), {}
-    with flint.ctx.workprec(BITS):
-        terms.work_out()
-        for i, point in enumerate(points.tolist()):
-            start = [flint.acb(z) for z in point]
-            zero = _zero(flint, terms, start, homotopy.infinity)
-            if zero is not None:
-                centre = np.array([doubles(z, 2) for z in zero])
-                # Numbers as small would leave the range of doubles.
-                centre[np.abs(centre[:, :, 0]).max(axis=1) < ZERO] = 0.0
-                balls[i] = Ball(centre, np.full(len(zero), DOUBLE_DOUBLE))
+    for i, point in enumerate(points.tolist()):
+        zero = _zero_at_infinity(terms, [flint.acb(z) for z in point], homotopy.infinity)
+        if zero is not None:
+            centre = np.array([doubles(z, 2) for z in zero])
+            # Numbers as small would leave the range of doubles.
+            centre[np.abs(centre[:, :, 0]).max(axis=1) < 10.0**ZERO] = 0.0
+            balls[i] = Ball(centre, np.full(len(zero), DOUBLE_DOUBLE))
     k, centres = len(balls), np.array([ball.centre[:, :, 0] for ball in balls.values()])
     centres = centres.reshape(k, homotopy.N, 2)
     return np.array(list(balls), dtype=np.int64), Paths(
@@ -80,30 +71,12 @@ def regular_paths(
     )
 
 
-def _zero(flint: Any, terms: Terms, x: list[Any], coordinates: Sequence[int]) -> list[Any] | None:
-    """The zero near a point, by Newton's method, if one of the coordinates vanishes there.
-
-    The terms must have been worked out in all digits.
-    """
-    patches, last, bits = patches_through(flint, terms, x), 0.0, FIRST_BITS
-    size = max(abs(complex(z.mid())) for z in x)
-    for _ in range(MOST_STEPS):
-        with flint.ctx.workprec(bits):
-            values, jacobian = system_at(flint, terms, patches, x)
-            try:
-                # Half of the digits are right already.
-                with flint.ctx.workprec(bits // 2 + MORE_BITS // 2):
-                    step = jacobian.solve(values, algorithm="approx").entries()
-            except ZeroDivisionError:
-                return None
-            x = [(z - change).mid() for z, change in zip(x, step, strict=True)]
-        length = max(abs(complex(change)) for change in step) / size
-        # The quotient of two steps is squared from one to the next; of one step nothing is known,
-        # unless it is as small already.
-        arrived = length < ZERO or (length < last and length * (length / last) ** 2 < ZERO)
-        if length == 0 or (arrived and bits == BITS):
-            vanishes = any(abs(complex(x[j])) < ZERO * size for j in coordinates)
-            return x if vanishes else None
-        # The next step is about as long as the square of this one, and brings as many digits again.
-        last, bits = length, min(BITS, MORE_BITS + int(4 * max(0.0, -log2(length))))
-    return None
+def _zero_at_infinity(
+    terms: Terms, x: list[flint.acb], coordinates: Sequence[int]
+) -> list[flint.acb] | None:
+    """The zero near a point, by Newton's method, if one of the coordinates vanishes there."""
+    zero = find_zero(terms.with_patches(x, BITS), x, DIGITS)
+    if zero is None:
+        return None
+    least = log_norm(zero.point) + ZERO
+    return zero.point if any(log_size(zero.point[j]) < least for j in coordinates) else None

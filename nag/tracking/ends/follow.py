@@ -240,7 +240,7 @@ def _follow_in(
         states.lengthen(words)
     if words == max(DIGITS) and not states.close:
         states.most[pending] = states.steps[pending] + LAST_STEPS
-    terms, fine = Terms(homotopy), Terms(homotopy)
+    terms = Terms(homotopy)
     limits = Limits(terms, words, states.orders[words])
     needs = [10.0**-digits for digits in digits_of_evidence(homotopy, settings.evidence)]
     more = DIGITS[words] < min(settings.digits, max(DIGITS.values()))
@@ -273,7 +273,7 @@ def _follow_in(
                     if not at_limit:
                         again.append(path)
                     del states.found[path]
-                elif _ambiguous(homotopy, states, path, needs[0], fine) or (
+                elif _ambiguous(homotopy, states, path, needs[0], terms) or (
                     more and _affine_error(homotopy, states, path) > SHARP
                 ):
                     states.ends[path], states.tried[path] = states.found.pop(path), 0
@@ -294,12 +294,12 @@ def _confirmed(states: States, path: int, terms: Terms) -> bool:
     return box is not None
 
 
-def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, fine: Terms) -> bool:
+def _ambiguous(homotopy: Homotopy, states: States, path: int, need: float, terms: Terms) -> bool:
     """Whether a regular end is at infinity to fewer digits than are needed, or only seems to be."""
     far = [j for j in homotopy.infinity if not states.known(path)[j]]
     if not far or float(KNOWN * states.errors[path][far].max()) > need:
         return bool(far)
-    return not at_infinity(fine, states.found[path], far)
+    return not at_infinity(terms, states.found[path], far)
 
 
 def _affine_error(homotopy: Homotopy, states: States, path: int) -> float:

@@ -18,8 +18,9 @@ from typing import Any
 import flint
 import numpy as np
 
-from nag.numerics.digits import log_size
-from nag.tracking.ends.terms import Factors, Terms
+from nag.numerics.ball_polynomials import Factors
+from nag.numerics.digits import in_bits, log_size
+from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import NEVER
 
 # Bits of forms that are to tell zeros: 120 digits.
@@ -49,7 +50,7 @@ class InitialForms:
         key = (winding, *orders)
         if key not in self._known:
             forms = []
-            for row in self.terms.rows:
+            for row in self.terms.rows(self.bits):
                 least, form = NEVER, []
                 for factors, a, b in row:
                     order = sum(k * orders[j] for j, k in factors)
@@ -67,7 +68,7 @@ class InitialForms:
     def residual(self, orders: tuple[int, ...], winding: int, point: Sequence[Any]) -> float:
         """The largest value of a form over the sum of its terms, at a point in FLINT's ``acb``."""
         worst = 0.0
-        with flint.ctx.workprec(self.bits):
+        with in_bits(self.bits):
             for terms in _terms(self._of(orders, winding), point):
                 size = sum(map(abs, terms), flint.arb(0)).mid()
                 total = abs(sum(terms, flint.acb(0))).mid()
@@ -87,7 +88,7 @@ class InitialForms:
             error: of the coordinates, relative to each.
         """
         there = [j for j, order in enumerate(orders) if order < NEVER]
-        with flint.ctx.workprec(self.bits):
+        with in_bits(self.bits):
             forms = [
                 [(tuple((there.index(j), k) for j, k in factors), c) for factors, c in form]
                 for form in self._of(orders, winding)

@@ -16,6 +16,7 @@ import flint
 import numpy as np
 
 from nag.algebra.number import decimal_digits
+from nag.numerics.digits import in_bits
 from nag.tracking.ends.initial_forms import FINE, InitialForms
 from nag.tracking.ends.runs import MAX_WINDING
 from nag.tracking.ends.terms import BITS, Terms, doubles, number, real
@@ -78,7 +79,7 @@ class Limits:
 
     @cached_property
     def _fine(self) -> InitialForms:
-        return InitialForms(Terms(self.terms.homotopy), FINE)
+        return InitialForms(self.terms, FINE)
 
     def exists(self, limit: Limit, noise: float) -> bool:
         """Whether a limit at infinity is one exactly: what finite ones are is decided elsewhere.
@@ -107,16 +108,11 @@ class Limits:
             None where the orders are no rational numbers with a common small denominator, or no
             coordinate of a group is known.
         """
-        bits = flint.ctx.prec
-        try:
-            flint.ctx.prec = BITS[self.words]
-            return self._of(flint, x, found, known, t, winding)
-        finally:
-            flint.ctx.prec = bits
+        with in_bits(BITS[self.words]):
+            return self._of(x, found, known, t, winding)
 
     def _of(
         self,
-        flint: Any,
         x: np.ndarray,
         found: np.ndarray,
         known: np.ndarray,

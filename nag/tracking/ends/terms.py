@@ -1,22 +1,23 @@
-"""The terms of a homotopy as exact numbers of ball arithmetic."""
+"""The rows of a homotopy in balls, in as many bits as are asked for, and numbers in words."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 import flint
 import numpy as np
 
-from nag.algebra.number import Irrational, Number, rounded_fraction
+from nag.algebra.number import Number
+from nag.numerics.ball_polynomials import BallPolynomials, Factors, factors_of, in_ball
 from nag.numerics.digits import EXACT, in_bits
 from nag.tracking.homotopy import Homotopy
 
 # Bits of working precision for numbers of as many words.
 BITS = {2: 140, 4: 280, 8: 560}
-# Exponents as (coordinate, exponent) pairs; with them, the coefficients of 1 and of t.
-Factors = tuple[tuple[int, int], ...]
+# A monomial; with it, the coefficients of 1 and of t.
 Term = tuple[Factors, Any, Any]
 
 
@@ -25,15 +26,16 @@ class Terms:
     """The terms of all rows of a homotopy, the linear ones last."""
 
     homotopy: Homotopy
+    _rows: dict[int, list[list[Term]]] = field(default_factory=dict, repr=False)
 
-    @cached_property
-    def finer(self) -> Terms:
-        """The same, to be asked for in another precision."""
-        return Terms(self.homotopy)
-
-    @cached_property
-    def rows(self) -> list[list[Term]]:
+    def rows(self, bits: int) -> list[list[Term]]:
         """For each row its terms."""
+        if bits not in self._rows:
+            with in_bits(bits):
+                self._rows[bits] = self._in_balls()
+        return self._rows[bits]
+
+    def _in_balls(self) -> list[list[Term]]:
         h = self.homotopy
         rows: list[list[Term]] = []
         for row in h.rows.parts:
@@ -41,9 +43,8 @@ class Terms:
             for part, own in row:
                 a, b = (flint.acb(c) for c in h.factors[part])
                 for e, c in own.items():
-                    value = exact(c)
-                    factors = tuple((j, int(k)) for j, k in enumerate(e) if k)
-                    terms.append((factors, value * a, value * b))
+                    value = in_ball(c)
+                    terms.append((factors_of(e), value * a, value * b))
             rows.append(terms)
         for first, second in zip(h.A0.tolist(), h.A1.tolist(), strict=True):
             pairs = zip(first, second, strict=True)
@@ -51,45 +52,59 @@ class Terms:
         return rows
 
     @cached_property
-    def at_end(self) -> list[list[tuple[Factors, Any]]]:
-        """The terms of the polynomial rows at t = 0: exponents, and coefficients that are not 0."""
-        factors = [flint.acb(a) if a != 1 else None for a, _ in self.homotopy.factors]
+    def at_end(self) -> BallPolynomials:
+        """The rows at t = 0."""
+        h = self.homotopy
+        rows = [
+            tuple(
+                (times(c, h.factors[part][0]), factors_of(e))
+                for part, own in row
+                if h.factors[part][0] != 0
+                for e, c in own.items()
+                if c != 0
+            )
+            for row in h.rows.parts
+        ]
+        for line in h.A0.tolist():
+            rows.append(tuple((c, ((j, 1),)) for j, c in enumerate(line) if c != 0))
+        return BallPolynomials(h.N, tuple(rows))
+
+    def with_patches(self, x: list[flint.acb], bits: int) -> BallPolynomials:
+        """The rows at t = 0, and one for each group, whose product with a point is 1."""
         rows = []
-        for row in self.homotopy.rows.parts:
-            terms = []
-            for part, own in row:
-                a = factors[part]
-                if a is not None and a == 0:
-                    continue
-                for e, c in own.items():
-                    value = exact(c) if a is None else exact(c) * a
-                    if value != 0:
-                        terms.append((tuple((j, int(k)) for j, k in enumerate(e) if k), value))
-            rows.append(terms)
-        return rows
-
-    @cached_property
-    def lines(self) -> list[list[Any]]:
-        """The linear rows at t = 0."""
-        return [[flint.acb(c) for c in row] for row in self.homotopy.A0.tolist()]
-
-    def work_out(self) -> None:
-        """Give what there is at t = 0 the digits that are worked with now."""
-        _ = self.at_end, self.lines
+        with in_bits(bits):
+            for group in self.homotopy.groups:
+                conjugates = [(j, x[j].mid().conjugate()) for j in group]
+                size = sum((c * x[j] for j, c in conjugates), flint.acb(0)).mid()
+                parts = [((c / size).mid(), ((j, 1),)) for j, c in conjugates]
+                rows.append(((-1, ()), *parts))
+        return BallPolynomials(self.homotopy.N, tuple(rows), self.at_end)
 
 
-def real(parts: np.ndarray) -> Any:
+def times(c: Number | complex, factor: complex) -> Any:
+    """The product of a coefficient with a double, exactly: as real and imaginary part."""
+    if factor == 1:
+        return c
+    parts = [Fraction(x) for x in (factor.real, factor.imag)]
+    if isinstance(c, complex | float | np.complexfloating | np.floating):
+        z = complex(c)
+        x, y = Fraction(z.real), Fraction(z.imag)
+        return x * parts[0] - y * parts[1], x * parts[1] + y * parts[0]
+    return c * parts[0], c * parts[1]
+
+
+def real(parts: np.ndarray) -> flint.arb:
     """A sum of doubles, exactly."""
     with in_bits(EXACT):
         return sum(map(flint.arb, parts.tolist()), flint.arb(0))
 
 
-def number(parts: np.ndarray) -> Any:
+def number(parts: np.ndarray) -> flint.acb:
     """A complex number from sums of doubles, shape ``(2, words)``."""
     return flint.acb(real(parts[0]), real(parts[1]))
 
 
-def doubles(z: Any, words: int) -> np.ndarray:
+def doubles(z: flint.acb, words: int) -> np.ndarray:
     """Real and imaginary part as sums of so many doubles, shape ``(2, words)``."""
     parts = np.zeros((2, words))
     with in_bits(EXACT):
@@ -98,13 +113,3 @@ def doubles(z: Any, words: int) -> np.ndarray:
                 parts[k, i] = float(rest)
                 rest = (rest - parts[k, i]).mid()
     return parts
-
-
-def exact(c: Number | complex) -> Any:
-    """A coefficient, to the working precision."""
-    if isinstance(c, complex | float | np.complexfloating | np.floating):
-        return flint.acb(complex(c))
-    if isinstance(c, Irrational):
-        c = rounded_fraction(c, max(100, flint.ctx.dps + 10))
-    p, q = c.as_integer_ratio()
-    return flint.acb(flint.fmpq(p, q) if q != 1 else p)
