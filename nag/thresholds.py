@@ -202,13 +202,13 @@ tracking.ends.linear_algebra.GONE           1e-6    What a correction leaves of 
 tracking.ends.linear_algebra.ROUGHEST       1e-6    Coordinate of a point from doubles that may be
                                                     rounding alone. More would hide corrections that
                                                     lead away from the path.
-solving.solve.INFINITE                      2e-12   Homogenising coordinates of ends at infinity,
+solving.path_ends.INFINITE                  2e-12   Homogenising coordinates of ends at infinity,
                                                     beside what is proved of them.
-solving.solve.ROUGHLY_INFINITE              1e-7    The same of ends in few digits.
+solving.path_ends.ROUGHLY_INFINITE          1e-7    The same of ends in few digits.
 solving.isolated_zero.TWO                   1e-80   Distance, beside their size, of zeros in 100
                                                     digits that are two: those that the ends at one
                                                     place stand for.
-solving.judged_ends.NEARLY                  1e-5    Values, beside their terms, of ends that are no
+solving.path_ends.NEARLY                    1e-5    Values, beside their terms, of ends that are no
                                                     zeros, however badly they are known.
 solving.isolated_zero.REAL *                1e-10   Imaginary parts, beside a point's size, of zeros
                                                     in doubles that are real unless another zero is

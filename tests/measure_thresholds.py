@@ -35,7 +35,7 @@ from nag.files.cases import read_case
 from nag.mechanism.problem import problem_of
 from nag.numerics import coincidence, local_structure, zero_values
 from nag.numerics.null_space import Digits
-from nag.solving import isolated_zero, judged_ends
+from nag.solving import isolated_zero, path_ends
 from nag.solving import solve as solving
 from nag.tracking import jumps, projective
 from nag.tracking import track as tracking
@@ -173,8 +173,8 @@ def watched(measured: Measured) -> ExitStack:
         (follow.States, "known", known),
         (limits.Limits, "of", initial_forms),
         (limits, "_denominator", denominator),
-        (judged_ends, "_residuals", values),
-        (judged_ends, "_solutions", real),
+        (path_ends, "_residuals", values),
+        (path_ends, "_solutions", real),
         (jumps, "coinciding", met),
     ]:
         stack.enter_context(patch.object(owner, name, around(getattr(owner, name), note)))

@@ -11,10 +11,9 @@ from systems import system
 from nag.algebra.system import PolynomialSystem
 from nag.files.cases import read_case
 from nag.numerics.singular_point import Place
-from nag.solving import judged_ends
+from nag.solving import path_ends
 from nag.solving import solve as solving
-from nag.solving.conjugate_ends import with_conjugate_ends
-from nag.solving.missing_zeros import counted
+from nag.solving.conjugate_ends import restore_conjugate_ends
 from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
 from nag.solving.start.target import Start
@@ -58,14 +57,14 @@ def test_a_lost_path_leads_to_the_conjugate_that_is_missing(start: str) -> None:
     two, _ = pairs(begin, paths)
     for i, j in two:
         for gone in ((i,), (j,)):
-            mended = with_conjugate_ends(begin, lost(paths, *gone))
+            mended = restore_conjugate_ends(begin, lost(paths, *gone))
             assert np.array_equal(mended.status, paths.status)
             ends, wanted = (begin.affine(p.points[[i, j]]) for p in (mended, paths))
             assert ends == pytest.approx(wanted)
     # Which of several lost paths led to which end does not matter.
     several = [j for _, j in two]
     assert len(several) > 1
-    mended = with_conjugate_ends(begin, lost(paths, *several))
+    mended = restore_conjugate_ends(begin, lost(paths, *several))
     regular = paths.where(PathStatus.REGULAR)
     found, wanted = (begin.affine(p.points[regular])[:, 0] for p in (mended, paths))
     assert np.poly(found) == pytest.approx(np.poly(wanted))
@@ -78,7 +77,7 @@ def test_what_no_conjugate_explains_stays_lost() -> None:
     # Both of a pair, a real one, and a real one beside one of a pair.
     for gone in ((i, j), (real[0],), (real[0], i)):
         missing = lost(paths, *gone)
-        assert with_conjugate_ends(begin, missing) is missing
+        assert restore_conjugate_ends(begin, missing) is missing
 
 
 def test_a_conjugate_that_is_no_zero_is_not_taken() -> None:
@@ -86,7 +85,7 @@ def test_a_conjugate_that_is_no_zero_is_not_taken() -> None:
     (i, j), *_ = pairs(begin, paths)[0]
     moved = lost(paths, j)
     moved.points[i] = begin.homotopy.normalized(moved.points[[i]] * (1 + 1e-6j * np.arange(3)))
-    assert with_conjugate_ends(begin, moved) is moved
+    assert restore_conjugate_ends(begin, moved) is moved
 
 
 def test_conjugates_of_ends_in_more_digits_are_kept_in_these() -> None:
@@ -96,7 +95,7 @@ def test_conjugates_of_ends_in_more_digits_are_kept_in_these() -> None:
     fine = [(i, j) for i, j in pairs(begin, paths)[0] if i in paths.balls]
     assert fine
     for i, j in fine:
-        mended = with_conjugate_ends(begin, lost(paths, j))
+        mended = restore_conjugate_ends(begin, lost(paths, j))
         assert np.array_equal(mended.balls[j].radii, mended.balls[i].radii)
 
 
@@ -120,12 +119,6 @@ def test_zeros_are_counted_where_paths_were_lost_to_conjugates(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     given = system("x y", *CUBICS)
-    counts = []
-
-    def counting(*arguments: object) -> object:
-        found = counted(*arguments)
-        counts.append(found.count)
-        return found
 
     def losing(*arguments: object, **options: object) -> Paths:
         paths = track(*arguments, **options)
@@ -133,27 +126,26 @@ def test_zeros_are_counted_where_paths_were_lost_to_conjugates(
         return lost(paths, int(np.abs(x.imag).argmax()))
 
     monkeypatch.setattr(solving, "track", losing)
-    monkeypatch.setattr(solving, "counted", counting)
     found = solving.solve(given, start="total")
     assert found.complete and len(found.solutions) == 9
-    assert counts and counts[0].bound == 9
+    assert found.reason.endswith("so many paths leave no more than 9")
 
 
 def test_the_conjugate_of_a_singular_end_on_a_component_is_not_judged_again() -> None:
     on, other = np.array([1 + 2j, 3 - 1j]), np.array([1 + 2j, 3 - 1j + 1e-6])
     points = np.array([on.conj(), other.conj(), on.conj()])
     errors = np.full(3, 1e-15)
-    zeros = judged_ends._Zeros(
+    zeros = path_ends._Zeros(
         np.arange(3), points, errors, errors, regular=np.array([False, False, True])
     )
     asked = []
 
-    def judge(i: int) -> judged_ends._Place:
+    def judge(i: int) -> path_ends._EndPlace:
         asked.append(i)
-        return judged_ends._Place(Place.UNDECIDED)
+        return path_ends._EndPlace(Place.UNDECIDED)
 
     places = [
-        judged_ends._together(judge, zeros, np.array([i]), True, [(on, None)])[1].place
+        path_ends._judge_group(judge, zeros, np.array([i]), True, [(on, None)])[1].place
         for i in range(3)
     ]
     assert places == [Place.ON_COMPONENT, Place.UNDECIDED, Place.UNDECIDED]

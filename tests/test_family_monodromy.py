@@ -25,6 +25,7 @@ from nag.solving.parameter import solve_family, solve_generic
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solve_classes import ClassEnds, track_classes
 from nag.solving.start.scalings import nearest_scaling, random_scaling, scaling_weights
+from nag.tracking.paths import PathStatus
 
 # Symmetric in x and y, and even.
 EVEN = family(
@@ -100,9 +101,9 @@ def test_what_is_lost_on_one_way_is_found_on_another(monkeypatch: pytest.MonkeyP
         ways.append(ends)
         if len(ways) > 1:
             return ends
-        arrived = ends.arrived.copy()
-        arrived[5] = False
-        return replace(ends, arrived=arrived)
+        status = ends.status.copy()
+        status[5] = PathStatus.FAILED
+        return replace(ends, status=status)
 
     monkeypatch.setattr(solve_classes, "track_classes", losing)
     (result,) = solve_family(solved, [TARGET])

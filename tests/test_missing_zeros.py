@@ -16,8 +16,9 @@ import nag
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.decomposition.components import decompose
-from nag.decomposition.isolated import counted
+from nag.decomposition.isolated import count_points
 from nag.numerics.coincidence import conjugates_present
+from nag.numerics.system_facts import SystemFacts
 from nag.solving.solutions import SolveResult
 from nag.solving.solve import solve
 from nag.solving.tropical_zeros import tropical_zeros
@@ -105,13 +106,14 @@ def test_a_path_all_of_whose_coordinates_are_unknown_has_no_limit() -> None:
 
 def test_an_answer_that_lacks_a_point_is_not_complete() -> None:
     whole = nag.decompose(system("x y", "x^2 + y^2 - 5", "x*y + x - 3"))
-    assert whole.complete and counted(whole, True).complete
+    facts = SystemFacts(whole.system)
+    assert whole.complete and count_points(whole, facts, True).complete
     fewer = replace(whole, components=whole.components[1:])
-    lacking = counted(fewer, True)
+    lacking = count_points(fewer, facts, True)
     assert not lacking.complete
     assert lacking.notes[-1] == "3 zeros were found, and there are 4"
     doubted = replace(whole, complete=False, notes=("a path failed",))
-    assert counted(doubted, True).complete
+    assert count_points(doubted, facts, True).complete
 
 
 def test_residuals_and_jacobians_far_out_are_those_of_scaled_equations() -> None:

@@ -12,12 +12,14 @@ import pytest
 from systems import system
 
 import nag
+from nag.algebra.branches import search_branches
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.components import decompose
 from nag.errors import StartError
 from nag.files.cases import read_case
 from nag.mechanism.model import model
+from nag.numerics import system_facts
 from nag.numerics.coincidence import clusters, conjugates_present
 from nag.solving.shown import answer_text
 from nag.solving.solutions import SolveResult
@@ -107,6 +109,36 @@ def test_as_many_zeros_as_the_mixed_volume_are_all(monkeypatch: pytest.MonkeyPat
     result = solve(system(names, *noon), start="auto", seed=2)
     assert result.complete
     assert (len(result.solutions), result.paths.at_infinity) == (73, 8)
+    assert result.reason.endswith("the mixed volume leaves no more than 73")
+
+
+@pytest.mark.parametrize(
+    ("equations", "start", "method"),
+    [
+        (("x^2*y - 1", "x + y^2 - 3"), "auto", "by_algebra"),
+        (("x^2*y - 1", "x + y^2 - 3"), "total", "by_paths"),
+        (("x^4 + y^2 - 1", "(x^4 - y^3*x + 3*x - 2)*(x*y^3 + x^3 + 7)"), "auto", "by_branches"),
+    ],
+)
+def test_an_answer_names_the_method_that_made_it(
+    equations: tuple[str, ...], start: str, method: str
+) -> None:
+    result = solve(system("x y", *equations), start=start)
+    assert result.method == method
+
+
+def test_what_is_known_of_a_system_is_not_worked_out_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[PolynomialSystem] = []
+
+    def search(of: PolynomialSystem) -> object:
+        asked.append(of)
+        return search_branches(of)
+
+    monkeypatch.setattr(system_facts, "search_branches", search)
+    given = read_case(BENCHMARKS / "katsura-6.toml").system
+    assert decompose(given).complete
+    # The system is solved, and so is what is left of it on a plane, to see that it is finite.
+    assert len(asked) == 2 and asked.count(given) == 1
 
 
 def test_curves_are_told_apart_from_isolated_points() -> None:

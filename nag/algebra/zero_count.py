@@ -16,6 +16,7 @@ References:
 from __future__ import annotations
 
 from collections.abc import Sequence
+from enum import Enum
 from itertools import combinations_with_replacement, islice
 from math import comb, lcm
 from typing import NamedTuple
@@ -33,11 +34,28 @@ MOST_STANDARD = 2**11
 MOST_MONOMIALS = 1500
 
 
+class Completeness(Enum):
+    """What a count says of zeros that were found."""
+
+    UNKNOWN = "more there may be"
+    ALL = "there are no more"
+    MISSING = "there are more"
+    TOO_MANY = "there are fewer: a multiplicity is wrong, or a zero counts twice"
+
+
 class ZeroCount(NamedTuple):
     """No more than ``bound`` zeros; as many, if ``exact``."""
 
     bound: int
     exact: bool
+
+    def judge(self, zeros: int) -> Completeness:
+        """What it says of so many that were found, each counted by its multiplicity."""
+        if self.bound == zeros:
+            return Completeness.ALL
+        if self.bound < zeros:
+            return Completeness.TOO_MANY
+        return Completeness.MISSING if self.exact else Completeness.UNKNOWN
 
 
 def most_zeros(

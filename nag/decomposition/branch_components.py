@@ -12,9 +12,8 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
+from nag.algebra.algebraic_zeros import AlgebraicZero
 from nag.algebra.branch_equations import BranchEquations, BranchKind
-from nag.algebra.branches import branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import independent_polynomials
 from nag.algebra.polynomial import Polynomial
@@ -161,9 +160,9 @@ def decompose_apart(task: Task, others: Others) -> Decomposition | None:
     system, symmetries, run = task.system, task.symmetries, task.run
     if system.n == 0:
         return None
-    apart = branches(system)
+    apart = task.facts.branches.parts
     used: Sequence[SignedPermutation] = ()
-    zeros = algebraic_zeros(system) if apart is None else None
+    zeros = task.facts.exact_zeros if apart is None else None
     if apart is None and zeros is None:
         return None
     given, natural = system, NaturalCoordinates.identity(system.n)
@@ -233,7 +232,7 @@ def _keep(symmetries: Sequence[SignedPermutation], system: PolynomialSystem) -> 
 
 def _part(task: Task, others: Others, rng: np.random.Generator) -> _Part:
     system = task.system
-    zeros = None if task.symmetries else algebraic_zeros(system)
+    zeros = None if task.symmetries else task.facts.exact_zeros
     if zeros is not None:
         return _algebraic(system, zeros)
     branch = BranchEquations(system, graphs=False)

@@ -19,6 +19,7 @@ from nag.decomposition.independent_parts import decompose_parts
 from nag.decomposition.method import Attempt, Others, Task, decompose_by
 from nag.decomposition.one_equation import decompose_one_equation
 from nag.decomposition.rational_curve import decompose_rational_curve
+from nag.numerics.system_facts import SystemFacts
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.given_component import check_system
 from nag.witness.witness import Decomposition
@@ -66,7 +67,7 @@ def decompose(
     check_listed(symmetries, "symmetries", "a list of nag.SignedPermutation")
     for symmetry in symmetries:
         check_symmetry(system, symmetry)
-    return decompose_by(METHODS, Task(system, tuple(symmetries), run))
+    return decompose_by(METHODS, Task(SystemFacts(system), tuple(symmetries), run))
 
 
 def by_variables(task: Task, others: Others) -> Attempt:

@@ -18,13 +18,15 @@ from nag.algebra.exact_ranks import is_dependent
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import most_zeros
+from nag.algebra.zero_count import Completeness, most_zeros
 from nag.decomposition.final_checks import judged
+from nag.decomposition.method import Task
 from nag.decomposition.symmetric_images import in_orbits
 from nag.errors import StartError
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.coincidence import coincident
 from nag.numerics.precise_point import precise_zero
+from nag.numerics.system_facts import SystemFacts
 from nag.numerics.zero_values import NONZERO, SINGULAR, vanishes
 from nag.solving.solutions import Solution, SolveResult
 from nag.solving.solve import solve
@@ -59,7 +61,7 @@ def is_finite(
     for weight, x in zip(dyadic(rng, (n,)), Polynomial.variables(n), strict=True):
         plane = plane + x * Fraction(float(weight))
     cut = PolynomialSystem(system.variables, (*others, plane), system.nonzero)
-    found = _solved(cut, rng, run, True)
+    found = _solve(SystemFacts(cut), rng, run, True)
     if found is None or found.pathless:
         return False, none
     # What failed here leaves nothing open: the set is intersected equation by equation then.
@@ -86,48 +88,38 @@ def _linear(n: int) -> list[tuple[int, ...]]:
     return [tuple(int(i == j) for i in range(n)) for j in range(-1, n)]
 
 
-def _solved(
-    system: PolynomialSystem, rng: np.random.Generator, run: Run, finite: bool
+def _solve(
+    facts: SystemFacts, rng: np.random.Generator, run: Run, finite: bool
 ) -> SolveResult | None:
     """The isolated solutions of a system; None if it has no start system."""
-    seed, how = int(rng.integers(2**31)), {"settings": run.settings, "threads": run.threads}
+    own = replace(run, seed=int(rng.integers(2**31)), progress=None)
     try:
-        return solve(system, seed=seed, finite=finite, **how)
+        return solve(facts.system, run=own, finite=finite, facts=facts)
     except StartError:
         return None
 
 
-def solved_at_once(
-    system: PolynomialSystem,
-    rng: np.random.Generator,
-    run: Run,
-    symmetries: Sequence[SignedPermutation],
-    finite: bool = False,
-) -> Decomposition | None:
+def solve_at_once(task: Task, finite: bool = False) -> Decomposition | None:
     """The points of a solution set, if it is finite and the solver has no doubts.
 
     Args:
         finite: whether it is known to be, but for what `system.nonzero` excludes.
     """
+    system = task.system
     if len(system.polynomials) < system.n:
         return None
     outside = finite and bool(system.nonzero)
-    found = _solved(system, rng, run, not outside)
+    found = _solve(task.facts, task.rng, task.run, not outside)
     if found is None or not found.complete or (found.pathless and not finite):
         return None
     if found.positive_dimensional or (found.perhaps_infinite and not outside):
         return None
-    components = _components(found, system, symmetries)
+    components = _components(found, system, task.symmetries)
     paths = PathCounts(found.paths.tracked, found.paths.failed, found.paths.at_infinity)
-    return judged(system, components, paths, run.settings)
+    return judged(system, components, paths, task.run.settings, seed=task.run.seed)
 
 
-def with_points(
-    answer: Decomposition,
-    rng: np.random.Generator,
-    run: Run,
-    symmetries: Sequence[SignedPermutation],
-) -> Decomposition | None:
+def solve_for_points(answer: Decomposition, task: Task) -> Decomposition | None:
     """The answer with all isolated points of its system, if the solver has no doubts of these.
 
     A start system has a path for each, whatever else there is. Intersecting with one equation after
@@ -137,10 +129,10 @@ def with_points(
     larger = [c for c in answer.components if c.dimension > 0]
     if len(system.polynomials) < system.n or any(c.status is Status.UNDECIDED for c in larger):
         return None
-    found = _solved(system, rng, run, False)
+    found = _solve(task.facts, task.rng, task.run, False)
     if found is None or not found.complete:
         return None
-    points = _components(found, system, symmetries)
+    points = _components(found, system, task.symmetries)
     tracked = answer.paths.tracked + found.paths.tracked
     whole = replace(
         answer,
@@ -157,10 +149,11 @@ def _only_points(answer: Decomposition) -> Decomposition:
     return replace(answer, components=points)
 
 
-def counted(answer: Decomposition, scheme: bool) -> Decomposition:
+def count_points(answer: Decomposition, facts: SystemFacts, scheme: bool) -> Decomposition:
     """An answer of points alone, beside the number of zeros that exact algebra knows.
 
     Args:
+        facts: of its system.
         scheme: whether multiplicities are those of the system.
     """
     system = answer.system
@@ -169,10 +162,15 @@ def counted(answer: Decomposition, scheme: bool) -> Decomposition:
     # At points that are regular the scheme of the system is simple, whatever is asked for.
     scheme = scheme or all(c.corank == 0 for c in answer.components)
     zeros = sum((c.multiplicity if scheme else 1) * c.degree * c.orbit for c in answer.components)
-    count = most_zeros(system.polynomials, zeros, not answer.complete)
-    if count is None or (count.bound > zeros and not (count.exact and scheme)):
+    count = facts.count_zeros(zeros, not answer.complete)
+    verdict = Completeness.UNKNOWN if count is None else count.judge(zeros)
+    if (
+        count is None
+        or verdict is Completeness.UNKNOWN
+        or (verdict is Completeness.MISSING and not scheme)
+    ):
         return answer
-    if count.bound == zeros:
+    if verdict is Completeness.ALL:
         decided = all(c.status is Status.IRREDUCIBLE for c in answer.components)
         return replace(answer, complete=True, notes=()) if decided else answer
     note = f"{zeros} zeros were found, and there are {count.bound}"

@@ -11,6 +11,7 @@ import numpy as np
 from nag.algebra.symmetry import SignedPermutation
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.reduction import Reduction
+from nag.numerics.system_facts import SystemFacts
 from nag.tracking.run import Run
 from nag.witness.witness import Decomposition, PathCounts
 
@@ -20,24 +21,30 @@ class Task:
     """A system to decompose, and how.
 
     Attributes:
+        facts: what is known of the system.
         symmetries: signed permutations of the variables that keep the equations.
         scheme: whether multiplicities are of interest: a branch is not the scheme that was given.
     """
 
-    system: PolynomialSystem
+    facts: SystemFacts
     symmetries: tuple[SignedPermutation, ...]
     run: Run
     scheme: bool = True
 
+    @property
+    def system(self) -> PolynomialSystem:
+        return self.facts.system
+
     def of_part(self, system: PolynomialSystem, symmetries: Sequence[SignedPermutation]) -> Task:
         """The same for a part of the system, as a set."""
-        scheme = self.scheme and system is self.system
-        return Task(system, tuple(symmetries), self.run, scheme)
+        if system is self.system:
+            return replace(self, symmetries=tuple(symmetries))
+        return Task(SystemFacts(system), tuple(symmetries), self.run, scheme=False)
 
     @cached_property
     def reduction(self) -> Reduction:
         """The system in fewer variables, in natural coordinates."""
-        return Reduction.of(self.system, scaled=True)
+        return Reduction.of(self.system, scaled=True, natural=self.facts.natural)
 
     @cached_property
     def rng(self) -> np.random.Generator:

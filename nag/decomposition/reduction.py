@@ -44,10 +44,20 @@ class Reduction:
     _lifted: dict[Cut, Cut] = field(default_factory=dict, repr=False)
 
     @classmethod
-    def of(cls, system: PolynomialSystem, scaled: bool = False) -> Reduction:
-        """The reduction; ``scaled``: from natural coordinates, to comparable coefficients."""
-        natural = NaturalCoordinates.identity(system.n)
-        if scaled:
+    def of(
+        cls,
+        system: PolynomialSystem,
+        scaled: bool = False,
+        natural: NaturalCoordinates | None = None,
+    ) -> Reduction:
+        """The reduction; ``scaled``: from natural coordinates, to comparable coefficients.
+
+        Args:
+            natural: the coordinates that suit the equations, if they are known.
+        """
+        if not scaled:
+            natural = NaturalCoordinates.identity(system.n)
+        elif natural is None:
             natural = natural_coordinates(system.polynomials, system.n)
         elimination = eliminate_linear(natural.system(system), graphs=False)
         reduced, frame = elimination.system, Frame.of(elimination, natural)

@@ -10,7 +10,13 @@ import numpy as np
 from nag.decomposition.assembly import Known, assembled
 from nag.decomposition.final_checks import judged
 from nag.decomposition.hypersurface import NEARER
-from nag.decomposition.isolated import contains, counted, is_finite, solved_at_once, with_points
+from nag.decomposition.isolated import (
+    contains,
+    count_points,
+    is_finite,
+    solve_at_once,
+    solve_for_points,
+)
 from nag.decomposition.method import Attempt, Task
 from nag.decomposition.orbits import Action
 from nag.decomposition.superset import Ambient, Superset, intersection_order, witness_superset
@@ -29,7 +35,9 @@ def decompose_section(task: Task) -> Attempt:
         return Attempt(None, spent)
     answer = _settle(task, superset, rng)
     # Zeros of a section that is whole are counted already.
-    return Attempt(answer if answer.complete else counted(answer, task.scheme), spent)
+    return Attempt(
+        answer if answer.complete else count_points(answer, task.facts, task.scheme), spent
+    )
 
 
 def decompose_finite(task: Task) -> Attempt:
@@ -37,10 +45,7 @@ def decompose_finite(task: Task) -> Attempt:
     finite, spent = is_finite(task.reduction.reduced, task.rng, task.run)
     points = None
     if finite:
-        given = task.system, task.rng, task.run, task.symmetries
-        points = solved_at_once(*given, finite=True)
-    if points is not None:
-        points = replace(points, seed=task.run.seed, settings=task.run.settings)
+        points = solve_at_once(task, finite=True)
     return Attempt(points, spent)
 
 
@@ -52,7 +57,7 @@ def decompose_several(task: Task) -> Decomposition:
     equations = [reduced.polynomials[i] for i in order]
     superset = witness_superset(equations, Ambient.space(flag, reduced.nonzero), rng, task.run)
     answer = _settle(task, superset, rng, order)
-    return counted(answer, task.scheme)
+    return count_points(answer, task.facts, task.scheme)
 
 
 def _random_flag(task: Task) -> tuple[np.ndarray, np.random.Generator]:
@@ -84,9 +89,9 @@ def _settle(
     # Whether all doubts are about isolated points.
     only_points = superset.only_points and not found.notes
     if not answer.complete and answer.dimension > 0 and only_points:
-        answer = with_points(answer, task.rng, task.run, task.symmetries) or answer
+        answer = solve_for_points(answer, task) or answer
     if not answer.complete and answer.dimension <= 0:
-        isolated = solved_at_once(task.system, task.rng, task.run, task.symmetries)
+        isolated = solve_at_once(task)
         if isolated is not None and contains(isolated, answer):
             answer = replace(isolated, paths=_add_tracked(isolated.paths, answer.paths))
     return replace(answer, seed=task.run.seed, settings=task.run.settings)

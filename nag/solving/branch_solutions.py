@@ -16,7 +16,6 @@ import numpy as np
 
 from nag.algebra.algebraic_zeros import AlgebraicZero, algebraic_zeros
 from nag.algebra.branch_equations import BranchEquations, BranchKind
-from nag.algebra.branches import search_branches
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
@@ -43,14 +42,12 @@ from nag.solving.larger_sets import LargerSets
 from nag.solving.lifted_solution import lifted_solution
 from nag.solving.missing_zeros import DIGITS
 from nag.solving.solutions import PathStatistics, Solution, SolveResult
-from nag.tracking.run import Run
+from nag.solving.solve_task import SolveTask
 
 # Solutions that may be the same, found in two branches: relative distance.
 NEAR = 1e-7
 # Digits to compute with.
 WORKING = 120
-
-Tracked = Callable[[PolynomialSystem], SolveResult]
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,43 +177,59 @@ class _Part:
         return bool(len(self.larger.points)) and not _near(zero, self.found)
 
 
-def solve_apart(
-    system: PolynomialSystem, tracked: Tracked, run: Run, exactly: bool
-) -> SolveResult | None:
-    """The isolated solutions of a system that falls apart, or has zeros that are known exactly.
-
-    Args:
-        tracked: solves a system as a whole.
-        exactly: whether to solve exactly also what does not fall apart, or leaves two variables.
+def solve_exactly(task: SolveTask) -> SolveResult | None:
+    """The isolated solutions of a system whose zeros are known exactly.
 
     Returns:
-        None if the system neither falls apart nor comes down to one variable.
+        None if it falls apart, or comes down neither to one variable nor to few zeros in two.
     """
-    if system.n == 0:
+    facts = task.facts.unconditional
+    if task.system.n == 0 or facts.branches.parts is not None:
         return None
-    found = search_branches(replace(system, nonzero=()))
-    apart, natural = found.parts, NaturalCoordinates.identity(system.n)
-    if apart is None:
-        branch = BranchEquations(replace(system, nonzero=()), True, found.curved)
-        whole = _exact(branch, system.nonzero) if exactly else None
-        if whole is None:
-            return None
-        parts = [whole]
-    else:
-        natural = comparable_coordinates(system.polynomials, system.n)
-        like = replace(system, nonzero=())
-        every = [BranchEquations(natural.system(b.system(like)), True) for b in apart]
-        nonzero = natural.system(system).nonzero
-        parts = [_part(branch, nonzero, tracked, exactly) for branch in every]
-    return _joined(system, natural, parts, run, apart is not None)
+    branch = BranchEquations(facts.system, True, facts.branches.curved)
+    whole = _solve_exact_branch(branch, facts.exact_zeros, task.system.nonzero)
+    if whole is None:
+        return None
+    natural = NaturalCoordinates.identity(task.system.n)
+    return _join_parts(task, natural, [whole], apart=False)
 
 
-def _exact(
-    branch: BranchEquations, nonzero: Sequence[Polynomial], two_variables: bool = True
+def solve_branches(
+    task: SolveTask, others: Callable[[SolveTask], SolveResult]
+) -> SolveResult | None:
+    """The isolated solutions of a system that falls apart, in coordinates that suit all of it.
+
+    Args:
+        others: solves what is left of a branch, and not known exactly.
+
+    Returns:
+        None if the system is its own only branch.
+    """
+    system, facts = task.system, task.facts.unconditional
+    if system.n == 0 or facts.branches.parts is None:
+        return None
+    natural = comparable_coordinates(system.polynomials, system.n)
+    nonzero = natural.system(system).nonzero
+    parts = []
+    for each in facts.branches.parts:
+        branch = BranchEquations(natural.system(each.system(facts.system)), True)
+        zeros = algebraic_zeros(branch.system, two_variables=task.start == "auto")
+        exact = _solve_exact_branch(branch, zeros, nonzero)
+        parts.append(exact or _solve_part(branch, nonzero, task, others))
+    return _join_parts(task, natural, parts, apart=True)
+
+
+def _solve_exact_branch(
+    branch: BranchEquations,
+    zeros: Sequence[AlgebraicZero] | None,
+    nonzero: Sequence[Polynomial],
 ) -> _Part | None:
-    """A branch that exact algebra solves; None where paths must be tracked."""
+    """A branch that exact algebra solves; None where paths must be tracked.
+
+    Args:
+        zeros: all of them, where they are algebraic numbers of one variable.
+    """
     system = branch.system
-    zeros = algebraic_zeros(system, two_variables)
     if zeros is None and branch.kind is BranchKind.SYSTEM:
         return None
     evaluator = Evaluator.of(system.polynomials, system.n)
@@ -249,15 +262,16 @@ def _rounded_solution(
     return Solution(x, multiplicity, real, residual, accuracy, condition, 16)
 
 
-def _part(
-    branch: BranchEquations, nonzero: Sequence[Polynomial], tracked: Tracked, exactly: bool
+def _solve_part(
+    branch: BranchEquations,
+    nonzero: Sequence[Polynomial],
+    task: SolveTask,
+    others: Callable[[SolveTask], SolveResult],
 ) -> _Part:
-    part = _exact(branch, nonzero, two_variables=exactly)
-    if part is not None:
-        return part
+    """A branch by what solves the system that elimination leaves of it."""
     elimination = branch.elimination
     images = tuple(branch.image(f)[0] for f in nonzero)
-    result = tracked(replace(elimination.system, nonzero=images))
+    result = others(task.of_part(replace(elimination.system, nonzero=images)))
     # All equations say later which of them are left out.
     solutions = (*result.solutions, *result.excluded_solutions)
     found = tuple(_Found(lifted_solution(s, elimination), branch, None, s) for s in solutions)
@@ -265,14 +279,11 @@ def _part(
     return _Part(branch.system, found, result, larger, elimination.lift(result.undecided))
 
 
-def _joined(
-    system: PolynomialSystem,
-    natural: NaturalCoordinates,
-    parts: Sequence[_Part],
-    run: Run,
-    apart: bool,
+def _join_parts(
+    task: SolveTask, natural: NaturalCoordinates, parts: Sequence[_Part], apart: bool
 ) -> SolveResult:
     """The solutions of all parts, which are in ``natural`` coordinates."""
+    system = task.system
     undecided = [np.zeros((0, system.n), dtype=complex), *(part.undecided for part in parts)]
     kept: list[_Found] = []
     doubtful: list[_Found] = []
@@ -286,33 +297,27 @@ def _joined(
     larger = LargerSets.together(system.n, [part.larger for part in parts])
     larger = larger.map_points(natural.inverse.points)
     results = [part.result for part in parts if part.result is not None]
-    notes = [note for r in results if not r.complete for note in r.notes]
-    notes = [note for note in notes if note not in [n for r in results for n in r.larger.notes]]
+    told = [note for r in results for note in r.larger.notes]
+    doubts = [n for r in results if not r.complete for n in r.notes if n not in told]
     more = len(open_points) - sum(len(part.undecided) for part in parts)
     if more:
-        notes.append(
+        doubts.append(
             f"{more} solutions of one branch may or may not lie in another, or their multiplicity "
             "was not found"
         )
-    complete = all(r.complete for r in results) and not notes
-    notes += larger.notes
-    return SolveResult(
-        system=system,
-        solutions=solutions,
-        on_components=larger.counting,
-        undecided=open_points,
-        excluded=len(excluded),
-        paths=sum((r.paths for r in results), PathStatistics()),
+    return SolveResult.of(
+        system,
+        task.run,
         start=next((r.start for r in results if r.start != "none"), "none"),
         reason=_reason(parts, results, apart),
-        seed=run.seed,
-        settings=run.name,
-        complete=complete,
-        notes=tuple(dict.fromkeys(notes)),
-        excluded_solutions=excluded,
+        solutions=solutions,
+        excluded=excluded,
+        larger=larger,
+        undecided=open_points,
+        paths=sum((r.paths for r in results), PathStatistics()),
+        doubts=doubts,
+        whole=all(r.complete for r in results),
         pathless=any(r.pathless for r in results),
-        on_excluded=larger.excluded,
-        on_doubtful=larger.doubtful,
     )
 
 

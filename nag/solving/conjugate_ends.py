@@ -16,7 +16,7 @@ from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.projective import coinciding
 
 
-def with_conjugate_ends(begin: Start, paths: Paths) -> Paths:
+def restore_conjugate_ends(begin: Start, paths: Paths) -> Paths:
     """The paths, those that were lost with the missing conjugates of regular ends as theirs.
 
     They are left as they are unless as many conjugates are missing as paths were lost, each is
@@ -26,13 +26,13 @@ def with_conjugate_ends(begin: Start, paths: Paths) -> Paths:
     lost = paths.where(PathStatus.FAILED)
     if not begin.complete or not len(lost):
         return paths
-    missing = paths.select_rows(_alone(begin, paths)).conjugate()
-    if len(missing) != len(lost) or not _all_proved(begin, missing):
+    missing = paths.select_rows(_find_unpaired(begin, paths)).conjugate()
+    if len(missing) != len(lost) or not _prove_all(begin, missing):
         return paths
     return paths.track_again(lost, missing)
 
 
-def _alone(begin: Start, paths: Paths) -> np.ndarray:
+def _find_unpaired(begin: Start, paths: Paths) -> np.ndarray:
     """Indices of the finite regular ends whose conjugates are no such ends."""
     regular = paths.where(PathStatus.REGULAR)
     count = len(regular)
@@ -46,7 +46,7 @@ def _alone(begin: Start, paths: Paths) -> np.ndarray:
     return regular[~paired]
 
 
-def _all_proved(begin: Start, ends: Paths) -> bool:
+def _prove_all(begin: Start, ends: Paths) -> bool:
     terms = Terms(begin.homotopy)
     for i, (x, accuracy) in enumerate(zip(ends.points, ends.accuracy.tolist(), strict=True)):
         ball = ends.balls.get(i)

@@ -38,8 +38,8 @@ class LargerSets:
     @classmethod
     def of(cls, n: int, points: Sequence[tuple[np.ndarray, bool | None]] = ()) -> LargerSets:
         """Points, each with whether its set is excluded; None where that is not known."""
-        parts = ([x for x, answer in points if answer is which] for which in (False, True, None))
-        return cls(*(np.array(part, dtype=complex).reshape(-1, n) for part in parts))
+        parts = [[x for x, answer in points if answer is which] for which in (False, True, None)]
+        return cls(*(np.array(part, dtype=complex).reshape(len(part), n) for part in parts))
 
     @classmethod
     def together(cls, n: int, parts: Sequence[LargerSets]) -> LargerSets:

@@ -1,4 +1,4 @@
-"""Zeros that no path has reached: of extreme sizes, or where paths were lost; and whether any are.
+"""Zeros that no path has reached: of extreme sizes, or where paths were lost.
 
 Ends at infinity rest on evidence, and some paths are lost; where exact algebra counts no more zeros
 than were found, by multiplicity, neither matters any more.
@@ -6,22 +6,15 @@ than were found, by multiplicity, neither matters any more.
 
 from __future__ import annotations
 
-from dataclasses import replace
-from enum import Enum
-
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.zero_count import ZeroCount, most_zeros
-from nag.errors import StartError
+from nag.algebra.zero_count import Completeness
 from nag.numerics.singular_point import Place, analyse
 from nag.solving.isolated_zero import IsolatedZero
-from nag.solving.judged_ends import JudgedEnds, enlarged
-from nag.solving.square_problem import SquareProblem
-from nag.solving.start.choice import FEW
-from nag.solving.start.target import Start
+from nag.solving.path_search import PathSearch
 from nag.solving.tropical_zeros import tropical_zeros
-from nag.tracking.paths import Paths, PathStatus
+from nag.tracking.paths import PathStatus
 
 # Digits in which these zeros are known.
 DIGITS = 150
@@ -35,56 +28,18 @@ SAFETY = 1e3
 EXTREME = 26.0
 
 
-def with_missing_zeros(
-    problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds, rng: np.random.Generator
-) -> JudgedEnds:
-    """The ends with zeros that no path has reached, if any are missing."""
-    number = len(doubtful(paths))
-    if problem.added or problem.squared or not 0 < number <= MOST_PATHS:
-        return ends
-    if verdict(ends) is Verdict.MISSING:
-        found, known = _at_lost_paths(problem, begin, paths, ends, rng)
-        ends = enlarged(problem, ends, found, known) if found else ends
-    if verdict(ends) not in (Verdict.UNKNOWN, Verdict.MISSING):
-        return ends
-    # Where nothing says that zeros are missing, they are not looked for among ordinary ones.
-    least = 0.0 if verdict(ends) is Verdict.MISSING else EXTREME
-    far = tropical_zeros(problem.equations, *_known(problem, ends), rng, least)
-    zeros = [
-        IsolatedZero(
-            z.point,
-            1,
-            z.residual,
-            z.end.accuracy,
-            z.end.condition,
-            DIGITS,
-            None if z.end.precise is None else z.end.precise.scaled(z.scales),
-        )
-        for z in far
-    ]
-    return enlarged(problem, ends, zeros) if zeros else ends
+def find_at_lost_paths(search: PathSearch) -> PathSearch:
+    """The zeros with those that singular ends, and those of lost paths, stand for.
 
-
-def _known(problem: SquareProblem, ends: JudgedEnds) -> tuple[np.ndarray, np.ndarray]:
-    """The zeros that were found, shape ``(k, n)``, and how far they are from the exact ones."""
-    points = np.array([z.point for z in ends.isolated]).reshape(-1, problem.system.n)
-    accuracy = np.array([z.accuracy for z in ends.isolated])
-    # Errors of projective points are relative to all coordinates together.
-    sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
-    return points, SAFETY * accuracy * sizes**2
-
-
-def _at_lost_paths(
-    problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds, rng: np.random.Generator
-) -> tuple[list[IsolatedZero], set[int]]:
-    """Zeros for which singular ends, and those of lost paths, stand, if they are not all known.
-
-    Also the indices of the known ones among these.
+    They are looked for where zeros are missing; the known ones among them are replaced.
     """
+    if not _may_lack(search) or search.completeness is not Completeness.MISSING:
+        return search
+    problem, begin, paths = search.problem, search.begin, search.tracked
     lost = paths.where(PathStatus.FAILED, PathStatus.SINGULAR)
     infinite = paths.points[lost][:, list(begin.homotopy.infinity)] == 0
     lost = lost[~infinite.any(axis=1)][:MOST_LOST]
-    known, errors = _known(problem, ends)
+    known, errors = _known_zeros(search)
     evaluator = Evaluator.of(problem.equations, problem.system.n)
     exact: list[IsolatedZero] = []
     found: list[IsolatedZero] = []
@@ -92,7 +47,7 @@ def _at_lost_paths(
     for x, accuracy in zip(begin.affine(paths.points[lost]), paths.accuracy[lost], strict=True):
         if not np.abs(x).max() < 2.0**EXTREME:
             continue
-        end = analyse(problem.equations, x, min(NEAR, float(accuracy)), rng)
+        end = analyse(problem.equations, x, min(NEAR, float(accuracy)), search.rng)
         members: list[IsolatedZero] = []
         for each in end.nearby if end.place is Place.CLUSTER else (end,):
             if each.place is not Place.ISOLATED:
@@ -105,67 +60,49 @@ def _at_lost_paths(
         apart = [np.abs(known - zero.point).max(axis=1, initial=0.0) for zero in members]
         near = {k for distance in apart for k in np.flatnonzero(distance <= errors).tolist()}
         # Which of the members of a cluster are known, doubles do not say.
-        before = sum(ends.isolated[k].multiplicity for k in near)
+        before = sum(search.ends.isolated[k].multiplicity for k in near)
         if sum(zero.multiplicity for zero in members) > before:
             found += members
             replaced |= near
-    return found, replaced
+    return search.add_zeros(found, replaced) if found else search
 
 
-class Verdict(Enum):
-    """What a count says of the zeros that were found."""
-
-    UNKNOWN = 0
-    ALL = 1
-    MISSING = 2
-    TOO_MANY = 3
-
-
-def counted(problem: SquareProblem, begin: Start, paths: Paths, ends: JudgedEnds) -> JudgedEnds:
-    """The ends with the number of zeros, where paths leave a doubt that it may settle."""
-    if problem.added or len(ends.larger.points):
-        return ends
-    patient = bool(ends.unclear) or len(paths.where(PathStatus.FAILED)) > 0
-    if begin.complete and ends.zeros == len(paths):
-        # There are no more zeros than paths, whatever became of each of these.
-        return replace(ends, count=ZeroCount(len(paths), False)) if patient else ends
-    if begin.complete and bool((paths.status == PathStatus.REGULAR).all()):
-        return ends
-    if ends.zeros in (begin.known.most, _mixed_volume(problem, begin)):
-        return replace(ends, count=ZeroCount(ends.zeros, False))
-    return replace(ends, count=most_zeros(problem.system.polynomials, ends.zeros, patient))
-
-
-def _mixed_volume(problem: SquareProblem, begin: Start) -> int | None:
-    """The mixed volume of the equations' polytopes, each with the origin, if few zeros are.
-
-    No system of these supports has more isolated zeros, by multiplicity, also where coordinates
-    vanish (Li & Wang, The BKK root count in C^n, 1996).
+def find_by_sizes(search: PathSearch) -> PathSearch:
+    """The zeros with some of extreme sizes, or of any where some are missing, that coefficients
+    tell of.
     """
-    if begin.known.bound is not None or problem.squared or len(begin.points) > FEW:
-        return begin.known.bound
-    from nag.solving.start.mixed_cells import mixed_cells
-
-    try:
-        return mixed_cells(problem.target.sparsest.supports, np.random.default_rng(0)).mixed_volume
-    except StartError:
-        return None
-
-
-def verdict(ends: JudgedEnds) -> Verdict:
-    """Whether all zeros were found.
-
-    More than there can be say that a multiplicity is wrong, or that a zero counts twice.
-    """
-    if ends.count is None:
-        return Verdict.UNKNOWN
-    if ends.count.bound == ends.zeros:
-        return Verdict.ALL
-    if ends.count.bound < ends.zeros:
-        return Verdict.TOO_MANY
-    return Verdict.MISSING if ends.count.exact else Verdict.UNKNOWN
+    missing = search.completeness is Completeness.MISSING
+    if not _may_lack(search) or not (missing or search.completeness is Completeness.UNKNOWN):
+        return search
+    # Where nothing says that zeros are missing, they are not looked for among ordinary ones.
+    least = 0.0 if missing else EXTREME
+    far = tropical_zeros(search.problem.equations, *_known_zeros(search), search.rng, least)
+    zeros = [
+        IsolatedZero(
+            z.point,
+            1,
+            z.residual,
+            z.end.accuracy,
+            z.end.condition,
+            DIGITS,
+            None if z.end.precise is None else z.end.precise.scaled(z.scales),
+        )
+        for z in far
+    ]
+    return search.add_zeros(zeros) if zeros else search
 
 
-def doubtful(paths: Paths) -> np.ndarray:
-    """Indices of the paths whose ends are not proved."""
-    return np.flatnonzero(paths.status != PathStatus.REGULAR)
+def _may_lack(search: PathSearch) -> bool:
+    """Whether zeros may be missing that are looked for beside the paths."""
+    square = not search.problem.added and not search.problem.squared
+    return square and 0 < len(search.doubtful) <= MOST_PATHS
+
+
+def _known_zeros(search: PathSearch) -> tuple[np.ndarray, np.ndarray]:
+    """The zeros that were found, shape ``(k, n)``, and how far they are from the exact ones."""
+    isolated = search.ends.isolated
+    points = np.array([z.point for z in isolated]).reshape(-1, search.problem.system.n)
+    accuracy = np.array([z.accuracy for z in isolated])
+    # Errors of projective points are relative to all coordinates together.
+    sizes = 1 + np.abs(points).max(axis=1, initial=0.0)
+    return points, SAFETY * accuracy * sizes**2

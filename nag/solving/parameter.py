@@ -16,19 +16,22 @@ from nag.algebra.number import Number
 from nag.algebra.rational_map import MapError
 from nag.algebra.symmetric_family import FamilyMember, SymmetricFamily
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import most_zeros
+from nag.algebra.zero_count import Completeness
 from nag.errors import StartError
-from nag.solving.branch_solutions import solve_apart
+from nag.numerics.system_facts import SystemFacts
 from nag.solving.certificate import bound_of_zeros
 from nag.solving.parameter_line import parameter_line
+from nag.solving.path_search import PathSearch
 from nag.solving.solutions import SolveResult
-from nag.solving.solve import ends_of, solve_whole
+from nag.solving.solve import solve_without_paths
 from nag.solving.solve_classes import (
     SolvedClasses,
     line_of_classes,
     solve_classes,
     solved_by_monodromy,
 )
+from nag.solving.solve_task import SolveTask
+from nag.solving.square_problem import SquareProblem
 from nag.solving.start.choice import choose
 from nag.solving.start.target import Start, Target, unit
 from nag.tracking.homotopy import Homotopy
@@ -135,9 +138,11 @@ def solve_family(
         begin = _start(solved, values)
         paths = track(begin.homotopy, begin.points, run.settings, run.threads)
         reason = f"parameter homotopy: {len(begin.points)} solutions for random parameters"
-        rng = run.random(number)
-        results.append(ends_of(family.at(values), begin, paths, reason, rng, run))
-    return results
+        task = SolveTask(SystemFacts(family.at(values)), "auto", run)
+        problem = SquareProblem.as_given(task.system)
+        search = PathSearch.of(task, problem, begin, reason, paths, run.random(number))
+        results.append(search.result())
+    return [replace(result, method="by_family") for result in results]
 
 
 @takes_run
@@ -163,11 +168,8 @@ def solve_member(
         StartError: if loops have nothing to begin with, there would be too many paths, or the
             symmetries do not fit the family.
     """
-
-    def branch(part: PolynomialSystem) -> SolveResult:
-        return solve_whole(part, "auto", run)
-
-    exact = solve_apart(system, branch, run, True) if exact_first else None
+    task = SolveTask(SystemFacts(system), "auto", run)
+    exact = solve_without_paths(task) if exact_first else None
     if exact is not None:
         return exact
     try:
@@ -182,24 +184,24 @@ def solve_member(
     (result,) = solve_family(generic, [member.values], run=run)
     result = replace(result, system=system)
     if result.complete and member.solutions is not None:
-        return _compare_with_count(result, member.solutions)
+        return _compare_with_count(result, member.solutions, task.facts)
     return result
 
 
-def _compare_with_count(result: SolveResult, given: int) -> SolveResult:
+def _compare_with_count(result: SolveResult, given: int, facts: SystemFacts) -> SolveResult:
     """An answer that is complete if a case gives the right number, and what algebra says of that.
 
     Bezout's bounds and a count modulo two primes are of the system itself, of its finitely many
     zeros by their multiplicities; the answer's are simple.
     """
-    found, polynomials = len(result.solutions), result.system.polynomials
-    source = f"`solutions = {given}` of [family]"
+    found, source = len(result.solutions), f"`solutions = {given}` of [family]"
     if bound_of_zeros(result.system)[0] == found:
         return replace(result, reason=f"{result.reason}, and Bezout's bound agrees")
-    count = most_zeros(polynomials, found, False)
-    if count is not None and count.bound == found:
+    count = facts.count_zeros(found, False)
+    seen = Completeness.UNKNOWN if count is None else count.judge(found)
+    if seen is Completeness.ALL:
         return replace(result, reason=f"{result.reason}, and a count modulo two primes agrees")
-    if count is not None and count.exact:
+    if count is not None and seen is not Completeness.UNKNOWN:
         note = f"{source} is wrong, or zeros are multiple: {count.bound} are counted modulo primes"
         return replace(result, complete=False, notes=(*result.notes, note))
     note = f"that these are all rests on {source}, which is given, not checked"

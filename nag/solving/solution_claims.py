@@ -9,7 +9,7 @@ import numpy as np
 
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import most_zeros
+from nag.algebra.zero_count import Completeness, most_zeros
 from nag.numerics.box_relations import overlaps, real_zeros
 from nag.numerics.certified_points import (
     CertifiedPoints,
@@ -31,7 +31,7 @@ from nag.numerics.point_claims import (
     nonzero_standings,
     zero_standings,
 )
-from nag.solving.judged_ends import NEARLY
+from nag.solving.path_ends import NEARLY
 from nag.solving.solutions import Solution, SolveResult
 
 if TYPE_CHECKING:
@@ -200,13 +200,13 @@ def _completeness(certificate: SolutionsCertificate) -> Claim:
     left_out = result.excluded and not result.excluded_solutions
     listed = _zeros_by_multiplicity(certificate)
     count = None if left_out or listed is None else most_zeros(result.system.polynomials, -1, False)
-    if count is not None and listed == count.bound:
-        text = f"{text}: {listed} zeros are counted modulo two primes"
+    verdict = Completeness.UNKNOWN if count is None else count.judge(listed)
+    if count is None or verdict is Completeness.UNKNOWN:
+        return Claim("complete", text, Standing.UNSEEN)
+    text = f"{text}: {count.bound} zeros are counted modulo two primes"
+    if verdict is Completeness.ALL:
         return Claim("complete", text, Standing.EVIDENCE)
-    if count is not None and count.exact:
-        known = f"{text}: {count.bound} zeros are counted modulo two primes, {listed} are listed"
-        return Claim("complete", known, Standing.DOUBTED)
-    return Claim("complete", text, Standing.UNSEEN)
+    return Claim("complete", f"{text}, {listed} are listed", Standing.DOUBTED)
 
 
 def _zeros_by_multiplicity(certificate: SolutionsCertificate) -> int | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -10,6 +11,7 @@ from nag.algebra.system import PolynomialSystem
 from nag.numerics.read_only import equal_values, fixed_array
 from nag.solving.larger_sets import LargerSets
 from nag.text.table import one_line
+from nag.tracking.run import Run
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +69,12 @@ class PathStatistics:
     failed: int = 0
     steps: int = 0
 
+    @classmethod
+    def of(cls, status: np.ndarray, steps: int, tracked: int | None = None) -> PathStatistics:
+        """Of ends of these `PathStatus`; ``tracked``: if more paths led to them."""
+        counts = [int((status == which).sum()) for which in range(4)]
+        return cls(len(status) if tracked is None else tracked, *counts, steps)
+
     def __add__(self, other: PathStatistics) -> PathStatistics:
         return PathStatistics(
             *(getattr(self, f.name) + getattr(other, f.name) for f in fields(PathStatistics))
@@ -94,6 +102,8 @@ class SolveResult:
         settings: name of the tracking settings.
         complete: whether nothing is known that speaks against a complete list.
         notes: what a reader must know.
+        method: which of `nag.solving.solve.METHODS` answered, or ``"by_family"``; empty if that is
+            not known.
         pathless: whether a part has no paths at all, as no zero of it can be isolated: whether it
             has any, on sets of positive dimension, is not seen then.
     """
@@ -111,6 +121,7 @@ class SolveResult:
     complete: bool
     notes: tuple[str, ...] = ()
     excluded_solutions: tuple[Solution, ...] = ()
+    method: str = ""
     pathless: bool = False
     on_excluded: np.ndarray | None = None
     on_doubtful: np.ndarray | None = None
@@ -123,6 +134,54 @@ class SolveResult:
             if points is None:
                 points = np.zeros((0, self.system.n), dtype=complex)
             object.__setattr__(self, name, fixed_array(points))
+
+    @classmethod
+    def of(
+        cls,
+        system: PolynomialSystem,
+        run: Run,
+        *,
+        reason: str,
+        start: str = "none",
+        method: str = "",
+        solutions: Sequence[Solution] = (),
+        excluded: Sequence[Solution] = (),
+        larger: LargerSets | None = None,
+        undecided: np.ndarray | None = None,
+        paths: PathStatistics | None = None,
+        doubts: Sequence[str] = (),
+        remarks: Sequence[str] = (),
+        whole: bool = True,
+        pathless: bool = False,
+    ) -> SolveResult:
+        """What a run has found.
+
+        Args:
+            larger: end points on solution sets of positive dimension, if there are such.
+            undecided: end points that may or may not be isolated.
+            doubts: notes that speak against a complete list; ``remarks``: other ones.
+            whole: whether the list would be complete without them.
+        """
+        larger = LargerSets.of(system.n) if larger is None else larger
+        return cls(
+            system=system,
+            solutions=tuple(solutions),
+            on_components=larger.counting,
+            undecided=np.zeros((0, system.n), dtype=complex) if undecided is None else undecided,
+            excluded=len(excluded),
+            paths=paths or PathStatistics(),
+            start=start,
+            reason=reason,
+            seed=run.seed,
+            settings=run.name,
+            complete=whole and not doubts,
+            notes=tuple(dict.fromkeys([*doubts, *larger.notes, *remarks])),
+            excluded_solutions=tuple(excluded),
+            method=method,
+            pathless=pathless,
+            on_excluded=larger.excluded,
+            on_doubtful=larger.doubtful,
+        )
 
     @property
     def points(self) -> np.ndarray:

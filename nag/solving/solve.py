@@ -1,37 +1,44 @@
-"""All isolated solutions of a polynomial system."""
+"""All isolated solutions of a polynomial system: the methods, the bounds and the finders, in turn.
+
+Each of `METHODS` is asked and answers, or leaves the system to the next ones; the second one takes
+it apart and asks the next ones for its branches. Where paths are tracked, as many zeros as one of
+`BOUNDS` allows are all; until so many are known, or none is left, each of `PATHLESS` and `AGAIN`
+looks for more.
+"""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import ZeroCount
-from nag.solving.branch_solutions import solve_apart
-from nag.solving.conjugate_ends import with_conjugate_ends
-from nag.solving.judged_ends import JudgedEnds, judged_ends
-from nag.solving.missing_zeros import Verdict, counted, doubtful, verdict, with_missing_zeros
-from nag.solving.solutions import PathStatistics, Solution, SolveResult
+from nag.algebra.zero_count import Completeness, ZeroCount
+from nag.numerics.system_facts import SystemFacts
+from nag.solving.branch_solutions import solve_branches, solve_exactly
+from nag.solving.missing_zeros import find_at_lost_paths, find_by_sizes
+from nag.solving.path_search import Bound, PathSearch
+from nag.solving.solutions import Solution, SolveResult
+from nag.solving.solve_task import SolveTask
 from nag.solving.square_problem import SquareProblem
-from nag.solving.start.choice import check_kind, choose
+from nag.solving.start.choice import check_kind, choose, mixed_volume
 from nag.solving.start.isotropic import isotropic
-from nag.solving.start.target import Start, Target
+from nag.solving.start.target import Start
 from nag.tracking.homotopy import Homotopy
-from nag.tracking.paths import Paths, PathStatus
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.tracking.settings import Settings, named, tighter
 from nag.tracking.track import track
 
-Progress = Callable[[str, int, int], None]
-
 # Digits of evidence, beyond the least, of zeros that are to be told from others beside them.
 SEPARATING = 60
-# Homogenising coordinates of ends at infinity are less than this, or than their errors, which are
-# less than the second number.
-INFINITE, ROUGHLY_INFINITE = 2e-12, 1e-7
+
+# Answers what is left of a task by the methods after the one that asks.
+Others = Callable[[SolveTask], SolveResult]
+Method = Callable[[SolveTask, Others], SolveResult | None]
+Finder = Callable[[PathSearch], PathSearch]
 
 
 @takes_run
@@ -42,6 +49,7 @@ def solve(
     start: str = "auto",
     run: Run = DEFAULT_RUN,
     finite: bool = False,
+    facts: SystemFacts | None = None,
 ) -> SolveResult:
     """All isolated solutions of ``system``, each once, with their multiplicities.
 
@@ -56,68 +64,182 @@ def solve(
         run: a `nag.Run`; its seed, threads, settings and progress may be given one by one.
         finite: whether only a finite solution set is of interest; the result is incomplete, and
             quickly there, if the set proves to have positive dimension.
+        facts: what is known of the system.
 
     Raises:
         nag.StartError: if there would be too many paths.
         ValueError: if there is no such start system or no settings of that name.
     """
     check_kind(start)
-
-    def tracked(part: PolynomialSystem) -> SolveResult:
-        return solve_whole(part, start, run, finite)
-
-    # Who names a start system wants its paths.
-    return solve_apart(system, tracked, run, start == "auto") or tracked(system)
-
-
-def solve_whole(
-    system: PolynomialSystem, start: str, run: Run, finite: bool = False
-) -> SolveResult:
-    """The isolated solutions of a system that is tracked as a whole."""
-    rng = run.random()
-    equations = [f for f in system.polynomials if f]
-    if any(f.degree == 0 for f in equations) or system.n == 0:
-        return _solve_constants(system, run)
-    problem = SquareProblem.of(system, equations, rng)
     run.tell("solve", 0, 1)
-    settings, threads = run.settings, run.threads
-    turned = None
-    if start == "auto":
-        turned = isotropic(system, problem.target, settings, run.random(31), threads)
-    begin, reason = turned or choose(problem.target, start, system.groups, rng, threads)
-    paths = track(begin.homotopy, begin.points, settings, threads, known=begin.known)
-
-    def look(paths: Paths, count: ZeroCount | None = None) -> JudgedEnds:
-        ends = judged_ends(problem, begin, with_conjugate_ends(begin, paths), rng, finite)
-        # Zeros are counted, where that is possible, whatever ends lost paths were given.
-        ends = replace(ends, count=count) if count else counted(problem, begin, paths, ends)
-        return with_missing_zeros(problem, begin, paths, ends, rng)
-
-    ends = look(paths)
-    unclear = len(ends.close) and not (finite and len(ends.larger.points))
-    if unclear and verdict(ends) is not Verdict.ALL:
-        # What looks like a multiple zero and is none may be simple ones close together.
-        chosen, separating = ends.close, replace(named(settings), evidence=SEPARATING)
-        paths = _once_more(begin, paths, chosen, separating, threads)
-        ends = look(paths, ends.count)
-    if verdict(ends) in (Verdict.MISSING, Verdict.TOO_MANY):
-        # An end that is not proved may be another one: what is near it, or a jump.
-        chosen = doubtful(paths)
-        separating = replace(tighter(named(settings)), evidence=SEPARATING)
-        more = _once_more(begin, paths, chosen, separating, threads)
-        again = look(more, ends.count)
-        if again.zeros > ends.zeros or verdict(again) is Verdict.ALL:
-            paths, ends = more, again
-    paths = with_conjugate_ends(begin, paths)
-    return _result(problem, begin, reason, paths, ends, run)
+    return solve_by(METHODS, SolveTask(facts or SystemFacts(system), start, run, finite))
 
 
-def _once_more(
-    begin: Start, paths: Paths, chosen: np.ndarray, settings: Settings, threads: int
-) -> Paths:
+def solve_without_paths(task: SolveTask) -> SolveResult | None:
+    """The solutions of a system that falls apart, or has zeros that are known exactly."""
+    return find_answer(EXACT, task, METHODS)
+
+
+def solve_by(methods: Sequence[Method], task: SolveTask) -> SolveResult:
+    """The answer of the first method that has one, by its name; the last one has always one."""
+    answer = find_answer(methods, task, methods)
+    assert answer is not None, "the last method answers whatever it is asked"
+    return answer
+
+
+def find_answer(
+    methods: Sequence[Method], task: SolveTask, every: Sequence[Method]
+) -> SolveResult | None:
+    """The answer of the first of some methods that has one; ``every``: also those after them."""
+    for k, method in enumerate(methods):
+        answer = method(task, partial(solve_by, every[k + 1 :]))
+        if answer is not None:
+            return replace(answer, method=method.__name__)
+    return None
+
+
+# --- Methods
+
+
+def by_algebra(task: SolveTask, _: Others) -> SolveResult | None:
+    """Zeros of polynomials in one variable, or of two equations in two, exactly."""
+    # Who names a start system wants its paths.
+    return solve_exactly(task) if task.start == "auto" else None
+
+
+def by_branches(task: SolveTask, others: Others) -> SolveResult | None:
+    """The zeros of the branches that the factors of the equations leave, without repeats."""
+    return solve_branches(task, others)
+
+
+def by_constants(task: SolveTask, _: Others) -> SolveResult | None:
+    """Equations without variables, or one that is a constant."""
+    system = task.system
+    if any(f.degree == 0 for f in system.polynomials if f):
+        reason = "an equation is a constant that is not zero"
+        return SolveResult.of(system, task.run, reason=reason)
+    if system.n:
+        return None
+    only = Solution(np.zeros(0), 1, True, 0.0, 0.0, 1.0, 16)
+    return SolveResult.of(system, task.run, reason="no variables", solutions=(only,))
+
+
+def by_turns(task: SolveTask, _: Others) -> SolveResult | None:
+    """Equations of turns in loops: from all their zeros in isotropic coordinates, at rest."""
+    if task.start != "auto":
+        return None
+    run = task.run
+    given = task.system, task.problem.target, run.settings, run.random(31), run.threads
+    found = isotropic(*given)
+    return None if found is None else _track_from(task, *found)
+
+
+def by_paths(task: SolveTask, _: Others) -> SolveResult:
+    """The ends of paths from the start system that is asked for, or has the least work."""
+    problem, groups = task.problem, task.system.groups
+    given = problem.target, task.start, groups, task.rng, task.run.threads
+    return _track_from(task, *choose(*given))
+
+
+# In the order in which they are asked; `SolveResult.method` names the one that answered.
+EXACT: tuple[Method, ...] = (by_algebra, by_branches)
+METHODS: tuple[Method, ...] = (*EXACT, by_constants, by_turns, by_paths)
+
+
+# --- Bounds of the number of isolated zeros, each counted by its multiplicity
+
+
+def number_of_paths(search: PathSearch) -> Bound | None:
+    """Bezout's number, that of groups, or another: a start system may have a path for each zero."""
+    count = ZeroCount(len(search.tracked), False)
+    return Bound(count, "so many paths leave") if search.begin.complete else None
+
+
+def volume_of_polytopes(search: PathSearch) -> Bound | None:
+    """The mixed volume, where it was found on the way or is little work."""
+    volume = mixed_volume(search.problem.target, search.begin, search.problem.squared)
+    return None if volume is None else Bound(ZeroCount(volume, False), "the mixed volume leaves")
+
+
+def modulo_primes(search: PathSearch) -> Bound | None:
+    """The dimension of the quotient by the ideal, modulo two primes."""
+    count = search.task.facts.count_zeros(search.zeros, search.has_doubts)
+    return None if count is None else Bound(count, "linear algebra modulo two primes shows")
+
+
+# In the order in which they are asked, until one is met.
+BOUNDS = (number_of_paths, volume_of_polytopes, modulo_primes)
+
+
+def _bound(search: PathSearch) -> PathSearch:
+    """The same with the least bound, where the zeros may be finitely many and a doubt is left."""
+    infinite = search.problem.added or len(search.ends.larger.points)
+    if search.bound is not None or search.is_clear or infinite:
+        return search
+    found: list[Bound] = []
+    for ask in BOUNDS:
+        bound = ask(search)
+        if bound is not None:
+            found.append(bound)
+            if bound.count.bound == search.zeros:
+                break
+    least = min(found, key=lambda b: (b.count.bound, not b.count.exact), default=None)
+    return replace(search, bound=least)
+
+
+# --- Finders of zeros beside those that paths have reached
+
+
+def close_ends(search: PathSearch) -> PathSearch:
+    """What looks like a multiple zero and is none may be simple ones close together."""
+    chosen, ends = search.ends.close, search.ends
+    if not len(chosen) or (search.task.finite and len(ends.larger.points)):
+        return search
+    settings = replace(named(search.task.run.settings), evidence=SEPARATING)
+    return _look(_track_again(search, chosen, settings))
+
+
+def doubtful_ends(search: PathSearch) -> PathSearch:
+    """An end that is not proved may be another one: what is near it, or a jump."""
+    if search.completeness not in (Completeness.MISSING, Completeness.TOO_MANY):
+        return search
+    settings = replace(tighter(named(search.task.run.settings)), evidence=SEPARATING)
+    again = _look(_track_again(search, search.doubtful, settings))
+    better = again.zeros > search.zeros or again.completeness is Completeness.ALL
+    return again if better else search
+
+
+# Those that need no paths, and those that track some again, each in its turn.
+PATHLESS: tuple[Finder, ...] = (find_at_lost_paths, find_by_sizes)
+AGAIN: tuple[Finder, ...] = (close_ends, doubtful_ends)
+
+
+def _track_from(task: SolveTask, begin: Start, reason: str) -> SolveResult:
+    """The zeros that paths from a start system lead to, and those that are found beside them."""
+    run = task.run
+    paths = track(begin.homotopy, begin.points, run.settings, run.threads, known=begin.known)
+    search = _look(PathSearch.of(task, task.problem, begin, reason, paths, task.rng))
+    for find in AGAIN:
+        if search.completeness is not Completeness.ALL:
+            search = find(search)
+    return search.result()
+
+
+def _look(search: PathSearch) -> PathSearch:
+    """What is known once bounds and the finders that need no paths were asked."""
+    search = _bound(search)
+    for find in PATHLESS:
+        if search.completeness is not Completeness.ALL:
+            search = find(search)
+    return search
+
+
+def _track_again(search: PathSearch, chosen: np.ndarray, settings: Settings) -> PathSearch:
     """The paths, those chosen tracked with other settings."""
-    again = track(begin.homotopy, begin.points[chosen], settings, threads)
-    return paths.track_again(chosen, again)
+    begin, threads = search.begin, search.task.run.threads
+    return search.replace_paths(
+        chosen, track(begin.homotopy, begin.points[chosen], settings, threads)
+    )
 
 
 def begin_of(
@@ -133,107 +255,3 @@ def begin_of(
     started = time.perf_counter()
     paths = track(begin.homotopy, begin.points, settings, known=begin.known)
     return begin.homotopy, time.perf_counter() - started, int(paths.steps.sum())
-
-
-def ends_of(
-    system: PolynomialSystem,
-    begin: Start,
-    paths: Paths,
-    reason: str,
-    rng: np.random.Generator,
-    run: Run,
-) -> SolveResult:
-    """The result for a square system whose paths, in its own variables, were tracked already."""
-    n = system.n
-    target = Target(n, tuple(dict(f.terms) for f in system.polynomials))
-    problem = SquareProblem(system, system.polynomials, system.nonzero, target, 0, False)
-    return _result(problem, begin, reason, paths, judged_ends(problem, begin, paths, rng), run)
-
-
-def _solve_constants(system: PolynomialSystem, run: Run) -> SolveResult:
-    empty = np.zeros((0, system.n), dtype=complex)
-    contradiction = any(f.degree == 0 for f in system.polynomials)
-    solutions = ()
-    if not contradiction:
-        solutions = (Solution(np.zeros(0), 1, True, 0.0, 0.0, 1.0, 16),)
-    reason = "an equation is a constant that is not zero" if contradiction else "no variables"
-    return SolveResult(
-        system,
-        solutions,
-        empty,
-        empty,
-        0,
-        PathStatistics(),
-        "none",
-        reason,
-        run.seed,
-        run.name,
-        True,
-    )
-
-
-def _result(
-    problem: SquareProblem,
-    begin: Start,
-    reason: str,
-    paths: Paths,
-    ends: JudgedEnds,
-    run: Run,
-) -> SolveResult:
-    counts = PathStatistics(
-        len(paths),
-        *(len(paths.where(status)) for status in PathStatus),
-        int(paths.steps.sum()),
-    )
-    seen = verdict(ends)
-    if seen is Verdict.ALL:
-        notes = list(ends.notes)
-        how = "linear algebra modulo two primes shows"
-        if begin.complete and ends.zeros == len(paths):
-            how = "so many paths leave"
-        reason = f"{reason}; {how} no more than {ends.zeros}"
-    else:
-        notes = [*ends.unclear, *_open(begin, paths), *ends.notes]
-        if seen is not Verdict.UNKNOWN:
-            notes.append(f"{ends.zeros} zeros were found, and there are {ends.count.bound}")
-    complete = (begin.complete or seen is Verdict.ALL) and not notes
-    notes += ends.larger.notes
-    if problem.added and not len(ends.larger.points):
-        notes.append(
-            f"fewer equations than variables: no solution is isolated, and none was found where "
-            f"{problem.added} random linear equations are added"
-        )
-    return SolveResult(
-        system=problem.system,
-        solutions=ends.solutions,
-        on_components=ends.larger.counting,
-        undecided=ends.undecided[:0] if seen is Verdict.ALL else ends.undecided,
-        excluded=len(ends.excluded),
-        paths=counts,
-        start=begin.name,
-        reason=reason,
-        seed=run.seed,
-        settings=run.name,
-        complete=complete,
-        notes=tuple(notes),
-        excluded_solutions=ends.excluded,
-        pathless=not len(paths),
-        on_excluded=ends.larger.excluded,
-        on_doubtful=ends.larger.doubtful,
-    )
-
-
-def _open(begin: Start, paths: Paths) -> list[str]:
-    """What is left open of the paths that failed, and of those to infinity."""
-    notes = []
-    failed = len(paths.where(PathStatus.FAILED))
-    if failed:
-        causes = ", ".join(f"{k} because {why}" for why, k in paths.failures.items())
-        notes.append(f"{failed} of {len(paths)} paths failed: {causes}")
-    infinite = paths.where(PathStatus.AT_INFINITY)
-    far = np.abs(paths.points[infinite][:, list(begin.homotopy.infinity)])
-    error = np.minimum(paths.accuracy[infinite], ROUGHLY_INFINITE)
-    unsure = int((far.min(axis=1, initial=np.inf) > np.maximum(INFINITE, error)).sum())
-    if unsure:
-        notes.append(f"{unsure} paths to infinity may end at solutions far out")
-    return notes

@@ -62,17 +62,19 @@ class ClassEnds:
 
     Attributes:
         ends: confirmed or not, one for each class; in inner coordinates.
-        arrived: which classes end at a confirmed regular zero of their own, shape ``(P,)``.
-        at_infinity, singular: which of the others end there.
+        status: `PathStatus`, shape ``(P,)``; ``REGULAR`` where a class ends at a confirmed regular
+            zero of its own.
         tracked, steps: numbers of paths and steps, of all attempts.
     """
 
     ends: Confirmed
-    arrived: np.ndarray
-    at_infinity: np.ndarray
-    singular: np.ndarray
+    status: np.ndarray
     tracked: int
     steps: int
+
+    def where(self, *status: PathStatus) -> np.ndarray:
+        """Indices of the classes with one of these statuses."""
+        return np.flatnonzero(np.isin(self.status, status))
 
 
 def solved_by_monodromy(
@@ -97,8 +99,7 @@ def solved_by_monodromy(
     if evaluator.residuals(np.hstack([members[:, 0], values])).max() > NONZERO:
         raise MapError("the maps do not carry solutions to solutions")
     sharp = Confirmation(symmetric.family)(members[0], found.values, threads)
-    repeated = _repeated(symmetric, sharp, 1.0, found.values)
-    regular = sharp.regular & ~repeated
+    regular = _judge_classes(symmetric, sharp, 1.0, found.values) == PathStatus.REGULAR
     points = sharp.points[regular]
     complete = bool(regular.all()) and wanted == len(points) and found.idle >= CONFIRMING
     detail = f"{len(points)} solutions" if order == 1 else f"{len(points)} classes of {order}"
@@ -123,16 +124,16 @@ def solve_classes(
     weights = scaling_weights(symmetric.family)
     factors = nearest_scaling(weights, solved.values, goal, rng)
     found = track_classes(solved, goal, factors, run.threads, run.settings)
-    lost = int((~found.arrived & ~found.at_infinity).sum())
-    if len(weights) and 0 < lost <= FEW * len(found.arrived):
+    lost = len(found.where(PathStatus.FAILED, PathStatus.SINGULAR))
+    if len(weights) and 0 < lost <= FEW * len(found.status):
         # Another way leads to the same solutions, each from another one.
         turned = factors * random_scaling(weights, rng)
         other = track_classes(solved, goal, turned, run.threads, run.settings)
-        found = _joined(symmetric, goal, factors, found, other)
-    return _result(symmetric, target, found, solved.complete, solved.detail, run)
+        found = _join_ends(symmetric, goal, factors, found, other)
+    return _list_members(symmetric, target, found, solved.complete, solved.detail, run)
 
 
-def _joined(
+def _join_ends(
     symmetric: SymmetricFamily,
     goal: np.ndarray,
     factors: np.ndarray,
@@ -141,23 +142,23 @@ def _joined(
 ) -> ClassEnds:
     """The classes that were found on one way and those that another one adds."""
     x, p = np.split(factors, [symmetric.family.n])
-    both = [np.flatnonzero(each.arrived) for each in (found, other)]
-    points = [each.ends.points[i] / x for each, i in zip((found, other), both, strict=True)]
-    radii = [each.ends.radii[i] / np.abs(x) for each, i in zip((found, other), both, strict=True)]
-    balls = invariants(symmetric, np.concatenate(points), goal / p, np.concatenate(radii))
-    repeated = overlapping(*balls)[:, 1] - len(both[0])
+    both = [each.where(PathStatus.REGULAR) for each in (found, other)]
+    every = Confirmed.concatenate(
+        [each.ends.select_rows(i) for each, i in zip((found, other), both, strict=True)]
+    )
+    repeated = _repeats(symmetric, every, x, goal / p)[:, 1] - len(both[0])
     new = both[1][np.setdiff1d(np.arange(len(both[1])), repeated)]
     # Lost paths give their places first.
-    free = np.flatnonzero(~found.arrived)
-    free = free[np.argsort(found.at_infinity[free] + found.singular[free], kind="stable")]
+    lost, free = (
+        found.where(PathStatus.FAILED),
+        found.where(*set(PathStatus) - {PathStatus.REGULAR}),
+    )
+    free = np.append(lost, np.setdiff1d(free, lost))
     new = new[: len(free)]
-    places = free[: len(new)]
+    places, status = free[: len(new)], found.status.copy()
+    status[places] = PathStatus.REGULAR
     ends = found.ends.replace_rows(places, other.ends.select_rows(new))
-    flags = [f.copy() for f in (found.arrived, found.at_infinity, found.singular)]
-    for flag, value in zip(flags, (True, False, False), strict=True):
-        flag[places] = value
-    tracked, steps = found.tracked + other.tracked, found.steps + other.steps
-    return ClassEnds(ends, *flags, tracked, steps)
+    return ClassEnds(ends, status, found.tracked + other.tracked, found.steps + other.steps)
 
 
 def line_of_classes(
@@ -201,48 +202,57 @@ def track_classes(
     line = parameter_line(symmetric.family, solved.values, near)
     confirm = Confirmation(symmetric.family)
     ends = confirm(np.full_like(solved.members[0], np.nan), goal)
-    arrived = np.zeros(len(ends.points), dtype=bool)
+    status = np.full(len(ends), PathStatus.FAILED)
     tracked = steps = 0
     for member in solved.members:
-        left = np.flatnonzero(~arrived)
-        if not len(left) or (tracked and len(left) > FEW * len(arrived)):
+        left = np.flatnonzero(status == PathStatus.FAILED)
+        if not len(left) or (tracked and len(left) > FEW * len(status)):
             break
         starts = line.starts(member[left])
         paths = track(line.homotopy, starts, chosen, threads, endgame=False, distinct=False)
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
         ends = ends.replace_rows(left, confirm(line.affine(paths.points) * x, goal, threads))
-        arrived = ends.regular & ~_repeated(symmetric, ends, x, near)
-    left = np.flatnonzero(~arrived)
-    infinite, singular = np.zeros_like(arrived), np.zeros_like(arrived)
+        status = _judge_classes(symmetric, ends, x, near)
+    left = np.flatnonzero(status == PathStatus.FAILED)
     if len(left):
         paths = track(line.homotopy, line.starts(solved.members[0][left]), settings, threads)
         tracked, steps = tracked + len(left), steps + int(paths.steps.sum())
         points = line.affine(paths.points)
         points[paths.status == PathStatus.AT_INFINITY] = np.nan
         ends = ends.replace_rows(left, confirm(points * x, goal, threads))
-        arrived = ends.regular & ~_repeated(symmetric, ends, x, near)
-        infinite[left] = (paths.status == PathStatus.AT_INFINITY) & ~arrived[left]
-        singular[left] = (paths.status == PathStatus.SINGULAR) & ~arrived[left]
-    return ClassEnds(ends, arrived, infinite, singular, tracked, steps)
+        status = _judge_classes(symmetric, ends, x, near)
+        lost = np.isin(paths.status, (PathStatus.AT_INFINITY, PathStatus.SINGULAR))
+        lost &= status[left] == PathStatus.FAILED
+        status[left[lost]] = paths.status[lost]
+    return ClassEnds(ends, status, tracked, steps)
 
 
-def _repeated(
+def _judge_classes(
     symmetric: SymmetricFamily, ends: Confirmed, scale: np.ndarray | float, values: np.ndarray
 ) -> np.ndarray:
-    """Which regular ends are of the class of another one: a path jumped.
+    """``REGULAR`` for classes that end at regular zeros of their own, else ``FAILED``.
+
+    Shape ``(P,)``; the other arguments are those of `_repeats`.
+    """
+    regular = ends.regular.copy()
+    regular[_repeats(symmetric, ends, scale, values).ravel()] = False
+    return np.where(regular, PathStatus.REGULAR, PathStatus.FAILED)
+
+
+def _repeats(
+    symmetric: SymmetricFamily, ends: Confirmed, scale: np.ndarray | float, values: np.ndarray
+) -> np.ndarray:
+    """Pairs of regular ends of one class, of which a path jumped, shape ``(pairs, 2)``.
 
     Args:
         scale: what coordinates are to be divided by, for the parameters ``values``.
     """
-    repeated = np.zeros(len(ends.points), dtype=bool)
     places = np.flatnonzero(ends.regular)
     points, radii = ends.points[places] / scale, ends.radii[places] / np.abs(scale)
-    balls = invariants(symmetric, points, values, radii)
-    repeated[places[overlapping(*balls).ravel()]] = True
-    return repeated
+    return places[overlapping(*invariants(symmetric, points, values, radii))]
 
 
-def _result(
+def _list_members(
     symmetric: SymmetricFamily,
     target: Sequence[Number],
     found: ClassEnds,
@@ -253,42 +263,28 @@ def _result(
     """All members of the classes that arrived, as solutions of the family's own system."""
     system = symmetric.original.at(target)
     values = symmetric.inner_values([complex(v) for v in target])
-    arrived = np.flatnonzero(found.arrived)
+    arrived = found.where(PathStatus.REGULAR)
     images = symmetric.images(found.ends.points[arrived], values)
-    solutions = _solutions(symmetric, found.ends, arrived, images, system)
-    lost = len(found.arrived) - len(arrived) - int(found.at_infinity.sum() + found.singular.sum())
-    notes = []
+    singular, lost = found.where(PathStatus.SINGULAR), len(found.where(PathStatus.FAILED))
+    doubts = []
     if not complete:
-        notes.append("it is not known whether all solutions for random parameters were found")
-    if found.singular.any():
-        notes.append(f"{int(found.singular.sum())} classes of solutions end at singular points")
+        doubts.append("it is not known whether all solutions for random parameters were found")
+    if len(singular):
+        doubts.append(f"{len(singular)} classes of solutions end at singular points")
     if lost:
-        notes.append(f"the paths of {lost} classes of solutions were lost")
+        doubts.append(f"the paths of {lost} classes of solutions were lost")
     usable = np.isfinite(images).all(axis=(0, 2))
     if not usable.all():
-        notes.append(f"members of {int((~usable).sum())} classes of solutions are at infinity")
-    undecided = symmetric.outer(found.ends.points[found.singular])
-    counts = PathStatistics(
-        found.tracked,
-        len(arrived),
-        int(found.singular.sum()),
-        int(found.at_infinity.sum()),
-        lost,
-        found.steps,
-    )
-    return SolveResult(
-        system=system,
-        solutions=solutions,
-        on_components=np.zeros((0, system.n), dtype=complex),
-        undecided=undecided,
-        excluded=0,
-        paths=counts,
+        doubts.append(f"members of {int((~usable).sum())} classes of solutions are at infinity")
+    return SolveResult.of(
+        system,
+        run,
         start="parameter",
         reason=f"parameter homotopy: {detail}",
-        seed=run.seed,
-        settings=run.name,
-        complete=not notes,
-        notes=tuple(notes),
+        solutions=_solutions(symmetric, found.ends, arrived, images, system),
+        undecided=symmetric.outer(found.ends.points[singular]),
+        paths=PathStatistics.of(found.status, found.steps, found.tracked),
+        doubts=doubts,
     )
 
 

@@ -15,7 +15,7 @@ from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.natural_coordinates import natural_coordinates
+from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.numerics.precise_point import PrecisePoint, precise_zero
 from nag.numerics.zero_values import NONZERO, possible_zeros, vanish, vanishes, vanishes_at_all
 from nag.solving.isolated_zero import IsolatedZero
@@ -44,11 +44,20 @@ class SquareProblem:
 
     @classmethod
     def of(
-        cls, system: PolynomialSystem, equations: Sequence[Polynomial], rng: np.random.Generator
+        cls,
+        system: PolynomialSystem,
+        equations: Sequence[Polynomial],
+        rng: np.random.Generator,
+        natural: NaturalCoordinates | None = None,
     ) -> SquareProblem:
+        """The problem for equations of a system, none of them zero.
+
+        Args:
+            natural: the coordinates that suit these, if they are known.
+        """
         n = system.n
         # Combinations of equations may hide where these come from, and have more digits.
-        natural = natural_coordinates(equations, n)
+        natural = natural or natural_coordinates(equations, n)
         equations = [natural.polynomial(f) for f in equations]
         digits = most_digits(equations)
         lower = of_lowest_degrees(equations)
@@ -63,6 +72,16 @@ class SquareProblem:
         else:
             mended = tuple(target.scaled(natural.inverse.polynomial(f)) for f in whole)
         return cls(system, mended, nonzero, target, added, len(equations) > n)
+
+    @classmethod
+    def as_given(cls, system: PolynomialSystem) -> SquareProblem:
+        """The problem for as many equations as variables, in the variables that they are given in.
+
+        Raises:
+            nag.NagError: if there are more or fewer.
+        """
+        target = Target(system.n, tuple(dict(f.terms) for f in system.polynomials))
+        return cls(system, system.polynomials, system.nonzero, target, 0, False)
 
     def solves(self, x: np.ndarray) -> bool | None:
         """Whether all equations vanish at the square system's exact zero near ``x``.

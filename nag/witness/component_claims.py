@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.zero_count import most_zeros
+from nag.algebra.zero_count import Completeness, most_zeros
 from nag.numerics.certified_points import Proof
 from nag.numerics.claims import (
     Claim,
@@ -208,10 +208,10 @@ def _counted(certificate: DecompositionCertificate, text: str) -> Claim | None:
     if system.nonzero or certificate.same or certificate.unknown or not all(known):
         return None
     count = most_zeros(system.polynomials, -1, False)
-    if count is None:
+    verdict = Completeness.UNKNOWN if count is None else count.judge(sum(known))
+    if count is None or verdict is Completeness.UNKNOWN:
         return None
-    if sum(known) == count.bound:
-        text = f"{text}: {count.bound} zeros are counted modulo two primes"
+    text = f"{text}: {count.bound} zeros are counted modulo two primes"
+    if verdict is Completeness.ALL:
         return Claim("complete", text, Standing.EVIDENCE)
-    text = f"{text}: {count.bound} zeros are counted modulo two primes, {sum(known)} are listed"
-    return Claim("complete", text, Standing.DOUBTED) if count.exact else None
+    return Claim("complete", f"{text}, {sum(known)} are listed", Standing.DOUBTED)

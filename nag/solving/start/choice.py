@@ -147,3 +147,23 @@ def _paths(number: int) -> str:
 
 def _groups(groups: Groups) -> str:
     return "groups of " + ", ".join(str(len(g)) for g in groups)
+
+
+def mixed_volume(target: Target, start: Start, squared: bool) -> int | None:
+    """The mixed volume of the equations' polytopes, each with the origin, if it is known or small.
+
+    No system of these supports has more isolated zeros, by multiplicity, also where coordinates
+    vanish (Li & Wang, The BKK root count in C^n, 1996).
+
+    Args:
+        start: a start system for the target, which may know it.
+        squared: whether the target has zeros that are none of the system's.
+    """
+    if start.known.bound is not None or squared or len(start.points) > FEW:
+        return start.known.bound
+    from nag.solving.start.mixed_cells import mixed_cells
+
+    try:
+        return mixed_cells(target.sparsest.supports, np.random.default_rng(0)).mixed_volume
+    except StartError:
+        return None

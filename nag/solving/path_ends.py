@@ -10,7 +10,6 @@ from itertools import repeat
 import numpy as np
 
 from nag.algebra.evaluation import Evaluator
-from nag.algebra.zero_count import ZeroCount
 from nag.numerics.coincidence import clusters, coincident, conjugates_present
 from nag.numerics.singular_point import Place, SingularEnd, analyse
 from nag.numerics.zero_values import ON, vanishes_at
@@ -23,19 +22,21 @@ from nag.tracking.paths import Paths, PathStatus
 
 # End points with larger values than this are no zeros, however badly they are known.
 NEARLY = 1e-5
+# Homogenising coordinates of ends at infinity are less than this, or than their errors, which are
+# less than the second number.
+INFINITE, ROUGHLY_INFINITE = 2e-12, 1e-7
 # Points evaluated at once.
 BLOCK = 2048
 
 
 @dataclass(frozen=True, eq=False)
-class JudgedEnds:
+class PathEnds:
     """The end points of all paths, sorted; coordinates are those of the original variables.
 
     ``close``: the paths to ends that may be several zeros close together. ``isolated``: the
     isolated zeros of all equations in the scaled variables, those included that ``nonzero`` leaves
     out. ``larger``: ends on sets of positive dimension. ``unclear``: what notes say of ends that
-    are no such zeros, or may not be; ``notes``: all else. ``count``: how many zeros there are, by
-    exact algebra, where that was asked.
+    are no such zeros, or may not be; ``notes``: all else.
     """
 
     solutions: tuple[Solution, ...]
@@ -46,7 +47,6 @@ class JudgedEnds:
     unclear: tuple[str, ...]
     close: np.ndarray
     isolated: tuple[IsolatedZero, ...]
-    count: ZeroCount | None = None
 
     @cached_property
     def zeros(self) -> int:
@@ -85,7 +85,7 @@ class _Zeros:
 
 
 @dataclass(frozen=True, eq=False)
-class _Place:
+class _EndPlace:
     """Where an end lies; None where it is no solution at all.
 
     ``isolated``: the isolated zeros that it stands for; ``close``: whether it may be several
@@ -99,13 +99,13 @@ class _Place:
     excluded: bool | None = False
 
 
-def judged_ends(
+def sort_ends(
     problem: SquareProblem,
     begin: Start,
     paths: Paths,
     rng: np.random.Generator,
     finite: bool = False,
-) -> JudgedEnds:
+) -> PathEnds:
     """What the ends of all paths are.
 
     Args:
@@ -114,18 +114,18 @@ def judged_ends(
     """
     n = problem.system.n
     evaluator = Evaluator.of(problem.equations, n)
-    zeros, lost = _zeros(problem, begin, paths, evaluator)
+    zeros, lost = _select_zeros(problem, begin, paths, evaluator)
     unclear = [f"{lost} end points are zeros of the equations only roughly"] if lost else []
     undecided: list[np.ndarray] = []
     sets: list[tuple[np.ndarray, bool | None]] = []
     close: list[int] = []
     each = problem.added or problem.squared
-    isolated = [] if each else _simple(begin, zeros, zeros.alone(), paths)
+    isolated = [] if each else _list_regular(begin, zeros, zeros.alone(), paths)
     groups = [*zeros.alone()[:, None], *zeros.groups()] if each else zeros.groups()
-    judge = partial(_place, problem, begin, zeros, paths, evaluator, rng)
+    judge = partial(_judge_end, problem, begin, zeros, paths, evaluator, rng)
     whole = begin.complete and not problem.squared
     for group in groups:
-        best, found = _together(judge, zeros, group, whole, sets)
+        best, found = _judge_group(judge, zeros, group, whole, sets)
         multiplicity = sum(zero.multiplicity for zero in found.isolated)
         # Of a cluster with as many zeros as paths, each is the end of its own.
         met = found.place is Place.CLUSTER and whole and multiplicity == len(group)
@@ -150,7 +150,7 @@ def judged_ends(
         may_be = "may or may not be isolated solutions, or several that are close together"
         unclear.append(f"{len(undecided)} end points {may_be}")
     original = problem.target.original
-    return JudgedEnds(
+    return PathEnds(
         *_solutions(problem, isolated),
         LargerSets.of(n, sets).map_points(original),
         original(np.array(undecided).reshape(-1, n)),
@@ -160,12 +160,12 @@ def judged_ends(
     )
 
 
-def enlarged(
+def add_zeros(
     problem: SquareProblem,
-    ends: JudgedEnds,
+    ends: PathEnds,
     zeros: Sequence[IsolatedZero],
     instead_of: Collection[int] = (),
-) -> JudgedEnds:
+) -> PathEnds:
     """The same, with more zeros in the scaled variables, some of which replace known ones."""
     kept = [zero for k, zero in enumerate(ends.isolated) if k not in instead_of]
     isolated = (*kept, *zeros)
@@ -173,7 +173,7 @@ def enlarged(
     return replace(ends, solutions=solutions, excluded=excluded, notes=notes, isolated=isolated)
 
 
-def _zeros(
+def _select_zeros(
     problem: SquareProblem, begin: Start, paths: Paths, evaluator: Evaluator
 ) -> tuple[_Zeros, int]:
     """The finite ends that are zeros, and the number of those that are only roughly."""
@@ -192,7 +192,9 @@ def _zeros(
     return kept, int(lost.sum())
 
 
-def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> list[IsolatedZero]:
+def _list_regular(
+    begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths
+) -> list[IsolatedZero]:
     """Regular ends as zeros of the equations."""
     path = zeros.path[chosen]
     columns = (
@@ -209,7 +211,7 @@ def _simple(begin: Start, zeros: _Zeros, chosen: np.ndarray, paths: Paths) -> li
     return list(map(IsolatedZero, points, repeat(1), *(c.tolist() for c in columns), fine))
 
 
-def _place(
+def _judge_end(
     problem: SquareProblem,
     begin: Start,
     zeros: _Zeros,
@@ -217,22 +219,22 @@ def _place(
     evaluator: Evaluator,
     rng: np.random.Generator,
     i: int,
-) -> _Place:
+) -> _EndPlace:
     """Where the zero ``i`` lies."""
     point, accuracy, path = zeros.points[i], float(zeros.accuracy[i]), zeros.path[i]
     precision = int(paths.precision[path])
     if problem.added:
         if not problem.may_be_excluded(point):
-            return _Place(Place.ON_COMPONENT)
+            return _EndPlace(Place.ON_COMPONENT)
         end = analyse(problem.equations, point, accuracy, rng)
-        return _Place(Place.ON_COMPONENT, excluded=_is_excluded(problem, end))
+        return _EndPlace(Place.ON_COMPONENT, excluded=_is_excluded(problem, end))
     if zeros.regular[i]:
         solves = problem.solves(point) if problem.squared else True
         if solves is None:
-            return _Place(Place.UNDECIDED)
+            return _EndPlace(Place.UNDECIDED)
         if not solves:
-            return _Place(None)
-        return _Place(Place.ISOLATED, tuple(_simple(begin, zeros, np.array([i]), paths)))
+            return _EndPlace(None)
+        return _EndPlace(Place.ISOLATED, tuple(_list_regular(begin, zeros, np.array([i]), paths)))
     end = analyse(problem.equations, point, accuracy, rng)
     if end.place is Place.UNDECIDED and int(path) in paths.branches:
         # The coordinates of a limit either vanish or are known each by itself, which says more.
@@ -242,7 +244,7 @@ def _place(
         met = coincident(zeros.points[zeros.alone()], end.point, max(accuracy, end.accuracy))
         if end.dimension and met.sum() == sum(z.multiplicity for z in end.nearby):
             # All that is isolated there are ends of other paths.
-            return _Place(Place.ON_COMPONENT, excluded=_is_excluded(problem, end))
+            return _EndPlace(Place.ON_COMPONENT, excluded=_is_excluded(problem, end))
         members = [] if met.any() else list(end.nearby)
     isolated = tuple(
         IsolatedZero.of_end(z, residual, precision)
@@ -252,7 +254,7 @@ def _place(
         if z.place is Place.ISOLATED
     )
     excluded = _is_excluded(problem, end) if end.place is Place.ON_COMPONENT else False
-    return _Place(end.place, isolated, end.place is Place.UNDECIDED, excluded)
+    return _EndPlace(end.place, isolated, end.place is Place.UNDECIDED, excluded)
 
 
 def _is_excluded(problem: SquareProblem, end: SingularEnd) -> bool | None:
@@ -269,13 +271,13 @@ def _is_excluded(problem: SquareProblem, end: SingularEnd) -> bool | None:
     return is_set_excluded(problem.nonzero, end) if end.place is Place.ON_COMPONENT else None
 
 
-def _together(
-    judge: Callable[[int], _Place],
+def _judge_group(
+    judge: Callable[[int], _EndPlace],
     zeros: _Zeros,
     group: np.ndarray,
     whole: bool,
     sets: Sequence[tuple[np.ndarray, bool | None]],
-) -> tuple[int, _Place]:
+) -> tuple[int, _EndPlace]:
     """The best known one of ends at one place, and where it lies.
 
     Ends count as at one place within many times their errors. Where more lead to an isolated zero
@@ -290,7 +292,7 @@ def _together(
     best = int(group[np.argmin(zeros.accuracy[group])])
     known = zeros.conjugate(best, [x for x, _ in sets])
     if known is not None:
-        return best, _Place(Place.ON_COMPONENT, excluded=sets[known][1])
+        return best, _EndPlace(Place.ON_COMPONENT, excluded=sets[known][1])
     found = judge(best)
     if not whole or found.place is not Place.ISOLATED:
         return best, found
@@ -362,3 +364,19 @@ def _residuals(evaluator: Evaluator, points: np.ndarray) -> np.ndarray:
     blocks = [points[k : k + BLOCK] for k in range(0, len(points), BLOCK)]
     found = [evaluator.residuals(block).max(axis=1, initial=0.0) for block in blocks]
     return np.concatenate([np.zeros(0), *found])
+
+
+def list_doubts(begin: Start, paths: Paths) -> list[str]:
+    """What is left open of the paths that failed, and of those to infinity."""
+    notes = []
+    failed = len(paths.where(PathStatus.FAILED))
+    if failed:
+        causes = ", ".join(f"{k} because {why}" for why, k in paths.failures.items())
+        notes.append(f"{failed} of {len(paths)} paths failed: {causes}")
+    infinite = paths.where(PathStatus.AT_INFINITY)
+    far = np.abs(paths.points[infinite][:, list(begin.homotopy.infinity)])
+    error = np.minimum(paths.accuracy[infinite], ROUGHLY_INFINITE)
+    unsure = int((far.min(axis=1, initial=np.inf) > np.maximum(INFINITE, error)).sum())
+    if unsure:
+        notes.append(f"{unsure} paths to infinity may end at solutions far out")
+    return notes

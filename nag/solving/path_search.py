@@ -1,0 +1,136 @@
+"""The search for isolated zeros by paths: what is known so far, and what it amounts to."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from nag.algebra.zero_count import Completeness, ZeroCount
+from nag.solving.conjugate_ends import restore_conjugate_ends
+from nag.solving.isolated_zero import IsolatedZero
+from nag.solving.path_ends import PathEnds, add_zeros, list_doubts, sort_ends
+from nag.solving.solutions import PathStatistics, SolveResult
+from nag.solving.solve_task import SolveTask
+from nag.solving.square_problem import SquareProblem
+from nag.solving.start.target import Start
+from nag.tracking.paths import Paths, PathStatus
+
+
+class Bound(NamedTuple):
+    """How many isolated zeros there are at most, by multiplicity, and what says so."""
+
+    count: ZeroCount
+    source: str
+
+
+@dataclass(frozen=True, eq=False)
+class PathSearch:
+    """What is known so far.
+
+    Attributes:
+        problem: the system as it is tracked, and ``begin`` the start system; ``reason``: why that.
+        tracked: the paths.
+        paths: these, where conjugates of ends are those of lost ones.
+        ends: what they lead to, and the zeros that none of them has reached.
+        bound: how many zeros there can be, if that was asked.
+    """
+
+    task: SolveTask
+    problem: SquareProblem
+    begin: Start
+    reason: str
+    rng: np.random.Generator
+    tracked: Paths
+    paths: Paths
+    ends: PathEnds
+    bound: Bound | None = None
+
+    @classmethod
+    def of(
+        cls,
+        task: SolveTask,
+        problem: SquareProblem,
+        begin: Start,
+        reason: str,
+        tracked: Paths,
+        rng: np.random.Generator,
+    ) -> PathSearch:
+        """What the ends of paths say."""
+        paths = restore_conjugate_ends(begin, tracked)
+        ends = sort_ends(problem, begin, paths, rng, task.finite)
+        return cls(task, problem, begin, reason, rng, tracked, paths, ends)
+
+    def replace_paths(self, indices: np.ndarray, ends: Paths) -> PathSearch:
+        """The same where some paths were tracked again, to other ends."""
+        tracked = self.tracked.track_again(indices, ends)
+        same = self.task, self.problem, self.begin, self.reason
+        return replace(PathSearch.of(*same, tracked, self.rng), bound=self.bound)
+
+    def add_zeros(
+        self, zeros: Sequence[IsolatedZero], instead_of: Collection[int] = ()
+    ) -> PathSearch:
+        """The same with more zeros, some of which replace known ones."""
+        return replace(self, ends=add_zeros(self.problem, self.ends, zeros, instead_of))
+
+    @property
+    def zeros(self) -> int:
+        """The number of isolated zeros that were found, by multiplicity."""
+        return self.ends.zeros
+
+    @property
+    def completeness(self) -> Completeness:
+        """Whether all zeros were found, as far as a bound says."""
+        if self.bound is None:
+            return Completeness.UNKNOWN
+        return self.bound.count.judge(self.zeros)
+
+    @property
+    def doubtful(self) -> np.ndarray:
+        """Indices of the paths whose ends are not proved."""
+        return np.flatnonzero(self.tracked.status != PathStatus.REGULAR)
+
+    @property
+    def has_doubts(self) -> bool:
+        """Whether ends are not understood, or paths were lost."""
+        return bool(self.ends.unclear) or len(self.tracked.where(PathStatus.FAILED)) > 0
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether what became of all paths, one for each zero, leaves nothing to be counted."""
+        every = self.zeros == len(self.tracked) and not self.has_doubts
+        return self.begin.complete and (every or not len(self.doubtful))
+
+    def result(self) -> SolveResult:
+        """The answer, as it stands."""
+        begin, ends, seen = self.begin, self.ends, self.completeness
+        doubts, reason = list(ends.notes), self.reason
+        if self.bound is not None and seen is Completeness.ALL:
+            reason = f"{reason}; {self.bound.source} no more than {self.zeros}"
+        else:
+            doubts = [*ends.unclear, *list_doubts(begin, self.paths), *doubts]
+        if self.bound is not None and seen in (Completeness.MISSING, Completeness.TOO_MANY):
+            doubts.append(f"{self.zeros} zeros were found, and there are {self.bound.count.bound}")
+        remarks = []
+        if self.problem.added and not len(ends.larger.points):
+            remarks.append(
+                f"fewer equations than variables: no solution is isolated, and none was found "
+                f"where {self.problem.added} random linear equations are added"
+            )
+        return SolveResult.of(
+            self.problem.system,
+            self.task.run,
+            start=begin.name,
+            reason=reason,
+            solutions=ends.solutions,
+            excluded=ends.excluded,
+            larger=ends.larger,
+            undecided=ends.undecided[:0] if seen is Completeness.ALL else ends.undecided,
+            paths=PathStatistics.of(self.paths.status, int(self.paths.steps.sum())),
+            doubts=doubts,
+            remarks=remarks,
+            whole=begin.complete or seen is Completeness.ALL,
+            pathless=not len(self.paths),
+        )
