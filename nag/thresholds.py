@@ -382,7 +382,7 @@ REACHES, ROUNDED; numerics.located_zero: ROUNDING; numerics.rational_relations: 
 numerics.rounds_in_doubles: APART; numerics.natural_coordinates: FAR, SEVERAL_SIZES;
 numerics.newton: GAIN, FAST, LEFT, RESTS; numerics.precise_point: LEAST_ERROR, LARGEST_ERROR;
 numerics.scaling: INERTIA, NEARLY_ORTHOGONAL;
-numerics.sharpening: FAST, ROUNDING, NEARLY, GAIN, FURTHEST_STEP;
+numerics.sharpening: ROUNDING, NEARLY, GAIN, FURTHEST_STEP;
 numerics.zero_values: LEAST; numerics.series_zeros: RANK, ASTRAY, ARRIVED; tracking.certified_paths:
 ERROR, ALONG, ACROSS, LEAST_FACTOR, MOST_FACTOR, FIRST_STEP, FIRST_SIDE, ENDGAME, FLATTEST;
 tracking.close_paths: STEEP; tracking.ends.at_infinity: DOUBLE_DOUBLE; tracking.ends.branch:

@@ -10,12 +10,14 @@ from singular_zeros import polynomials
 from nag.algebra.system import PolynomialSystem
 from nag.decomposition.given_points import components_through_points
 from nag.numerics import deflation
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.deflation import NotDeflated, deflate
 from nag.numerics.descent import Round, descend
 from nag.numerics.digits import log_norm, working
 from nag.numerics.exact_system import ExactSystem
+from nag.numerics.newton import find_zero
 from nag.numerics.second_round import SecondRound
-from nag.numerics.sharpening import ARRIVED, DIGITS, sharpen_regular
+from nag.numerics.sharpening import ARRIVED, DIGITS
 
 QUARTICS = "x^4 - 2*y^2*z^2 + x^5, y^4 + 3*x*z^3 - z^5, z^4 - x^2*y*z + y^6"
 
@@ -63,17 +65,17 @@ def test_all_equations_together_lead_to_their_common_zero() -> None:
     with working(DIGITS):
         two = polynomials("x", "x*(x - 1/10^6)", "x*(x - 2/10^6)")
         start = [flint.acb("6e-7")]
-        found = sharpen_regular(ExactSystem.of(two, np.zeros(1)), start, -6.0)
-        assert found is not None and log_norm(found) < ARRIVED
-        assert sharpen_regular(ExactSystem.of(two, np.zeros(1)), start, -6.5) is None
-        alone = sharpen_regular(ExactSystem.of(two[:1], np.zeros(1)), start, -5.0)
-        assert alone is not None and log_norm(alone) > -6.1
+        found = find_zero(BallPolynomials.of(two), start, DIGITS, -6.0)
+        assert found is not None and log_norm(found.point) < ARRIVED
+        assert find_zero(BallPolynomials.of(two), start, DIGITS, -6.5) is None
+        alone = find_zero(BallPolynomials.of(two[:1]), start, DIGITS, -5.0)
+        assert alone is not None and log_norm(alone.point) > -6.1
 
 
 def test_a_multiple_zero_is_none_that_all_equations_make_regular() -> None:
     with working(DIGITS):
-        double = ExactSystem.of(polynomials("x y", "x^2", "x*y", "y - x^2"), np.zeros(2))
-        assert sharpen_regular(double, [flint.acb("1e-3"), flint.acb("1e-4")], -1.0) is None
+        double = BallPolynomials.of(polynomials("x y", "x^2", "x*y", "y - x^2"))
+        assert find_zero(double, [flint.acb("1e-3"), flint.acb("1e-4")], DIGITS, -1.0) is None
 
 
 def test_deflation_of_no_equations_comes_to_an_end() -> None:
@@ -93,9 +95,9 @@ def test_newton_s_step_of_two_rounds_is_the_same_by_jacobians_and_by_series(left
         point = [flint.acb(f"{c}e-40") for c in (1, -2, 3, 1)]
         newton = SecondRound.of(system.values_at(DIGITS), len(system.rows), rounds)
         assert newton is not None
-        found, series = newton.step(point, DIGITS), descend(system, DIGITS, point, rounds, 1)
+        found, series = newton.step(point), descend(system, DIGITS, point, rounds, 1)
     assert found is not None and series is not None
-    pairs = list(zip(found[0], series.displacement, strict=True))
+    pairs = list(zip(found.displacement, series.displacement, strict=True))
     assert -41 < log_norm(b for _, b in pairs) < -39
     assert log_norm(a - b for a, b in pairs) < -78
 

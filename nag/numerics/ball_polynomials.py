@@ -105,6 +105,7 @@ class BallPolynomials:
     above: BallPolynomials | None = None
     _terms: dict[int, list[list[tuple[flint.acb, int]]]] = field(default_factory=dict, repr=False)
     _matrices: dict[int, list[flint.acb_mat]] = field(default_factory=dict, repr=False)
+    _parts: dict[tuple[int, ...], BallPolynomials] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(
@@ -132,8 +133,11 @@ class BallPolynomials:
 
     def rows_of(self, chosen: Sequence[int]) -> BallPolynomials:
         """Some of the rows."""
-        rows = self.all_rows
-        return BallPolynomials(self.n, tuple(rows[i] for i in chosen))
+        key = tuple(chosen)
+        if key not in self._parts:
+            rows = self.all_rows
+            self._parts[key] = BallPolynomials(self.n, tuple(rows[i] for i in key))
+        return self._parts[key]
 
     def values(self, x: Sequence[flint.acb], bits: int) -> flint.acb_mat:
         """Values, a column."""

@@ -10,8 +10,9 @@ import numpy as np
 
 from nag.numerics.deflation import Deflated
 from nag.numerics.descent import Point, Round, descend
-from nag.numerics.digits import log_size, working
+from nag.numerics.digits import bits_of, log_size
 from nag.numerics.exact_system import ExactSystem
+from nag.numerics.newton import move_point
 from nag.numerics.power_series import Series, SeriesRing
 from nag.numerics.series_zeros import ScaledSeries
 from nag.numerics.sharpening import DIGITS
@@ -39,21 +40,19 @@ def close_zeros(
     order = found.rounds[0].order
     if not found.corank or not order:
         return
-    with working(DIGITS):
-        descent = descend(system, DIGITS, found.point, [first], order)
-        assert descent is not None
-        size = _size(descent.ring, descent.remaining, order)
-        if not size < reach + 1:
-            return
-        scaled = ScaledSeries.of(descent.ring, descent.remaining, size)
-        scale = flint.arb(10) ** flint.arb(size)
-        zeros = [(scaled.regular(u), u) for u in _zeros(scaled, order, rng)]
-        for regular, u in sorted(zeros, key=lambda zero: not zero[0]):
-            along = [flint.acb(complex(c)) * scale for c in u]
-            step = descend(system, DIGITS, found.point, [first], order, along)
-            if step is not None:
-                moved = [a + b for a, b in zip(found.point, step.displacement, strict=True)]
-                yield moved, size, regular
+    descent = descend(system, DIGITS, found.point, [first], order)
+    assert descent is not None
+    size = _size(descent.ring, descent.remaining, order)
+    if not size < reach + 1:
+        return
+    scaled = ScaledSeries.of(descent.ring, descent.remaining, size)
+    scale = flint.arb(10) ** flint.arb(size)
+    zeros = [(scaled.regular(u), u) for u in _zeros(scaled, order, rng)]
+    for regular, u in sorted(zeros, key=lambda zero: not zero[0]):
+        along = [flint.acb(complex(c)) * scale for c in u]
+        step = descend(system, DIGITS, found.point, [first], order, along)
+        if step is not None:
+            yield move_point(found.point, step.displacement, bits_of(DIGITS)), size, regular
 
 
 def _size(ring: SeriesRing, series: Sequence[Series], order: int) -> float:

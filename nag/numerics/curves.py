@@ -9,15 +9,16 @@ import flint
 import numpy as np
 
 from nag.numerics.deflation import MOST_WORK_ROUGHLY, Deflated, NotDeflated, deflate
-from nag.numerics.descent import Point, Round, work
-from nag.numerics.digits import LOG10_2, log_norm, log_size, middle, working
+from nag.numerics.descent import Block, Point, Round, work
+from nag.numerics.digits import LOG10_2, bits_of, log_norm, log_size, middle, working
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.far_along import far_value
 from nag.numerics.implicit_function import Reduction, eliminate
+from nag.numerics.newton import find_zero, inverse_of
 from nag.numerics.pivots import pivots
 from nag.numerics.power_series import evaluate
 from nag.numerics.series_zeros import STEPS, ScaledSeries
-from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO, predicted, sharpen, sharpen_regular
+from nag.numerics.sharpening import ARRIVED, DIGITS, ZERO, predict_along, sharpen
 
 # Binary logarithms of distances at which a smooth set of zeros is followed; the smaller ones where
 # it bends too much.
@@ -116,14 +117,13 @@ def point_beside(system: ExactSystem, found: Deflated) -> Point | None:
 
 def _beside(system: ExactSystem, point: Point, rounds: Sequence[Round], k: int) -> Point | None:
     """A point of the smooth set at distance 2^-k; None if not found."""
-    with working(LEAST_DIGITS):
-        left = len(point) - sum(len(r.columns) for r in rounds)
-        along = [flint.acb(1, i + 1) / 2**k / (i + 2) for i in range(left)]
-        start = predicted(system, point, rounds, along)
-        found = None if start is None else sharpen(system, start, rounds, LEAST_DIGITS)
-        if found is None:
-            return None
-        moved = log_norm(a - b for a, b in zip(found[0], point, strict=True))
+    left = len(point) - sum(len(r.columns) for r in rounds)
+    along = [flint.acb((1 + (i + 1) * 1j) * 2.0**-k / (i + 2)) for i in range(left)]
+    start = predict_along(system, point, rounds, along)
+    found = None if start is None else sharpen(system, start, rounds, LEAST_DIGITS)
+    if found is None:
+        return None
+    moved = log_norm(a - b for a, b in zip(found[0], point, strict=True))
     return found[0] if abs(moved + k * LOG10_2) < 1.5 else None
 
 
@@ -131,13 +131,17 @@ def _reduced(
     system: ExactSystem, point: Point, rounds: Sequence[Round], inverse: float
 ) -> tuple[Sequence[Round], float]:
     """One round for the set that several leave, and its inverse, if one does at a general point."""
+    if len(rounds) == 1:
+        return rounds, inverse
+    slopes = system.values_at(LEAST_DIGITS).jacobian(point)
     with working(LEAST_DIGITS):
-        slopes = system.values_at(LEAST_DIGITS).jacobian(point)
         rows, columns = pivots(lambda _: slopes, system.n, 0, ZERO)
-        if len(rounds) == 1 or len(columns) != sum(len(r.columns) for r in rounds):
-            return rounds, inverse
-        block = flint.acb_mat([[slopes[i][j] for j in columns] for i in rows])
-        return (Round(tuple(rows), tuple(columns)),), log_norm(block.inv().entries())
+    this = Round(tuple(rows), tuple(columns))
+    if len(columns) != sum(len(r.columns) for r in rounds):
+        return rounds, inverse
+    block, bits = Block.of(system, this, point), bits_of(LEAST_DIGITS)
+    found = inverse_of(block.jacobian(block.variables, bits), bits)
+    return (rounds, inverse) if found is None else ((this,), log_norm(found.entries()))
 
 
 def curve_through(
@@ -251,9 +255,9 @@ def _zero_near(
 ) -> Deflated | None:
     """The zero on the hyperplane at distance 2^-k beside a point, if it is one to all digits."""
     tries = [(start, -k * LOG10_2 - closer) for closer in CLOSER]
-    regular = sharpen_regular(sliced, start, tries[-1][1])
+    regular = find_zero(sliced.functions, start, DIGITS, tries[-1][1])
     if regular is not None:
-        tries.insert(0, (regular, ARRIVED + CLOSE))
+        tries.insert(0, (regular.point, ARRIVED + CLOSE))
     for point, reach in tries:
         try:
             zero = deflate(sliced, point, reach, rng, PATIENCE)
@@ -276,19 +280,16 @@ def _on_set(system: ExactSystem, zero: Deflated, rng: np.random.Generator) -> bo
 def _continues(sliced: ExactSystem, start: Point, k: int, zero: Deflated) -> bool:
     """Whether there is a zero of the same kind by ``start`` on the hyperplane at distance 2^-k."""
     within = 1 - k * LOG10_2 - CLOSER[-1]
-    with working(DIGITS):
-        if len(zero.rounds) == 1 and not zero.free:
-            there = sharpen_regular(sliced, start, within)
-            values = [] if there is None else sliced.values_at(DIGITS).values(there)
-            return there is not None and log_norm(values) < ZERO
-        found = sharpen(sliced, start, zero.rounds)
-        if found is None or found[1].defect > ZERO:
-            return False
-        return log_norm(a - b for a, b in zip(found[0], start, strict=True)) < within
+    if len(zero.rounds) == 1 and not zero.free:
+        there = find_zero(sliced.functions, start, DIGITS, within)
+        return there is not None and sliced.log_residual(there.point, DIGITS) < ZERO
+    found = sharpen(sliced, start, zero.rounds)
+    if found is None or found[1].defect > ZERO:
+        return False
+    return log_norm(a - b for a, b in zip(found[0], start, strict=True)) < within
 
 
 def _vanishes(system: ExactSystem, zero: Deflated, digits: int) -> bool:
     """Whether a zero is one to so many digits."""
-    with working(digits):
-        found = sharpen(system, zero.point, zero.rounds, digits)
+    found = sharpen(system, zero.point, zero.rounds, digits)
     return found is not None and found[1].defect < -VANISHING * digits

@@ -257,8 +257,7 @@ def _regular(
     found: tuple[Point, Descent] | None = (point, descent)
     if descent.inverse > ARRIVED + DIGITS - ROUNDING:
         digits = DIGITS + int(descent.inverse)
-        with working(digits):
-            found = sharpen(system, point, rounds, digits)
+        found = sharpen(system, point, rounds, digits)
         if found is None:
             raise NotDeflated("Newton's method does not converge in more digits")
     point, descent = found

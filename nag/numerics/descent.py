@@ -7,15 +7,17 @@ derivatives of order d - 1 have a linear part, and the same begins anew with the
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import comb
 
 import flint
 
-from nag.numerics.digits import log_norm
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import in_bits, log_norm, middle
 from nag.numerics.exact_system import ExactSystem, PointValues
 from nag.numerics.implicit_function import eliminate
+from nag.numerics.newton import inverse_of, newton_step
 from nag.numerics.power_series import Series, SeriesRing, Terms, derivatives, evaluate
 
 Point = list[flint.acb]
@@ -60,6 +62,63 @@ class Descent:
     inverse: float
 
 
+@dataclass(frozen=True, eq=False)
+class Block:
+    """The equations of a round in the variables that it determines, the others as at a point."""
+
+    functions: BallPolynomials
+    x: Point
+    columns: tuple[int, ...]
+
+    @classmethod
+    def of(cls, system: ExactSystem, this: Round, x: Point) -> Block:
+        return cls(system.functions.rows_of(this.rows), list(map(middle, x)), this.columns)
+
+    @property
+    def variables(self) -> Point:
+        """The coordinates that the round determines."""
+        return [self.x[j] for j in self.columns]
+
+    def place(self, y: Sequence[flint.acb]) -> Point:
+        """The point with other values of these."""
+        placed = dict(zip(self.columns, y, strict=True))
+        return [placed.get(j, c) for j, c in enumerate(self.x)]
+
+    def values(self, y: Sequence[flint.acb], bits: int) -> flint.acb_mat:
+        """Values of the equations, a column."""
+        return self.functions.values(self.place(y), bits)
+
+    def jacobian(self, y: Sequence[flint.acb], bits: int) -> flint.acb_mat:
+        """Their derivatives by the variables that the round determines."""
+        return _columns(self.functions.jacobian(self.place(y), bits), self.columns)
+
+    def newton_change(self, bits: int) -> Point | None:
+        """Newton's step to be added, 0 for the other variables; None where it is singular."""
+        step = newton_step(self, self.variables, bits)
+        return None if step is None else self._change([-c for c in step], {})
+
+    def tangent_change(self, along: Sequence[flint.acb], bits: int) -> Point | None:
+        """How all variables change when the others do by so much, to first order."""
+        free = [j for j in range(len(self.x)) if j not in self.columns]
+        slopes = self.functions.jacobian(self.x, bits)
+        inverse = inverse_of(_columns(slopes, self.columns), bits)
+        if inverse is None:
+            return None
+        with in_bits(bits):
+            right = _columns(slopes, free) * flint.acb_mat(len(free), 1, list(along))
+            change = (-inverse * right).mid().entries()
+        return self._change(change, dict(zip(free, along, strict=True)))
+
+    def _change(self, columns: Sequence[flint.acb], others: Mapping[int, flint.acb]) -> Point:
+        placed = {**others, **dict(zip(self.columns, columns, strict=True))}
+        return [placed.get(j, flint.acb(0)) for j in range(len(self.x))]
+
+
+def _columns(matrix: flint.acb_mat, chosen: Sequence[int]) -> flint.acb_mat:
+    entries = [matrix[i, j] for i in range(matrix.nrows()) for j in chosen]
+    return flint.acb_mat(matrix.nrows(), len(chosen), entries)
+
+
 def total_order(rounds: Sequence[Round], order: int) -> int:
     """The order of the first round's series so that the last has one of that order."""
     return order + sum(r.order - 1 for r in rounds if r.order)
@@ -102,7 +161,8 @@ def descend(
         along: displacements of the variables that the rounds do not determine; default zero.
     """
     at_points = system.values_at(digits)
-    return _descend(system.at(digits), centre, rounds, order, along, at_points)
+    with in_bits(at_points.bits):
+        return _descend(system.at(digits), centre, rounds, order, along, at_points)
 
 
 def _descend(

@@ -18,12 +18,12 @@ from math import log10
 import flint
 import numpy as np
 
-from nag.numerics.descent import Point, Round, descend
-from nag.numerics.digits import doubles, log_norm, middle, working
+from nag.numerics.descent import Block, Point, Round, descend
+from nag.numerics.digits import bits_of, doubles, log_norm
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.implicit_function import Matrix
+from nag.numerics.newton import move_point
 from nag.numerics.rounds_in_doubles import RoundsInDoubles
-from nag.numerics.sharpening import ARRIVED, DIGITS, LARGEST_INVERSE, predicted, sharpen
+from nag.numerics.sharpening import ARRIVED, DIGITS, LARGEST_INVERSE, predict_along, sharpen
 
 # How far a set is followed in the variables that are free, or in any, all of them scaled to a size
 # of one (much further out many sets are nearly singular); and in how many steps at most.
@@ -39,6 +39,8 @@ SMALL, SMALL_ROUGHLY, CONTRACTION, ROUNDING = 0.001, 0.05, 0.05, 1e-6
 FIRST, LEAST = 1e-2, 1e-30
 # Inverses (decimal logarithm) up to which doubles do.
 GOOD = 10.0
+# Bits of the points of a set that is followed in digits.
+BITS = bits_of(DIGITS)
 
 
 def far_value(
@@ -64,10 +66,9 @@ def far_value(
             continue
         size = system.largest_degree * max(0.0, log_norm(end))
         more = digits + int(size)
-        with working(more):
-            found = sharpen(system, end, rounds, more)
-            if found is not None:
-                return system.log_residual(found[0], more)
+        found = sharpen(system, end, rounds, more)
+        if found is not None:
+            return system.log_residual(found[0], more)
     return None
 
 
@@ -115,20 +116,18 @@ def _in_digits(
     system: ExactSystem, rounds: Sequence[Round], direction: np.ndarray, start: _Place
 ) -> Point | None:
     """The point far along the set, in all digits where doubles did not come there."""
-    place = start
-    with working(DIGITS):
-        turns = [flint.acb(complex(c)) for c in direction]
-        if start.gone and not start.far:
-            known = sharpen(system, start.point, rounds)
-            if known is None:
-                return None
-            place = _Place(known[0], start.gone, start.step)
-        for _ in range(STEPS_IN_DIGITS):
-            if place.far:
-                return place.point
-            place = _step(system, rounds, turns, place)
-            if place.step < LEAST:
-                return None
+    place, turns = start, [flint.acb(complex(c)) for c in direction]
+    if start.gone and not start.far:
+        known = sharpen(system, start.point, rounds)
+        if known is None:
+            return None
+        place = _Place(known[0], start.gone, start.step)
+    for _ in range(STEPS_IN_DIGITS):
+        if place.far:
+            return place.point
+        place = _step(system, rounds, turns, place)
+        if place.step < LEAST:
+            return None
     return None
 
 
@@ -139,20 +138,20 @@ def _step(
     x, h = place.point, place.step
     one_round = len(rounds) == 1
     along = [c * h for c in turns]
-    ahead = (_ahead if one_round else predicted)(system, x, rounds, along)
+    ahead = (_ahead if one_round else predict_along)(system, x, rounds, along)
     step = None if ahead is None else _newton(system, rounds, ahead)
     if ahead is not None and step is not None:
         moved = log_norm(a - b for a, b in zip(ahead, x, strict=True))
         one, small = log_norm(step), log10(SMALL if one_round else SMALL_ROUGHLY)
-        nearer = _moved(ahead, step, 1.0)
+        nearer = move_point(ahead, step, BITS)
         second = _newton(system, rounds, nearer) if one < moved + small else None
         # A second step that is not much smaller may belong to another sheet.
         if second is not None and log_norm(second) <= max(one + log10(CONTRACTION), ARRIVED):
             longer = 2.0 if one < moved + small - (1.2 if one_round else 0.6) else 1.0
-            return _Place(_moved(nearer, second, 1.0), place.gone + h, h * longer)
+            return _Place(move_point(nearer, second, BITS), place.gone + h, h * longer)
     # What the last step left of its error must be small beside the next, smaller one.
     left = _newton(system, rounds, x)
-    return _Place(x if left is None else _moved(x, left, 1.0), place.gone, h / 2)
+    return _Place(x if left is None else move_point(x, left, BITS), place.gone, h / 2)
 
 
 def _newton(system: ExactSystem, rounds: Sequence[Round], x: Point) -> Point | None:
@@ -160,51 +159,24 @@ def _newton(system: ExactSystem, rounds: Sequence[Round], x: Point) -> Point | N
     if len(rounds) > 1:
         found = descend(system, DIGITS, x, rounds, 1)
         return found.displacement if found and found.inverse < LARGEST_INVERSE else None
-    functions = system.values_at(DIGITS)
-    values = functions.values(x)
-    return _solved(functions.jacobian(x), rounds[0], [values[i] for i in rounds[0].rows])
+    return Block.of(system, rounds[0], x).newton_change(BITS)
 
 
 def _ahead(
     system: ExactSystem, x: Point, rounds: Sequence[Round], along: Sequence[flint.acb]
 ) -> Point | None:
     """A step along the set of one round, like that in doubles."""
-    a = _tangent(system, x, rounds[0], along)
-    b = a and _tangent(system, _moved(x, a, 0.5), rounds[0], along)
-    c = b and _tangent(system, _moved(x, b, 0.5), rounds[0], along)
-    d = c and _tangent(system, _moved(x, c, 1.0), rounds[0], along)
+
+    def tangent(change: Point, share: float) -> Point | None:
+        there = move_point(x, change, BITS, share)
+        return Block.of(system, rounds[0], there).tangent_change(along, BITS)
+
+    a = tangent([flint.acb(0)] * len(x), 0.0)
+    b = a and tangent(a, 0.5)
+    c = b and tangent(b, 0.5)
+    d = c and tangent(c, 1.0)
     if a is None or b is None or c is None or d is None:
         return None
-    total = [(p + 2 * q + 2 * r + s) / 6 for p, q, r, s in zip(a, b, c, d, strict=True)]
-    return _moved(x, total, 1.0)
-
-
-def _moved(x: Point, step: Point, share: float) -> Point:
-    return [middle(a + b * share) for a, b in zip(x, step, strict=True)]
-
-
-def _tangent(
-    system: ExactSystem, x: Point, this: Round, along: Sequence[flint.acb]
-) -> Point | None:
-    slopes = system.values_at(DIGITS).jacobian(x)
-    free = [j for j in range(len(x)) if j not in this.columns]
-    right = [sum(slopes[i][j] * v for j, v in zip(free, along, strict=True)) for i in this.rows]
-    step = _solved(slopes, this, right)
-    if step is not None:
-        for j, v in zip(free, along, strict=True):
-            step[j] = v
-    return step
-
-
-def _solved(slopes: Matrix, this: Round, right: Sequence[flint.acb]) -> Point | None:
-    """The change of a block's variables that takes so much from its equations."""
-    step = [flint.acb(0)] * len(slopes[0])
-    if this.columns:
-        block = flint.acb_mat([[slopes[i][j] for j in this.columns] for i in this.rows])
-        try:
-            found = block.solve(flint.acb_mat(len(right), 1, right)).mid().entries()
-        except ZeroDivisionError:
-            return None
-        for j, c in zip(this.columns, found, strict=True):
-            step[j] = -c
-    return step
+    for change, share in ((a, 1 / 6), (b, 1 / 3), (c, 1 / 3), (d, 1 / 6)):
+        x = move_point(x, change, BITS, share)
+    return x

@@ -203,8 +203,7 @@ def _held(system: ExactSystem, found: Deflated) -> bool:
     """
     more = min(2 * system.height * int(min(system.most_zeros, MOST_DIGITS)), MOST_DIGITS)
     digits = DIGITS + more
-    with working(digits):
-        exact = sharpen(system, found.point, found.rounds, digits)
+    exact = sharpen(system, found.point, found.rounds, digits)
     return exact is not None and exact[1].defect < ZERO / DIGITS * digits
 
 

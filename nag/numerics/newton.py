@@ -22,8 +22,9 @@ from nag.numerics.digits import LOG10_2, bits_of, in_bits, log_norm, middle
 FIRST_BITS, MORE_BITS, UNIT_BITS = 128, 32, 64
 MOST_BITS, MOST_TIMES = 1024, 4
 STEPS = 60
-# Decimal logarithm of what a step must be shorter than the one before.
-GAIN = 0.3
+# Decimal logarithm of what a step exceeds its error by; and of what it is shorter than the one
+# before by where nothing else is said, after the first ones.
+GAIN, FIRST_STEPS = 0.2, 3
 # An inverse by which a step gains so many digits, and this part of those that are left, is kept.
 FAST, LEFT = 12.0, 1 / 6
 # The part of all digits that a point has where a step that is no shorter than the last is rounding.
@@ -46,10 +47,12 @@ class Converged:
         point: exact numbers.
         error: the last step at most, rounding included: the decimal logarithm of its largest
             coordinate.
+        inverse: a matrix near the inverse Jacobian.
     """
 
     point: list[flint.acb]
     error: float
+    inverse: flint.acb_mat
 
 
 def inverse_of(matrix: flint.acb_mat, bits: int) -> flint.acb_mat | None:
@@ -83,57 +86,74 @@ def newton_step(
         return list((inverse * system.values(x, bits)).entries())
 
 
-def subtract_step(x: Sequence[flint.acb], step: Sequence[flint.acb], bits: int) -> list[flint.acb]:
-    """The point that a step leads to, an exact one."""
+def move_point(
+    x: Sequence[flint.acb], change: Sequence[flint.acb], bits: int, share: float = 1.0
+) -> list[flint.acb]:
+    """The point that a change, or a share of it, leads to, an exact one."""
     with in_bits(bits):
-        return [middle(a - middle(b)) for a, b in zip(x, step, strict=True)]
+        return [middle(a + middle(b) * share) for a, b in zip(x, change, strict=True)]
+
+
+def subtract_step(x: Sequence[flint.acb], step: Sequence[flint.acb], bits: int) -> list[flint.acb]:
+    """The point that a step of Newton's method leads to."""
+    return move_point(x, step, bits, -1.0)
 
 
 def find_zero(
-    system: Functions, start: Sequence[flint.acb], digits: float, within: float = inf
+    system: Functions,
+    start: Sequence[flint.acb],
+    digits: float,
+    within: float = inf,
+    gain: float = GAIN,
 ) -> Converged | None:
-    """The zero that Newton's method leads to from an exact point near it, to so many digits.
+    """The zero that Newton's method leads to from the middles of a point, to so many digits.
 
     Args:
         digits: relative to the point's largest coordinate or to one.
         within: decimal logarithm of how far the zero may be, relative likewise.
+        gain: what a step must be shorter by than the one before, after the first ones: decimal
+            logarithm. By two zeros that are close together each step halves the distance.
 
     Returns:
-        None if steps do not become shorter at once, or lead further away, or if the digits are more
+        None if steps do not become shorter soon, or lead further away, or if the digits are more
         than conditions leave of many bits.
     """
-    x, size = list(start), max(0.0, log_norm(start))
+    x, size = list(map(middle, start)), max(0.0, log_norm(start))
     most = MOST_BITS + MOST_TIMES * bits_of(digits)
     bits, last, inverse = FIRST_BITS, inf, None
-    for _ in range(STEPS):
+    for count in range(STEPS):
         if inverse is None:
             inverse = inverse_of(system.jacobian(x, bits), bits)
         step = None if inverse is None else newton_step(system, x, bits, inverse)
-        if step is None:
-            return None
-        length, rounding = log_norm(map(middle, step)), log_norm(flint.acb(z.rad()) for z in step)
-        lost = max(0.0, rounding - size + LOG10_2 * bits)
+        length, rounding = (inf, inf) if step is None else _lengths(step)
         error = max(length, rounding)
         done = error < size - digits
-        if not done and rounding > length - GAIN:
-            # What is left is rounding: more bits of the same point.
+        if step is None or (not done and rounding > length - GAIN):
+            # What is left is rounding, or all that there is: more bits of the same point.
             if bits > most:
                 return None
             bits, inverse = 2 * bits, None
             continue
+        lost = max(0.0, rounding - size + LOG10_2 * bits)
         x = subtract_step(x, step, max(bits, bits_of(digits) + MORE_BITS))
         moved = log_norm(a - b for a, b in zip(x, start, strict=True))
-        if (length > last - GAIN and not done) or moved - size > within:
+        slow = count >= FIRST_STEPS and length > last - gain
+        if (slow and not done) or moved - size > within:
             return None
         if done and (last < inf or length == -inf):
-            return Converged(x, error)
+            return Converged(x, error, inverse)
         left = length - size + digits
-        if not last - length > max(FAST, LEFT * left):
+        if last == inf or last - length < max(FAST, LEFT * left):
             inverse = None
         last = length
         known = min(4 * (size - length), digits) if length > -inf else digits
         bits = max(bits, UNIT_BITS * -(-(bits_of(known + lost) + MORE_BITS) // UNIT_BITS))
     return None
+
+
+def _lengths(step: Sequence[flint.acb]) -> tuple[float, float]:
+    """Decimal logarithms of a step's largest middle, and of its largest radius."""
+    return log_norm(map(middle, step)), log_norm(flint.acb(z.rad()) for z in step)
 
 
 def newton_to_rest(
@@ -143,7 +163,7 @@ def newton_to_rest(
 
     That is where rounding governs a step. None at a singular Jacobian.
     """
-    x, last = list(start), inf
+    x, last = list(map(middle, start)), inf
     for _ in range(steps):
         step = newton_step(system, x, bits)
         if step is None:

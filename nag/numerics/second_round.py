@@ -18,9 +18,17 @@ from math import inf
 import flint
 
 from nag.numerics.descent import Point, Round
-from nag.numerics.digits import LOG10_2, log_norm, middle
+from nag.numerics.digits import LOG10_2, in_bits, log_norm, middle
 from nag.numerics.exact_system import PointValues
 from nag.numerics.implicit_function import Matrix
+
+
+@dataclass(frozen=True, eq=False)
+class SecondStep:
+    """Newton's step to be added, and the decimal logarithm of the first block's inverse."""
+
+    displacement: Point
+    inverse: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,11 +65,12 @@ class SecondRound:
         entries = tuple((i // m, m - 1 - i % m) for i in second.rows)
         return cls(functions, first, free, others, entries, second.columns)
 
-    def step(self, x: Point, digits: int) -> tuple[Point, float] | None:
-        """Newton's step to be added, and the decimal logarithm of the first block's inverse.
+    def step(self, x: Point) -> SecondStep | None:
+        """Newton's step; None where a block is singular."""
+        with in_bits(self.functions.bits):
+            return self._step(x)
 
-        None where a block is singular.
-        """
+    def _step(self, x: Point) -> SecondStep | None:
         slopes, values = self.functions.jacobian(x), self.functions.values(x)
         rows, size = self.first.rows, len(self.entries)
         try:
@@ -73,8 +82,7 @@ class SecondRound:
             moves += [self._move([row[k] for row in tangents.tolist()], k) for k in self.solved]
             here = self._slopes(slopes, tangents, weights)
             change, *bending = (
-                self._slopes(self._derived(x, move, slopes, digits), tangents, weights)
-                for move in moves
+                self._slopes(self._derived(x, move, slopes), tangents, weights) for move in moves
             )
             right = [a + b for a, b in zip(here, change, strict=True)]
             columns = [c for line in zip(*bending, strict=True) for c in line]
@@ -84,7 +92,7 @@ class SecondRound:
         total = moves[0]
         for c, move in zip(found.mid().entries(), moves[1:], strict=True):
             total = [middle(a - c * b) for a, b in zip(total, move, strict=True)]
-        return total, log_norm(inverse.entries())
+        return SecondStep(total, log_norm(inverse.entries()))
 
     def _move(self, taken: Sequence[flint.acb], free: int | None = None) -> Point:
         """So much less of the first block's variables, and one more of a free one."""
@@ -106,12 +114,12 @@ class SecondRound:
         table = (whole - weights * above).mid().tolist()
         return [table[i][k] for i, k in self.entries]
 
-    def _derived(self, x: Point, move: Point, slopes: Matrix, digits: int) -> Matrix:
+    def _derived(self, x: Point, move: Point, slopes: Matrix) -> Matrix:
         """How the Jacobian changes along a move."""
         size = log_norm(move)
         if size == -inf:
             return [[flint.acb(0)] * len(row) for row in slopes]
-        share = flint.arb(2) ** -int((digits / 2 + size) / LOG10_2)
+        share = flint.arb(2) ** -int(self.functions.bits / 2 + size / LOG10_2)
         ahead = [middle(a + b * share) for a, b in zip(x, move, strict=True)]
         further = self.functions.jacobian(ahead)
         return [

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import inf
+from typing import Protocol, TypeVar
 
 import flint
 
-from nag.numerics.descent import Descent, Point, Round, descend
-from nag.numerics.digits import log_norm, middle, working
+from nag.numerics.descent import Block, Descent, Point, Round, descend
+from nag.numerics.digits import bits_of, log_norm
 from nag.numerics.exact_system import ExactSystem
-from nag.numerics.implicit_function import Matrix
+from nag.numerics.newton import find_zero, move_point
 from nag.numerics.power_series import SeriesRing
 from nag.numerics.second_round import SecondRound
 
@@ -20,6 +21,8 @@ DIGITS, ZERO, ARRIVED = 150, -100.0, -125.0
 NEWTON_STEPS = 24
 # A longer step (decimal logarithm) leads elsewhere.
 FURTHEST_STEP = -0.3
+# What a step must be shorter than the one before, after the first ones (decimal logarithm).
+GAIN = 1.0
 # Inverse blocks with larger entries (decimal logarithm) are rounding, or the zero is not regular.
 LARGEST_INVERSE = 70.0
 # What rounding adds to a value (decimal logarithm): Newton's step cannot become smaller than this
@@ -27,11 +30,16 @@ LARGEST_INVERSE = 70.0
 ROUNDING = 10.0
 # A step below this share of the digits leaves a point that more digits can go on from.
 NEARLY = 0.4
-# Slopes by which a step gains so many digits are kept for the next one.
-FAST = 12.0
-# Least gain of a step of Gauss and Newton's method (decimal logarithm), after the first two: less
-# is no progress, while by two zeros that are close together each step halves the distance.
-GAIN = 0.2
+
+
+class Step(Protocol):
+    """A step of Newton's method for rounds: what is added, and the largest inverse's logarithm."""
+
+    displacement: Point
+    inverse: float
+
+
+S = TypeVar("S", bound=Step)
 
 
 def sharpen(
@@ -41,52 +49,21 @@ def sharpen(
 
     It starts in `DIGITS` digits, and doubles them until they are as many as asked for.
     """
+    if len(rounds) == 1:
+        return _sharpen_block(system, list(x), rounds[0], digits)
     found: tuple[Point, Descent] | None = None
     point = list(x)
     for stage in _stages(digits):
         last = stage == digits
-        with working(stage):
-            if len(rounds) == 1:
-                found = _sharpened_block(system, point, rounds, stage, last)
-            else:
-                near = _near(system, point, rounds, stage)
-                if near is not None and not last:
-                    point = near
-                    continue
-                found = _sharpened(system, near or point, rounds, stage, last, near is not None)
+        near = _sharpen_without_series(system, point, rounds, stage)
+        if near is not None and not last:
+            point = near
+            continue
+        found = _sharpen_by_series(system, near or point, rounds, stage, last, near is not None)
         if found is None:
             return None
         point = found[0]
     return found
-
-
-def _near(system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int) -> Point | None:
-    """The zero without series, where there is such a way and it leads there."""
-    newton = SecondRound.of(system.values_at(digits), len(system.rows), rounds)
-    last, point = inf, x
-    for step in range(NEWTON_STEPS):
-        found = None if newton is None else newton.step(point, digits)
-        if found is None:
-            return None
-        move, inverse = found
-        moved, arrived = log_norm(move), _arrived(inverse) - digits
-        if not _goes_on(step, moved, last, arrived):
-            return None
-        point = [middle(a + b) for a, b in zip(point, move, strict=True)]
-        if moved < arrived:
-            return point
-        last = moved
-    return None
-
-
-def _arrived(inverse: float) -> float:
-    """Decimal logarithm of the last step beside the digits' end."""
-    return max(ARRIVED + DIGITS, ROUNDING + inverse)
-
-
-def _goes_on(step: int, moved: float, last: float, arrived: float) -> bool:
-    """Whether Newton's method stays near and converges."""
-    return moved <= FURTHEST_STEP and (step <= 3 or moved <= max(last - 1.0, arrived))
 
 
 def _stages(digits: int) -> list[int]:
@@ -96,114 +73,72 @@ def _stages(digits: int) -> list[int]:
     return stages
 
 
-def _sharpened(
-    system: ExactSystem,
-    x: Point,
-    rounds: Sequence[Round],
-    digits: int,
-    last_stage: bool,
-    there: bool,
+def _sharpen_block(
+    system: ExactSystem, x: Point, this: Round, digits: int
+) -> tuple[Point, Descent] | None:
+    """The zero of a regular block of the equations, by values and slopes alone."""
+    block, point, inverse = Block.of(system, this, x), x, -inf
+    if this.columns:
+        zero = find_zero(block, block.variables, digits, FURTHEST_STEP, GAIN)
+        if zero is None:
+            return None
+        inverse, point = log_norm(zero.inverse.entries()), block.place(zero.point)
+    if inverse > LARGEST_INVERSE:
+        return None
+    at = system.values_at(digits).values(point)
+    rest = [c for i, c in enumerate(at) if i not in this.rows]
+    remaining = [{0: c} if c else {} for c in rest]
+    ring = SeriesRing(len(point) - len(this.columns), 0)
+    displacement = [flint.acb(0)] * len(point)
+    return point, Descent(displacement, ring, remaining, log_norm(rest), inverse)
+
+
+def _sharpen_without_series(
+    system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int
+) -> Point | None:
+    """The zero without series, where there is such a way and it leads there."""
+    newton = SecondRound.of(system.values_at(digits), len(system.rows), rounds)
+    if newton is None:
+        return None
+    found = _follow_steps(newton.step, x, digits, True)
+    return None if found is None else found[0]
+
+
+def _sharpen_by_series(
+    system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int, last: bool, there: bool
 ) -> tuple[Point, Descent] | None:
     """The zero by series; ``there``: whether ``x`` is one already, as far as can be told."""
-    last, point = inf, x
     # The steps converge quadratically with series of order one in the last round, and cubically,
     # but at the price of longer series, with order two.
-    order = 1 if there or len(point) - len(rounds[0].columns) > 2 else 2
-    for step in range(NEWTON_STEPS):
-        found = descend(system, digits, point, rounds, order)
+    order = 1 if there or len(x) - len(rounds[0].columns) > 2 else 2
+    return _follow_steps(lambda y: descend(system, digits, y, rounds, order), x, digits, last)
+
+
+def _follow_steps(
+    step: Callable[[Point], S | None], x: Point, digits: int, last_stage: bool
+) -> tuple[Point, S] | None:
+    """Where steps of Newton's method lead, and the last of them; None if they do not converge.
+
+    Args:
+        last_stage: whether the point is to be known to all digits.
+    """
+    last, point = inf, x
+    for count in range(NEWTON_STEPS):
+        found = step(point)
         if found is None or found.inverse > LARGEST_INVERSE:
             return None
         size = log_norm(found.displacement)
-        arrived = _arrived(found.inverse) - digits
-        if not _goes_on(step, size, last, arrived):
+        arrived = max(ARRIVED + DIGITS, ROUNDING + found.inverse) - digits
+        if size > FURTHEST_STEP or (count > 3 and size > max(last - GAIN, arrived)):
             return None
-        point = [middle(a + b) for a, b in zip(point, found.displacement, strict=True)]
+        point = move_point(point, found.displacement, bits_of(digits))
         if size < (arrived if last_stage else max(arrived, -NEARLY * digits)):
             return point, found
         last = size
     return None
 
 
-def _sharpened_block(
-    system: ExactSystem, x: Point, rounds: Sequence[Round], digits: int, last_stage: bool
-) -> tuple[Point, Descent] | None:
-    """The zero of a regular block of the equations, by values and slopes alone.
-
-    Slopes are kept while steps gain many digits by them; beyond `DIGITS` they are those at ``x``,
-    in half the digits, and the steps as long as these allow.
-    """
-    (this,) = rounds
-    values = system.values_at(digits)
-    others = [i for i in range(len(system.rows)) if i not in this.rows]
-    last, point, inverse, size, slow = inf, x, None, -inf, True
-    for step in range(NEWTON_STEPS):
-        at = values.values(point)
-        if inverse is None or (slow and digits <= DIGITS):
-            inverse = _inverse_block(system, point, this, min(digits, max(DIGITS, digits // 2)))
-            if inverse is None:
-                return None
-            size = log_norm(inverse.entries()) if this.columns else -inf
-            if size > LARGEST_INVERSE:
-                return None
-        displacement = [flint.acb(0)] * len(point)
-        if this.columns:
-            column = flint.acb_mat(len(this.rows), 1, [at[i] for i in this.rows])
-            for j, c in zip(this.columns, (inverse * column).mid().entries(), strict=True):
-                displacement[j] = -c
-        moved = log_norm(displacement)
-        arrived = _arrived(size) - digits
-        if not _goes_on(step, moved, last, arrived):
-            return None
-        point = [middle(a + b) for a, b in zip(point, displacement, strict=True)]
-        if moved < (arrived if last_stage else max(arrived, -NEARLY * digits)):
-            at = values.values(point)
-            rest = [at[i] for i in others]
-            ring = SeriesRing(len(point) - len(this.columns), 0)
-            remaining = [{0: c} if c else {} for c in rest]
-            return point, Descent(displacement, ring, remaining, log_norm(rest), size)
-        last, slow = moved, last == inf or moved > last - FAST
-    return None
-
-
-def sharpen_regular(system: ExactSystem, x: Sequence[flint.acb], within: float) -> Point | None:
-    """The zero of all equations next to ``x`` where their Jacobian has full rank, or None.
-
-    By the method of Gauss and Newton: a part of the equations may have other zeros nearby, or
-    nearly the same tangents, where all of them together do not.
-
-    Args:
-        within: decimal logarithm of how far the zero may be.
-    """
-    functions, last, point = system.values_at(DIGITS), inf, list(x)
-    inverse, slow = None, True
-    with working(DIGITS):
-        for step in range(NEWTON_STEPS):
-            if inverse is None or slow:
-                inverse = _least_squares(functions.jacobian(point))
-                if inverse is None:
-                    return None
-            values = functions.values(point)
-            change = (inverse * flint.acb_mat(len(values), 1, values)).mid().entries()
-            size = log_norm(change)
-            point = [middle(a - b) for a, b in zip(point, change, strict=True)]
-            if size > within or (step > 2 and size > last - GAIN):
-                return None
-            if size < ARRIVED:
-                return point
-            last, slow = size, last == inf or size > last - FAST
-    return None
-
-
-def _least_squares(slopes: Matrix) -> flint.acb_mat | None:
-    """The inverse of Gauss and Newton's method; None where the columns depend on each other."""
-    adjoint = flint.acb_mat([[c.conjugate() for c in row] for row in zip(*slopes, strict=True)])
-    try:
-        return (adjoint * flint.acb_mat(slopes)).solve(adjoint).mid()
-    except ZeroDivisionError:
-        return None
-
-
-def predicted(
+def predict_along(
     system: ExactSystem, point: Point, rounds: Sequence[Round], along: Sequence[flint.acb]
 ) -> Point | None:
     """The point moved along the smooth set that the rounds leave, to first order at least.
@@ -211,35 +146,9 @@ def predicted(
     Args:
         along: displacements of the variables that the rounds do not determine.
     """
-    first = rounds[0]
-    if len(rounds) > 1 or not first.columns:
+    if len(rounds) > 1 or not rounds[0].columns:
         step = descend(system, DIGITS, point, rounds, 2, along)
-        if step is None:
-            return None
-        return [middle(a + b) for a, b in zip(point, step.displacement, strict=True)]
-    slopes = system.values_at(DIGITS).jacobian(point)
-    free = [j for j in range(len(point)) if j not in first.columns]
-    right = [sum(slopes[i][j] * v for j, v in zip(free, along, strict=True)) for i in first.rows]
-    block = flint.acb_mat([[slopes[i][j] for j in first.columns] for i in first.rows])
-    try:
-        change = block.solve(flint.acb_mat(len(right), 1, right)).mid().entries()
-    except ZeroDivisionError:
-        return None
-    moved = list(point)
-    for j, v in zip(free, along, strict=True):
-        moved[j] = middle(moved[j] + v)
-    for j, c in zip(first.columns, change, strict=True):
-        moved[j] = middle(moved[j] - c)
-    return moved
-
-
-def _inverse_block(
-    system: ExactSystem, point: Point, this: Round, digits: int
-) -> flint.acb_mat | None:
-    with working(digits):
-        slopes = system.values_at(digits).jacobian(point)
-        block = [[slopes[i][j] for j in this.columns] for i in this.rows]
-        try:
-            return flint.acb_mat(block).inv().mid() if block else flint.acb_mat(0, 0)
-        except ZeroDivisionError:
-            return None
+        change = None if step is None else step.displacement
+    else:
+        change = Block.of(system, rounds[0], point).tangent_change(along, bits_of(DIGITS))
+    return None if change is None else move_point(point, change, bits_of(DIGITS))
