@@ -192,6 +192,12 @@ class Polynomial:
         """Total degree; 0 for a constant, -1 for the zero polynomial."""
         return max(map(sum, self.terms), default=-1)
 
+    @cached_property
+    def leading(self) -> list[Exponents]:
+        """Exponents of the terms of the highest degree."""
+        top = self.degree
+        return [e for e in self.terms if sum(e) == top]
+
     def degree_in(self, indices: Iterable[int]) -> int:
         """Degree in the variables at ``indices`` together; -1 for the zero polynomial."""
         indices = tuple(indices)

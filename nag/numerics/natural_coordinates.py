@@ -232,10 +232,7 @@ def shift_polynomial(f: Polynomial, origin: Sequence[Fraction]) -> Polynomial:
 
 
 def _shift_terms(f: Polynomial, origin: Sequence[Fraction]) -> tuple[dict[Exponents, Any], int]:
-    """``f(y + origin)`` times a whole number, and that: of an exact polynomial, in integers.
-
-    Coefficients that cancel stay as zeros.
-    """
+    """``f(y + origin)`` times a whole number, and that: of an exact polynomial, in integers."""
     terms, common = f.whole or (dict(f.terms), 1)
     for i in f.support:
         p, q = origin[i].as_integer_ratio()
@@ -249,12 +246,13 @@ def _shift_terms(f: Polynomial, origin: Sequence[Fraction]) -> tuple[dict[Expone
         ]
         shifted: dict[Exponents, Any] = {}
         for e, c in terms.items():
-            before, k, after = e[:i], e[i], e[i + 1 :]
+            key, k = e, e[i]
             for j, weight in enumerate(weights[k]):
-                key = (*before, k - j, *after)
+                if j:
+                    key = (*e[:i], k - j, *e[i + 1 :])
                 shifted[key] = shifted[key] + c * weight if key in shifted else c * weight
         terms = shifted
-    return terms, common
+    return {e: c for e, c in terms.items() if c} if f.exact else terms, common
 
 
 def _accepted_origin(
@@ -270,8 +268,9 @@ def _accepted_origin(
     nothing = (Fraction(0),) * n, polynomials, before
     if not any(origin):
         return nothing
-    moved = [shift_polynomial(f, origin) for f in polynomials]
-    vanishing = [len(f.terms) - len(g.terms) for f, g in zip(polynomials, moved, strict=True)]
+    moved = [_shift_terms(f, origin) for f in polynomials]
+    pairs = zip(polynomials, moved, strict=True)
+    vanishing = [len(f.terms) - len(terms) for f, (terms, _) in pairs]
     sizes = [magnitude(b) if b else -inf for b in origin]
     # That more terms vanish than numbers were chosen is no accident.
     translated = sum(vanishing) > sum(map(bool, origin))
@@ -282,7 +281,7 @@ def _accepted_origin(
         return nothing
     # Scales that the equations leave free, as those of a cone, are any: to have them is a gain only
     # where terms vanish for it. Else they are what they were.
-    there = Logarithms.of(moved, n)
+    there = Logarithms.of_integers(moved, n)
     after = there.best_scales(near=0.0 if sum(vanishing) > 0 else before)
     each = list(zip(sizes, before.tolist(), after.tolist(), strict=True))
     kept = [translated or k <= old + LARGER or b <= old for b, old, k in each]
@@ -297,10 +296,8 @@ def _accepted_origin(
         _simple(b, k) if keep else Fraction(0)
         for b, k, keep in zip(origin, after.tolist(), kept, strict=True)
     )
-    if accepted == origin:
-        return origin, moved, after
-    moved = [shift_polynomial(f, accepted) for f in polynomials]
-    return accepted, moved, variable_scales(moved, n)
+    about = [shift_polynomial(f, accepted) for f in polynomials]
+    return accepted, about, after if accepted == origin else variable_scales(about, n)
 
 
 def _are_small(powers: np.ndarray) -> bool:
@@ -333,12 +330,14 @@ def _origin(polynomials: Sequence[Polynomial], n: int) -> tuple[Fraction, ...]:
     directions = [{i: 1} for i in _misplaced_variables(polynomials, n)]
     if directions:
         polynomials = sorted(polynomials, key=_simplicity)
+    moved = polynomials
     for level in range(1, max(f.degree for f in polynomials) + 1):
         if not directions:
             break
         if sum(_terms_of_shift(f, origin) for f in polynomials) > MOST_TERMS:
             return (Fraction(0),) * n
-        moved = [shift_polynomial(f, origin) for f in polynomials]
+        if any(origin):
+            moved = [shift_polynomial(f, origin) for f in polynomials]
         variables = sorted({i for way in directions for i in way})
         rows = [_conditions(f, level, variables) for f in moved]
         step, directions = _solve_rows(rows, directions, moved)
@@ -356,14 +355,13 @@ def _misplaced_variables(polynomials: Sequence[Polynomial], n: int) -> list[int]
     rows: list[list[int]] = []
     for f in polynomials:
         below: dict[Exponents, list[int]] = {}
-        top, terms = f.degree, f.terms
-        for e in terms:
-            if sum(e) == top:
-                for i, k in enumerate(e):
-                    if k:
-                        key = (*e[:i], k - 1, *e[i + 1 :])
-                        if key not in terms:
-                            below.setdefault(key, []).append(i)
+        terms = f.terms
+        for e in f.leading:
+            for i, k in enumerate(e):
+                if k:
+                    key = (*e[:i], k - 1, *e[i + 1 :])
+                    if key not in terms:
+                        below.setdefault(key, []).append(i)
         rows += below.values()
     left = set(range(n))
     while settled := {places[0] for places in rows if len(places) == 1}:
@@ -374,7 +372,7 @@ def _misplaced_variables(polynomials: Sequence[Polynomial], n: int) -> list[int]
 
 def _simplicity(f: Polynomial) -> tuple[int, int]:
     """Numbers of variables and of leading terms, which are the same about any origin."""
-    return len(f.support), sum(sum(e) == f.degree for e in f.terms)
+    return len(f.support), len(f.leading)
 
 
 def _terms_of_shift(f: Polynomial, origin: Sequence[Fraction]) -> int:
@@ -395,13 +393,12 @@ def _conditions(f: Polynomial, level: int, variables: Sequence[int]) -> list[tup
     if level > top:
         return []
     terms, _ = f.whole
-    for e, c in terms.items():
-        if sum(e) == top - level + 1:
-            for i in variables:
-                k = e[i]
-                if k:
-                    row = rows.setdefault((*e[:i], k - 1, *e[i + 1 :]), {})
-                    row[i] = row.get(i, 0) + k * c
+    for e in f.leading if level == 1 else [e for e in terms if sum(e) == top - level + 1]:
+        for i in variables:
+            k = e[i]
+            if k:
+                row = rows.setdefault((*e[:i], k - 1, *e[i + 1 :]), {})
+                row[i] = row.get(i, 0) + k * terms[e]
     below = sorted(rows, reverse=True)
     return [(rows[e], -terms.get(e, 0)) for e in below]
 
@@ -525,7 +522,7 @@ def _most_voted(
 
 def _count_terms(polynomials: Sequence[Polynomial], origin: Sequence[Fraction]) -> int:
     """Terms of the polynomials about another origin."""
-    return sum(sum(map(bool, _shift_terms(f, origin)[0].values())) for f in polynomials)
+    return sum(len(_shift_terms(f, origin)[0]) for f in polynomials)
 
 
 def _eliminate(row: Row, other: Row, column: int) -> None:

@@ -5,13 +5,14 @@ Reference: Meintjes & Morgan, A methodology for solving chemical equilibrium sys
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate
-from math import floor, log2
+from math import floor, gcd, log2
 from operator import mul
+from typing import Any
 
 import numpy as np
 
@@ -37,6 +38,21 @@ def magnitude(c: Number | complex) -> float:
     return float(np.log2(abs(complex(c))))
 
 
+def _magnitudes(numbers: Collection[Number]) -> list[float]:
+    """The `magnitude` of each."""
+    if set(map(type, numbers)) != {Fraction}:
+        return list(map(magnitude, numbers))
+    # One call for each takes as long as all else.
+    ratios = [c.as_integer_ratio() for c in numbers]
+    return [log2(abs(p)) if q == 1 else log2(abs(p)) - log2(q) for p, q in ratios]
+
+
+def _magnitudes_over(numbers: Collection[int], common: int) -> list[float]:
+    """The same of integers over a common denominator."""
+    units = [(abs(c), gcd(c, common)) for c in numbers]
+    return [log2(c // unit) - log2(common // unit) for c, unit in units]
+
+
 @dataclass(frozen=True, eq=False)
 class Logarithms:
     """The terms of equations that have several, as exponents and logarithms of coefficients.
@@ -57,11 +73,24 @@ class Logarithms:
     def of(cls, polynomials: Sequence[Polynomial], n: int) -> Logarithms:
         """Those of polynomials in ``n`` variables, none of them zero."""
         several = [f.terms for f in polynomials if len(f.terms) > 1]
+        sizes = [size for terms in several for size in _magnitudes(terms.values())]
+        return cls._of_parts(several, sizes, len(polynomials), n)
+
+    @classmethod
+    def of_integers(cls, sums: Sequence[tuple[dict[Exponents, int], int]], n: int) -> Logarithms:
+        """Those of sums of terms with integers, not zero, over a common denominator."""
+        several = [each for each in sums if len(each[0]) > 1]
+        sizes = [size for terms, q in several for size in _magnitudes_over(terms.values(), q)]
+        return cls._of_parts([terms for terms, _ in several], sizes, len(sums), n)
+
+    @classmethod
+    def _of_parts(
+        cls, several: Sequence[Mapping[Exponents, Any]], sizes: list[float], number: int, n: int
+    ) -> Logarithms:
         exponents = np.array([e for terms in several for e in terms], dtype=float)
-        sizes = np.array([magnitude(c) for terms in several for c in terms.values()])
         counts = tuple(map(len, several))
         exponents = exponents.reshape(len(sizes), n)
-        return cls(exponents, sizes, counts, len(polynomials) - len(several))
+        return cls(exponents, np.array(sizes), counts, number - len(several))
 
     @cached_property
     def first(self) -> list[int]:
