@@ -406,7 +406,7 @@ INEXACT; witness.close_points: STEEPEST; witness.close_to_sets: ROUNDED; witness
 ROUNDED, ROUNDING, LOSS, NOTHING; witness.exact_points: ENOUGH, ESTIMATE, CORRECTION, STEP,
 BITS_PER_DIGIT, SPLITTER; witness.fibres: STEEPER; witness.frame: EPS; witness.gauss_newton: CLOSE,
 FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, GAIN, ARRIVED, NEARLY; witness.real_points: SPREAD,
-SHORTEST, STILL; decomposition.branch_points: ARRIVED; decomposition.curve_genus: NEAR, OUTSIDE,
+SHORTEST, STILL; decomposition.curve_genus: NEAR, OUTSIDE,
 SHRINK, LEAST_RADIUS; decomposition.discovery: ROUNDED, DEEP, MULTIPLE; decomposition.given_points:
 ROUGH; decomposition.hypersurface: NEARER, ROUNDED; decomposition.rank_drop: ROUNDED;
 decomposition.excluded: ROUNDED; decomposition.superset: REGULAR; decomposition.power_sums:

@@ -19,18 +19,17 @@ import flint
 import numpy as np
 
 from nag.errors import ComponentError
-from nag.numerics.digits import doubles, log_norm, log_size, middle, number, working
-from nag.numerics.exact_system import ExactSystem, value
-from nag.numerics.implicit_function import jacobian
-from nag.numerics.power_series import Terms
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import bits_of, doubles, in_bits, log_size, middle, number
+from nag.numerics.newton import find_zero, inverse_of
 from nag.tracking.run import Run
 from nag.witness.fibres import Fibre, move
-from nag.witness.slices import unit_complex
+from nag.witness.slices import padded, unit_complex
 
-DIGITS = 200
-# Decimal logarithms: Newton's method has arrived; a pivot of the Loewner matrix is zero.
-ARRIVED, NOTHING = -180.0, -90.0
-NEWTON_STEPS = 14
+# Bits of values, 200 digits, and the digits that points are worked out to.
+BITS, ARRIVED = bits_of(200), 180
+# Decimal logarithm of a pivot of the Loewner matrix that is zero.
+NOTHING = -90.0
 # Values that are added at a time.
 BATCH = 12
 
@@ -80,7 +79,7 @@ def branch_points(sheets: Sheets, rng: np.random.Generator, run: Run) -> list[co
             t = complex(size * (0.3 + 1.2 * rng.random()) * unit_complex(rng))
             values.append(_sum_of_squares(sheets, t, weights, rng, run))
             at.append(t)
-        with working(DIGITS):
+        with in_bits(BITS):
             rank = _rank(_loewner(at, values))
             if rank < len(at) // 2 - 1:
                 return _poles(at[: 2 * rank + 1], values[: 2 * rank + 1])
@@ -91,52 +90,30 @@ def branch_points(sheets: Sheets, rng: np.random.Generator, run: Run) -> list[co
 def _sum_of_squares(
     sheets: Sheets, t: complex, weights: np.ndarray, rng: np.random.Generator, run: Run
 ) -> flint.acb:
-    with working(DIGITS):
-        total = flint.acb(0)
+    squares = []
     for fibre in sheets.fibres:
         gamma = complex(unit_complex(rng))
         (ends,) = move([fibre], sheets.rows(sheets.base), sheets.rows(t), gamma, run)
         if not ends.regular.all():
             raise BranchPointError("paths to another slice failed")
-        system = ExactSystem.of(
-            fibre.cut.polynomials, ends.points[0], _padded(sheets.rows(t), fibre)
-        )
-        last = np.concatenate([weights, np.zeros(fibre.cut.aux)])
-        with working(DIGITS):
-            rows = system.at(DIGITS)
-            units = [flint.arb(2) ** k for k in system.scales]
-            form = [number(complex(w)) * u for w, u in zip(last, units, strict=True)]
-            scale = dict(rows[-1])[(0,) * system.n] / number(-t)
-            total = sum((_square(rows, x, units, form, scale) for x in ends.points), total)
-    return middle(total)
+        form = np.concatenate([weights, np.zeros(fibre.cut.aux)])
+        rows = padded(sheets.rows(t), 1 + len(form))
+        system = BallPolynomials.of(fibre.cut.polynomials, rows)
+        squares += [_square(system, x, form) for x in ends.points]
+    with in_bits(BITS):
+        return middle(sum(squares, flint.acb(0)))
 
 
-def _padded(rows: np.ndarray, fibre: Fibre) -> np.ndarray:
-    return np.hstack([rows, np.zeros((1, fibre.cut.aux), dtype=complex)])
-
-
-def _square(
-    rows: Sequence[Terms],
-    x: np.ndarray,
-    units: list[flint.arb],
-    form: list[flint.acb],
-    scale: flint.acb,
-) -> flint.acb:
-    """The square of the form's derivative, where the last row is ``scale`` times the slice."""
-    y = [middle(number(complex(c)) / u) for c, u in zip(x, units, strict=True)]
-    for _ in range(NEWTON_STEPS):
-        matrix = flint.acb_mat(jacobian(rows, y))
-        right = flint.acb_mat([[value(row, y)] for row in rows])
-        step = [middle(c) for (c,) in matrix.solve(right).tolist()]
-        y = [middle(a - b) for a, b in zip(y, step, strict=True)]
-        if log_norm(step) < ARRIVED:
-            break
-    else:
+def _square(system: BallPolynomials, x: np.ndarray, form: np.ndarray) -> flint.acb:
+    """The square of a form's derivative by the value that the slice, the last row, has."""
+    zero = find_zero(system, [flint.acb(complex(c)) for c in x], ARRIVED)
+    slopes = None if zero is None else inverse_of(system.jacobian(zero.point, BITS), BITS)
+    if slopes is None:
         raise BranchPointError("Newton's method does not converge on a slice")
-    unit = flint.acb_mat([[0]] * (len(rows) - 1) + [[scale]])
-    speed = matrix.solve(unit).tolist()
-    derivative = sum((w * v for w, (v,) in zip(form, speed, strict=True)), flint.acb(0))
-    return middle(derivative * derivative)
+    with in_bits(BITS):
+        speeds = (slopes[i, len(x) - 1] for i in range(len(x)))
+        derivative = sum((flint.acb(complex(w)) * v for w, v in zip(form, speeds, strict=True)), 0)
+        return middle(derivative * derivative)
 
 
 def _loewner(at: Sequence[complex], values: Sequence[flint.acb]) -> list[list[flint.acb]]:

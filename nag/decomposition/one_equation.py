@@ -26,8 +26,10 @@ from nag.algebra.polynomial import Polynomial
 from nag.decomposition.final_checks import MOST_MULTIDEGREES, Examined, checked_witness_set, judged
 from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
-from nag.decomposition.roots import BITS, ball, line, points_in_balls, zeros_on
+from nag.decomposition.roots import BITS, line, points_in_balls, zeros_on
 from nag.decomposition.splitting import Class
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import in_bits
 from nag.tracking.run import Run
 from nag.witness.cutting import Cut
 from nag.witness.slices import random_rows
@@ -164,41 +166,26 @@ class _Line:
         With the sizes of the sums that they are.
         """
         n = self.f.n
-        first = [self.f.derivative(i) for i in range(n)]
-        second = [[g.derivative(j) for j in range(n)] for g in first]
-        with flint.ctx.workprec(BITS):
+        gradient = BallPolynomials.of([self.f.derivative(i) for i in range(n)])
+        with in_bits(BITS):
             v = self.direction
             w = [flint.acb(complex(x)) for x in self.normal]
             result = []
             for x in self.balls:
-                slopes = [_value(g, x) for g in first]
+                slopes = gradient.values(x, BITS).entries()
+                second = gradient.jacobian(x, BITS)
                 along = sum((a * b for a, b in zip(slopes, v, strict=True)), flint.acb(0))
                 across = sum((a * b for a, b in zip(slopes, w, strict=True)), flint.acb(0))
                 way = [b - across / along * a for a, b in zip(v, w, strict=True)]
-                terms = [
-                    _value(second[i][j], x) * way[i] * way[j] / along
-                    for i in range(n)
-                    for j in range(n)
-                ]
+                terms = [second[i, j] * way[i] * way[j] / along for i in range(n) for j in range(n)]
                 size = sum(float(abs(term).mid()) for term in terms)
                 result.append((sum(terms, flint.acb(0)), size))
         return result
 
 
-def _value(f: Polynomial, x: Sequence[Any]) -> Any:
-    total = flint.acb(0)
-    for exponents, c in f.terms.items():
-        term = ball(c)
-        for value, k in zip(x, exponents, strict=True):
-            if k:
-                term *= value**k
-        total += term
-    return total
-
-
 def _vanishes(bends: Sequence[tuple[Any, float]]) -> bool:
     """Whether a sum of balls is zero to many digits beside its terms."""
-    with flint.ctx.workprec(BITS):
+    with in_bits(BITS):
         total = sum((bend for bend, _ in bends[1:]), bends[0][0])
     size = max(size for _, size in bends)
     return bool(total.contains(0)) and float(abs(total).upper()) <= 10.0**-EVIDENCE * size

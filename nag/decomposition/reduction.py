@@ -7,13 +7,14 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
-import flint
 import numpy as np
 
 from nag.algebra.elimination import Elimination, eliminate_linear
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import bits_of, change_units, times_power_of_two
 from nag.numerics.natural_coordinates import (
     NaturalCoordinates,
     natural_coordinates,
@@ -106,19 +107,12 @@ class Reduction:
 
     def lifted_fine(self, point: Fine) -> Fine:
         """A point in these coordinates as one in the original variables, in all its digits."""
-        from nag.numerics.digits import number
-
-        with flint.ctx.workdps(2 * DIGITS):
-            y, scales = point.balls(), self.scales.tolist()
-            own = [z * flint.arb(scale) for z, scale in zip(y, scales, strict=False)]
-            natural = [f(own, number) for f in self.images]
-            x = [
-                z * number(scale) + number(b)
-                for z, scale, b in zip(
-                    natural, self.natural.scales, self.natural.origin, strict=True
-                )
-            ]
-            return in_words([*x, *y[self.n :]], point.curvature)
+        y, powers = point.balls(), np.round(np.log2(self.scales)).astype(int).tolist()
+        own = [times_power_of_two(z, k) for z, k in zip(y, powers, strict=False)]
+        images, bits = BallPolynomials.of(self.images), bits_of(2 * DIGITS)
+        there = images.values(own, bits).mid().entries()
+        x = change_units(there, self.natural.scales, self.natural.origin, bits)
+        return in_words([*x, *y[self.n :]], point.curvature)
 
     @cached_property
     def equations(self) -> Equations:

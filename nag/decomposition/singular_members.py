@@ -20,7 +20,6 @@ from fractions import Fraction
 from itertools import groupby
 from typing import Literal
 
-import flint
 import numpy as np
 
 from nag.algebra.factoring import factored
@@ -43,7 +42,8 @@ from nag.interpolation.vanishing import (
     hypersurface_equation,
     primitive,
 )
-from nag.numerics.digits import number
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import bits_of
 from nag.numerics.natural_coordinates import NaturalCoordinates, natural_coordinates
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
 from nag.witness.frame import expanded
@@ -269,9 +269,12 @@ class _Image:
     def satisfies(self, equations: Sequence[Polynomial], coordinates: Sequence[int]) -> bool:
         """Whether equations hold at a random point, to all digits that it has."""
         (point,) = self.cloud.balls(1, DIGITS)
-        with flint.ctx.workdps(DIGITS):
-            at = [point[i] for i in coordinates]
-            return all(flint.acb(f(at, number)).contains(0) for f in equations)
+        if not equations:
+            return True
+        values = BallPolynomials.of(equations).values(
+            [point[i] for i in coordinates], bits_of(DIGITS)
+        )
+        return all(z.contains(0) for z in values.entries())
 
 
 class _OpenError(ValueError):

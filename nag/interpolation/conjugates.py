@@ -18,6 +18,7 @@ import numpy as np
 from nag.algebra.flint_numbers import to_rational
 from nag.interpolation.precise_samples import Sample, Source, SourceError
 from nag.interpolation.vanishing import DIGITS, InterpolationError
+from nag.numerics.digits import bits_of, in_bits
 from nag.numerics.rational_relations import TooFewDigitsError, recognised
 from nag.tracking.run import Run
 from nag.witness.moving import arrival
@@ -119,11 +120,11 @@ def conjugate_classes(
     cut = RationalSlice.at_random(sources[0], coordinates, dimension, rng)
     samples = [cut.samples(source, rng, run) for source in sources]
     for digits in DIGITS:
-        with flint.ctx.workdps(digits + 20):
+        with in_bits(bits_of(digits + 20)):
             values = [_distinct([cut.value(s, digits) for s in each]) for each in samples]
             zeros = _distinct([v for each in values for v in each])
             try:
-                whole = _polynomial(zeros)
+                whole = _polynomial(zeros, digits)
             except TooFewDigitsError:
                 continue
             return _classes(values, [factor for factor, _ in whole.factor()[1]])
@@ -142,7 +143,7 @@ def _distinct(values: Sequence[flint.acb]) -> list[flint.acb]:
     return kept
 
 
-def _polynomial(zeros: Sequence[flint.acb]) -> flint.fmpq_poly:
+def _polynomial(zeros: Sequence[flint.acb], digits: int) -> flint.fmpq_poly:
     """The monic polynomial with these zeros.
 
     Raises:
@@ -154,7 +155,7 @@ def _polynomial(zeros: Sequence[flint.acb]) -> flint.fmpq_poly:
     coefficients = list(product)
     if any(not c.imag.contains(0) for c in coefficients):
         raise TooFewDigitsError("coefficients are not real")
-    numbers = [recognised(c.real) for c in coefficients]
+    numbers = [recognised(c.real, digits) for c in coefficients]
     return flint.fmpq_poly(list(map(to_rational, numbers)))
 
 

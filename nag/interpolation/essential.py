@@ -31,6 +31,7 @@ from nag.interpolation.vanishing import (
     next_degree,
     start,
 )
+from nag.numerics.digits import in_bits
 from nag.numerics.rational_relations import Echelon, TooFewDigitsError, clearly_independent
 
 # Largest degree of a numerator that is looked at.
@@ -121,20 +122,19 @@ def _of_degree(
         if len(found) == len(targets):
             break
         points = cloud.balls(count, digits)
-        with flint.ctx.workdps(digits + 20):
-            values = monomial_values([[p[i] for i in coordinates] for p in points], standard)
-            echelon = Echelon(2 * count, digits)
+        values = monomial_values([[p[i] for i in coordinates] for p in points], standard, digits)
+        echelon = Echelon(2 * count, digits)
+        try:
+            for e in standard:
+                echelon.add(real_rows(values[e]))
+        except TooFewDigitsError:
+            continue
+        for y in (y for y in targets if y not in found):
             try:
-                for e in standard:
-                    echelon.add(real_rows(values[e]))
+                factor = [p[y] for p in points]
+                found[y] = _map(echelon, y, factor, values, standard, lower)
             except TooFewDigitsError:
                 continue
-            for y in (y for y in targets if y not in found):
-                try:
-                    factor = [p[y] for p in points]
-                    found[y] = _map(echelon, y, factor, values, standard, lower)
-                except TooFewDigitsError:
-                    continue
     return [m for m in found.values() if m is not None]
 
 
@@ -168,8 +168,9 @@ def _map(
         return VariableMap(variable, _combination(k, standard, relation), one)
     echelon = echelon.copy()
     for i, e in enumerate(lower):
-        column = real_rows([x * y for x, y in zip(values[e], factor, strict=True)])
-        relation = echelon.add(column)
+        with in_bits(echelon.bits):
+            products = [x * y for x, y in zip(values[e], factor, strict=True)]
+        relation = echelon.add(real_rows(products))
         if relation is not None:
             numerator = _combination(k, standard, relation[: len(standard)])
             below = _combination(k, lower[:i], relation[len(standard) :])
@@ -222,14 +223,13 @@ def _linearly_independent(cloud: Cloud) -> list[int]:
     count = (n + 2) // 2 + MORE_POINTS
     points = cloud.balls(count, digits)
     chosen = []
-    with flint.ctx.workdps(digits + 20):
-        echelon = Echelon(2 * count, digits)
-        echelon.add(real_rows([flint.acb(1)] * count))
-        for i in range(n):
-            try:
-                dependent = echelon.add(real_rows([p[i] for p in points])) is not None
-            except TooFewDigitsError:
-                dependent = False
-            if not dependent:
-                chosen.append(i)
+    echelon = Echelon(2 * count, digits)
+    echelon.add(real_rows([flint.acb(1)] * count))
+    for i in range(n):
+        try:
+            dependent = echelon.add(real_rows([p[i] for p in points])) is not None
+        except TooFewDigitsError:
+            dependent = False
+        if not dependent:
+            chosen.append(i)
     return chosen

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-import flint
 import numpy as np
 
 from nag.algebra.groebner import dimension_and_degree
@@ -260,9 +259,8 @@ def are_independent(
     count = len(monomials) + MORE_POINTS
     for digits in DIGITS:
         points = [[p[i] for i in coordinates] for p in cloud.balls(count, digits)]
-        with flint.ctx.workdps(digits + SPARE):
-            values = monomial_values(points, monomials)
-            found = rank_of_columns([values[e] for e in monomials], digits)
+        values = monomial_values(points, monomials, digits)
+        found = rank_of_columns([values[e] for e in monomials], digits)
         if found is not None:
             return found == len(monomials)
     return None

@@ -12,7 +12,8 @@ import numpy as np
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
 from nag.interpolation.precise_samples import SPARE, Sample, Source, samples
-from nag.numerics.digits import number
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import bits_of, in_bits
 from nag.tracking.run import Run
 from nag.witness.cutting import numerical_corank
 from nag.witness.slices import padded
@@ -131,8 +132,8 @@ class Cloud:
         known = self._balls.setdefault(digits, [])
         for sample in self.samples(count)[len(known) :]:
             point = sample.balls(digits)
-            with flint.ctx.workdps(digits + SPARE):
-                known.append([flint.acb(f(point, number)) for f in self.ambient.images])
+            images = BallPolynomials.of(self.ambient.images)
+            known.append(list(images.values(point, bits_of(digits + SPARE)).entries()))
         return known[:count]
 
     def doubles(self, count: int, digits: int) -> np.ndarray:
@@ -180,12 +181,13 @@ def _tangent(sample: Sample) -> np.ndarray:
 
 
 def monomial_values(
-    points: Sequence[Sequence[flint.acb]], monomials: Sequence[Exponents]
+    points: Sequence[Sequence[flint.acb]], monomials: Sequence[Exponents], digits: int
 ) -> dict[Exponents, list[flint.acb]]:
-    """Values of monomials at points, each by one product from the one below it."""
+    """Values of monomials at points of so many digits, each by one product from one below it."""
     values = {(0,) * len(points[0]): [flint.acb(1)] * len(points)}
-    for e, below, i in _products(monomials, values):
-        values[e] = [x * p[i] for x, p in zip(values[below], points, strict=True)]
+    with in_bits(bits_of(digits + SPARE)):
+        for e, below, i in _products(monomials, values):
+            values[e] = [x * p[i] for x, p in zip(values[below], points, strict=True)]
     return values
 
 

@@ -158,19 +158,6 @@ class Sample:
             return [_widened(z, radius * (1 + abs(z).mid())) for z in x]
 
 
-def _solution(
-    matrix: Sequence[Sequence[flint.acb]], values: Sequence[flint.acb]
-) -> list[flint.acb]:
-    """The solution of linear equations, numbers of exact middles taken.
-
-    Raises:
-        ZeroDivisionError: if they are not known to be regular.
-    """
-    middles = [[c.mid() for c in row] for row in matrix]
-    right = flint.acb_mat(len(values), 1, [v.mid() for v in values])
-    return [x.mid() for x in flint.acb_mat(middles).solve(right).entries()]
-
-
 def _widened(z: flint.acb, radius: flint.arb) -> flint.acb:
     part = flint.arb(0, radius.mid())
     return flint.acb(z.real + part, z.imag + part)

@@ -23,7 +23,8 @@ from nag.algebra.polynomial import Polynomial
 from nag.algebra.rational_function import FunctionField, RationalFunction
 from nag.interpolation.essential import VariableMap
 from nag.interpolation.point_cloud import Cloud
-from nag.numerics.digits import number
+from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.digits import bits_of
 from nag.numerics.zero_values import NONZERO
 
 FRESH_POINTS = 30
@@ -122,8 +123,7 @@ def proved_by_reduction(cloud: Cloud, ideal: Ideal, f: Polynomial) -> bool:
             factors = multipliers(ideal, f**power, degree, MOST_FACTOR_TERMS)
             if factors is None:
                 break
-            with flint.ctx.workdps(DIGITS):
-                points = [p for p in points if not any(_value(s, p) > NONZERO for s in factors)]
+            points = [p for p in points if not any(_value(s, p) > NONZERO for s in factors)]
             if not points:
                 return True
     return False
@@ -132,7 +132,8 @@ def proved_by_reduction(cloud: Cloud, ideal: Ideal, f: Polynomial) -> bool:
 def _value(f: Polynomial, point: Sequence[flint.acb]) -> flint.arb:
     """Size of a value beside the largest coefficient."""
     largest = max(abs(c) for c in f.terms.values())
-    return abs(flint.acb((f / largest)(point, number)))
+    value = BallPolynomials.of((f / largest,)).values(point, bits_of(DIGITS))[0, 0]
+    return value.abs_lower()
 
 
 def cleared_map(m: VariableMap, n: int, coordinates: Sequence[int]) -> Polynomial:
@@ -154,12 +155,12 @@ def largest_value(cloud: Cloud, polynomials: Sequence[Polynomial], digits: int) 
     known = cloud.count if cloud.source.dimension else 0
     points = cloud.balls(known + FRESH_POINTS, digits)[known:]
     worst = float("-inf")
-    with flint.ctx.workdps(digits + 20):
-        ten = flint.arb(10).log()
-        for p in points:
-            sizes = [max(abs(x).mid(), flint.arb(1)) for x in p]
-            for f in polynomials:
-                bound = flint.arb(f(sizes, lambda c: abs(number(c)).mid()))
-                ratio = flint.acb(f(p, number)).abs_upper() / bound
-                worst = max(worst, float((ratio.log() / ten).mid()))
+    if not polynomials:
+        return worst
+    system, bits, ten = BallPolynomials.of(polynomials), bits_of(digits + 20), flint.arb(10).log()
+    for p in points:
+        bounds = system.sizes([flint.acb(max(abs(x).mid(), flint.arb(1))) for x in p], bits)
+        for value, bound in zip(system.values(p, bits).entries(), bounds, strict=True):
+            ratio = value.abs_upper() / bound
+            worst = max(worst, float((ratio.log() / ten).mid()))
     return worst

@@ -27,6 +27,7 @@ from nag.interpolation.point_cloud import (
     monomials_in_doubles,
     real_rows,
 )
+from nag.numerics.digits import bits_of, in_bits
 from nag.numerics.rational_relations import (
     Echelon,
     TooFewDigitsError,
@@ -108,7 +109,7 @@ def columns_at(
     """Real columns of the monomials' values, for ``more`` columns beside these."""
     count = cloud.points_for(len(monomials) + more)
     points = [[p[i] for i in coordinates] for p in cloud.balls(count, digits)]
-    values = monomial_values(points, monomials)
+    values = monomial_values(points, monomials, digits)
     return {e: real_rows(values[e]) for e in monomials}
 
 
@@ -186,16 +187,15 @@ def _split(
     points = cloud.doubles(cloud.points_for(len(together)), digits)[:, known.coordinates]
     if clearly_independent(monomials_in_doubles(points, together)):
         return together, []
-    with flint.ctx.workdps(digits + 20):
-        columns = columns_at(cloud, known.coordinates, together, digits, 0)
-        echelon = Echelon(len(columns[together[0]]), digits)
-        standard, relations = [], []
-        for e in together:
-            relation = echelon.add(columns[e])
-            if relation is None:
-                standard.append(e)
-            else:
-                relations.append((e, relation))
+    columns = columns_at(cloud, known.coordinates, together, digits, 0)
+    echelon = Echelon(len(columns[together[0]]), digits)
+    standard, relations = [], []
+    for e in together:
+        relation = echelon.add(columns[e])
+        if relation is None:
+            standard.append(e)
+        else:
+            relations.append((e, relation))
     return standard, relations
 
 
@@ -262,17 +262,17 @@ def hypersurface_equation(cloud: Cloud, coordinates: Sequence[int], degree: int)
     form = np.random.default_rng(total).integers(1, LARGEST_NUMBER, total).tolist()
     for digits in DIGITS:
         points = [[p[i] for i in coordinates] for p in cloud.balls((total + 1) // 2, digits)]
-        with flint.ctx.workdps(digits + 20):
-            values = monomial_values(points, monomials)
-            columns = [real_rows(values[e])[: total - 1] for e in monomials]
-            entries = [column[i] for i in range(total - 1) for column in columns]
-            entries += map(flint.arb, form)
-            right = flint.arb_mat(total, 1, [0] * (total - 1) + [1])
-            try:
+        values = monomial_values(points, monomials, digits)
+        columns = [real_rows(values[e])[: total - 1] for e in monomials]
+        entries = [column[i] for i in range(total - 1) for column in columns]
+        entries += map(flint.arb, form)
+        try:
+            with in_bits(bits_of(digits + 20)):
+                right = flint.arb_mat(total, 1, [0] * (total - 1) + [1])
                 solution = flint.arb_mat(total, total, entries).solve(right).entries()
-                coefficients = [recognised(c) for c in solution]
-            except (ZeroDivisionError, TooFewDigitsError):
-                continue
+            coefficients = [recognised(c, digits) for c in solution]
+        except (ZeroDivisionError, TooFewDigitsError):
+            continue
         terms = {e: c for e, c in zip(monomials, coefficients, strict=True) if c}
         found = primitive(Polynomial(k, terms))
         lead = leading_monomial(found)

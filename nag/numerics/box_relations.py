@@ -8,7 +8,6 @@ import flint
 import numpy as np
 
 from nag.numerics.coincidence import neighbours
-from nag.numerics.digits import in_bits
 from nag.numerics.discs import UNIT, UP
 from nag.numerics.krawczyk import Boxes, FineBox
 
@@ -50,18 +49,18 @@ def _candidates(boxes: Boxes) -> Iterator[tuple[int, int]]:
 def one_zero(a: FineBox, b: FineBox) -> bool | None:
     """Whether two boxes have the same zero: the zero of one lies where the other has but one.
 
-    None where that is not known.
+    The centres are exact, so that distances are right to all but rounding in any precision.
+    None where it is not known.
     """
-    with in_bits(1024):
-        distance = [abs(x - y) for x, y in zip(a.centre, b.centre, strict=True)]
-        sums = zip(distance, a.inner, b.inner, strict=True)
-        if any(d > r + s for d, r, s in sums):
-            return False
-        if all(d + r < s for d, r, s in zip(distance, a.inner, b.outer, strict=True)):
-            return True
-        if all(d + s < r for d, r, s in zip(distance, a.outer, b.inner, strict=True)):
-            return True
-        return None
+    distance = [abs(x - y) for x, y in zip(a.centre, b.centre, strict=True)]
+    sums = zip(distance, a.inner, b.inner, strict=True)
+    if any(d > r + s for d, r, s in sums):
+        return False
+    if all(d + r < s for d, r, s in zip(distance, a.inner, b.outer, strict=True)):
+        return True
+    if all(d + s < r for d, r, s in zip(distance, a.outer, b.inner, strict=True)):
+        return True
+    return None
 
 
 def fine_box(boxes: Boxes, i: int) -> FineBox:
@@ -89,14 +88,12 @@ def real_zeros(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
     for i in boxes.fine:
         box = boxes.fine[i]
         real[i] = holds_conjugate(box)
-        with in_bits(1024):
-            off = [abs(z.imag) for z in box.centre]
-            complex_[i] = any(d > r for d, r in zip(off, box.inner, strict=True))
+        off = [abs(z.imag) for z in box.centre]
+        complex_[i] = any(d > r for d, r in zip(off, box.inner, strict=True))
     return real, complex_
 
 
 def holds_conjugate(box: FineBox) -> bool:
     """Whether a box holds the conjugate of its zero as well."""
-    with in_bits(1024):
-        triples = zip(box.centre, box.inner, box.outer, strict=True)
-        return all(2 * abs(z.imag) + r < s for z, r, s in triples)
+    triples = zip(box.centre, box.inner, box.outer, strict=True)
+    return all(2 * abs(z.imag) + r < s for z, r, s in triples)

@@ -66,6 +66,15 @@ def times_power_of_two(z: flint.acb, k: int) -> flint.acb:
         return z * flint.arb(2) ** k
 
 
+def change_units(
+    x: Sequence[flint.acb], scales: Sequence[Number], origin: Sequence[Number], bits: int
+) -> list[flint.acb]:
+    """``scales x + origin`` in each coordinate."""
+    with in_bits(bits):
+        triples = zip(x, scales, origin, strict=True)
+        return [z * number(scale) + number(b) for z, scale, b in triples]
+
+
 def log_size(z: flint.acb | int) -> float:
     """The decimal logarithm of ``|z|`` to within a factor of three; also beyond doubles' range.
 

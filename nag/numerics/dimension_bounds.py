@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import accumulate
-from math import prod
 from typing import Any
 
 import flint
@@ -19,10 +18,11 @@ from nag.algebra.factoring import common_factor
 from nag.algebra.number import is_zero
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.algebraic_point import prime_images
+from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.curves import curve_through
 from nag.numerics.deflation import MOST_WORK, Deflated
 from nag.numerics.descent import Round, work
-from nag.numerics.digits import doubles, log_norm, middle, number, working
+from nag.numerics.digits import bits_of, doubles, log_size, middle, number, working
 from nag.numerics.dual_space import CurveSearch, DualSpace, dual_space
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
@@ -112,16 +112,8 @@ def reduced_bounds(
     found, zero = _bounds(elimination.system.polynomials, kept, error, rng)
     if zero is None:
         return replace(found, point=np.array([complex(c) for c in elimination.lift(found.point)]))
-    with working(DIGITS):
-        return _told(found, [_value(image, zero) for image in elimination.images])
-
-
-def _value(image: Polynomial, point: Sequence[flint.acb]) -> flint.acb:
-    """The value of a polynomial of degree one."""
-    total = flint.acb(0)
-    for e, c in image.terms.items():
-        total = total + number(c) * (point[e.index(1)] if any(e) else 1)
-    return total
+    lifted = BallPolynomials.of(elimination.images).values(zero, bits_of(DIGITS))
+    return _told(found, lifted.entries())
 
 
 def _on_hypersurface(
@@ -135,13 +127,10 @@ def _on_hypersurface(
         powers = [Fraction(2) ** int(unit.man_exp()[1]) for unit in units]
         return is_zero(common([c * k for c, k in zip(zero.exact, powers, strict=True)]))
     point = [c * unit for c, unit in zip(zero.found.point, units, strict=True)]
-    sizes = [max(abs(c).mid(), unit) for c, unit in zip(point, units, strict=True)]
-    largest = max(abs(number(c)) * _monomial(e, sizes) for e, c in common.terms.items())
-    return log_norm([middle(common(point, number))]) < ZERO + log_norm([middle(largest)])
-
-
-def _monomial(exponents: Sequence[int], values: Sequence[Any]) -> Any:
-    return prod((v**k for k, v in zip(exponents, values, strict=True) if k), start=flint.arb(1))
+    sizes = [flint.acb(max(abs(c).mid(), unit)) for c, unit in zip(point, units, strict=True)]
+    system, bits = BallPolynomials.of((common,)), bits_of(DIGITS)
+    (bound,), (value,) = system.sizes(sizes, bits), system.values(point, bits).mid().entries()
+    return log_size(value) < ZERO + log_size(flint.acb(bound))
 
 
 def _at_zero(zero: Zero, hypersurface: bool, rng: np.random.Generator) -> LocalDimension:

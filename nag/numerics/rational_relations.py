@@ -14,11 +14,15 @@ from math import log10
 import flint
 import numpy as np
 
+from nag.numerics.digits import bits_of, in_bits
+
 # Digits by which an approximation must be better than its size explains.
 EVIDENCE = 20
 # A rest counts as zero if its balls are smaller than this power of the working precision.
 SHARP = 0.4
 LOG10_2 = log10(2.0)
+# Digits beyond those of the columns that are computed with.
+SPARE = 20
 # Singular values of columns of length one at most that are far beyond the rounding of doubles.
 CLEAR = 1e-9
 
@@ -50,6 +54,11 @@ def rank_of_columns(columns: Sequence[Sequence[flint.acb]], digits: int) -> int 
     A column depends on those before it where nothing of it is left but balls that contain zero, and
     these are small.
     """
+    with in_bits(bits_of(digits + SPARE)):
+        return _rank_of_columns(columns, digits)
+
+
+def _rank_of_columns(columns: Sequence[Sequence[flint.acb]], digits: int) -> int | None:
     limit = flint.arb(10) ** int(-SHARP * digits)
     left = [list(column) for column in columns]
     sizes = [max((float(abs(z).mid()) for z in column), default=0.0) for column in columns]
@@ -76,11 +85,11 @@ class Echelon:
     The columns are a lower triangular matrix, but for the order of its rows, times an upper one.
 
     Attributes:
-        digits: of the numbers in the columns.
+        digits: of the numbers in the columns; bits: that are computed with.
     """
 
     def __init__(self, rows: int, digits: int) -> None:
-        self.digits = digits
+        self.digits, self.bits = digits, bits_of(digits + SPARE)
         self._rows = rows
         self._pivots: list[int] = []
         self._lower = flint.arb_mat(rows, rows)
@@ -107,6 +116,10 @@ class Echelon:
             TooFewDigitsError: if it is dependent and a coefficient is not recognised, or if the
                 digits do not tell whether it is dependent.
         """
+        with in_bits(self.bits):
+            return self._add(column)
+
+    def _add(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
         tops, rest = self._reduced(column)
         pivot = max(rest, key=lambda i: rest[i].abs_lower(), default=None)
         if pivot is None or rest[pivot].contains(0):
@@ -121,6 +134,10 @@ class Echelon:
         Raises:
             TooFewDigitsError: as `add`.
         """
+        with in_bits(self.bits):
+            return self._relation(column)
+
+    def _relation(self, column: Sequence[flint.arb]) -> list[Fraction] | None:
         tops, rest = self._reduced(column)
         if not all(x.contains(0) for x in rest.values()):
             return None
@@ -163,20 +180,23 @@ class Echelon:
             values[k] = values[k] / upper[k]
             for i in range(k):
                 values[i] = values[i] - upper[i] * values[k]
-        return [recognised(x) for x in values]
+        return [recognised(x, self.digits) for x in values]
 
 
-def recognised(x: flint.arb) -> Fraction:
+def recognised(x: flint.arb, digits: float) -> Fraction:
     """The rational number in a ball, if its size shows that it is there by no accident.
 
     A ball of radius ``r`` holds a fraction with denominator ``q`` by chance with probability of
     about ``q^2 r``.
 
+    Args:
+        digits: those of a ball without a radius.
+
     Raises:
         TooFewDigitsError: if there is none.
     """
     radius = _fraction(x.rad())
-    digits = _digits(radius) if radius else flint.ctx.dps
+    digits = _digits(radius) if radius else digits
     middle = _fraction(x.mid())
     found = middle.limit_denominator(10 ** max(0, int(digits - EVIDENCE) // 2))
     if digits < EVIDENCE or abs(found - middle) > radius:

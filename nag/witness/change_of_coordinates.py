@@ -15,11 +15,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-import flint
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
+from nag.numerics.digits import bits_of, change_units
 from nag.numerics.natural_coordinates import NaturalCoordinates, comparable_coordinates
 from nag.witness.close_points import (
     CLOSE,
@@ -168,15 +168,9 @@ def _carry_fine(point: Fine, natural: NaturalCoordinates) -> Fine:
         further = np.ones(len(point.words) - n)
         words = point.words / np.append(natural.sizes, further)[:, None, None]
         return replace(point, words=words)
-    from nag.numerics.digits import number
-
-    with flint.ctx.workdps(2 * DIGITS):
-        x = point.balls()
-        moved = [
-            (z - number(b)) / number(s)
-            for z, s, b in zip(x[:n], natural.scales, natural.origin, strict=True)
-        ]
-        there = in_words([*moved, *x[n:]], 1.0)
+    x, back = point.balls(), natural.inverse
+    moved = change_units(x[:n], back.scales, back.origin, bits_of(2 * DIGITS))
+    there = in_words([*moved, *x[n:]], 1.0)
     before, after = (1 + float(np.linalg.norm(each.rounded)) for each in (point, there))
     steep = point.curvature * float(natural.sizes.max(initial=1.0)) * after / before
     return replace(there, curvature=max(steep, 1.0))
