@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
 import flint
 import numpy as np
 
+from nag.algebra.flint_numbers import to_rational
 from nag.algebra.number import Irrational
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.digits import in_bits, number
@@ -147,8 +149,7 @@ class BallPolynomials:
 
     def _values(self, x: Sequence[flint.acb], bits: int) -> list[flint.acb]:
         if bits not in self._terms:
-            place = self._monomials.place
-            self._terms[bits] = [[(in_ball(c), place(f)) for c, f in row] for row in self.rows]
+            self._terms[bits] = self._terms_in(bits)
         at = self._monomials.values(x)
         values = [] if self.above is None else self.above._values(x, bits)
         for row in self._terms[bits]:
@@ -158,6 +159,14 @@ class BallPolynomials:
                 total = total + c * at[place]
             values.append(total)
         return values
+
+    def _terms_in(self, bits: int) -> list[list[tuple[flint.acb, int]]]:
+        # What rounds nothing in fewer bits is the same in more.
+        for fewer, rows in self._terms.items():
+            if fewer < bits and all(c.is_exact() for row in rows for c, _ in row):
+                return rows
+        place = self._monomials.place
+        return [[(in_ball(c), place(f)) for c, f in row] for row in self.rows]
 
     def sizes(self, x: Sequence[Any], bits: int) -> list[flint.arb]:
         """Sums of the absolute values of each row's terms at a point."""
@@ -175,7 +184,7 @@ class BallPolynomials:
     def _jacobian(self, x: Sequence[flint.acb], bits: int) -> list[flint.acb]:
         monomials, slopes = self._slopes
         if bits not in self._matrices:
-            self._matrices[bits] = [_matrix(s) for s in slopes]
+            self._matrices[bits] = self._matrices_in(bits)
         at = monomials.values(x)
         entries = [flint.acb(0)] * (len(self.rows) * self.n)
         for r, (row, matrix) in enumerate(zip(slopes, self._matrices[bits], strict=True)):
@@ -183,6 +192,12 @@ class BallPolynomials:
             for i, slope in zip(row.variables, (matrix * column).entries(), strict=True):
                 entries[r * self.n + i] = slope
         return entries if self.above is None else self.above._jacobian(x, bits) + entries
+
+    def _matrices_in(self, bits: int) -> list[flint.acb_mat]:
+        for fewer, matrices in self._matrices.items():
+            if fewer < bits and all(c.is_exact() for each in matrices for c in each.entries()):
+                return matrices
+        return [_matrix(slopes) for slopes in self._slopes[1]]
 
     @cached_property
     def _monomials(self) -> MonomialProducts:
@@ -233,7 +248,14 @@ def _matrix(slopes: Slopes) -> flint.acb_mat:
 
 def in_ball(c: Any) -> flint.acb:
     """An exact coefficient in the digits that are worked with; a pair has an imaginary part."""
-    if isinstance(c, tuple):
+    kind = type(c)
+    if kind is Fraction:
+        return flint.acb(to_rational(c))
+    if kind is complex:
+        return flint.acb(c)
+    if kind is tuple:
+        if type(c[0]) is type(c[1]) is Fraction:
+            return flint.acb(flint.arb(to_rational(c[0])), flint.arb(to_rational(c[1])))
         return in_ball(c[0]) + in_ball(c[1]) * flint.acb(0, 1)
     value = number(c)
     if isinstance(c, Irrational):

@@ -98,6 +98,15 @@ def log_size(z: flint.acb | int) -> float:
 
 def log_norm(values: Iterable[flint.acb]) -> float:
     """The decimal logarithm of the largest absolute value, roughly; ``-inf`` if there is none."""
+    values = list(values)
+    try:
+        sizes = [abs(complex(z)) for z in values]
+    except OverflowError:
+        return max(map(log_size, values))
+    # Where nothing is out of doubles' range, one logarithm says it.
+    top = max(sizes, default=0.0)
+    if top > SMALLEST and sum(sizes) < LARGEST:
+        return log10(top)
     return max(map(log_size, values), default=-np.inf)
 
 

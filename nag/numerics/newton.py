@@ -136,9 +136,8 @@ def find_zero(
             continue
         lost = max(0.0, rounding - size + LOG10_2 * bits)
         x = subtract_step(x, step, max(bits, bits_of(digits) + MORE_BITS))
-        moved = log_norm(a - b for a, b in zip(x, start, strict=True))
         slow = count >= FIRST_STEPS and length > last - gain
-        if (slow and not done) or moved - size > within:
+        if (slow and not done) or not _is_within(x, start, size + within):
             return None
         if done and (last < inf or length == -inf):
             return Converged(x, error, inverse)
@@ -149,6 +148,11 @@ def find_zero(
         known = min(4 * (size - length), digits) if length > -inf else digits
         bits = max(bits, UNIT_BITS * -(-(bits_of(known + lost) + MORE_BITS) // UNIT_BITS))
     return None
+
+
+def _is_within(x: Sequence[flint.acb], start: Sequence[flint.acb], most: float) -> bool:
+    """Whether the largest difference has a decimal logarithm of so much at most."""
+    return most == inf or log_norm(a - b for a, b in zip(x, start, strict=True)) <= most
 
 
 def _lengths(step: Sequence[flint.acb]) -> tuple[float, float]:
