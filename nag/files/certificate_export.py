@@ -11,9 +11,9 @@ from typing import Any
 import flint
 
 from nag.files.json_values import system_document
+from nag.numerics.ball_boxes import BITS, FineBox
 from nag.numerics.certified_points import CertifiedPoints
 from nag.numerics.claims import Claim, nothing_against
-from nag.numerics.krawczyk import BITS, FineBox
 from nag.solving.certificate import SolutionsCertificate
 from nag.solving.certified_paths import ProvedPaths
 from nag.text.json_text import pairs, real_or_null

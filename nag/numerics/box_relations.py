@@ -7,9 +7,10 @@ from collections.abc import Iterator
 import flint
 import numpy as np
 
+from nag.numerics.ball_boxes import FineBox
 from nag.numerics.coincidence import neighbours
 from nag.numerics.discs import UNIT, UP
-from nag.numerics.krawczyk import Boxes, FineBox
+from nag.numerics.krawczyk import Boxes
 
 
 def overlaps(boxes: Boxes) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:

@@ -20,6 +20,7 @@ from scipy.linalg import qr
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.exact_ranks import jacobian_rank
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_boxes import BITS, FineBox, box_about
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.box_relations import overlaps
 from nag.numerics.close_zeros import close_zeros, matched
@@ -27,7 +28,7 @@ from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
 from nag.numerics.digits import in_bits, middle, number, rational_point
 from nag.numerics.discs import UP
-from nag.numerics.krawczyk import BITS, Boxes, FineBox, box_about, boxes_of, enter_box
+from nag.numerics.krawczyk import Boxes, boxes_of, enter_box
 from nag.numerics.singular_point import Place, analyse
 
 # Zeros further from a point than its accuracy, times this, or this much, are not meant by it.

@@ -21,8 +21,8 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.ball_boxes import FineBox, box_about
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.digits import in_bits
 from nag.numerics.discs import (
     LEAST,
     UP,
@@ -31,7 +31,6 @@ from nag.numerics.discs import (
     magnitude,
     matrix_product,
 )
-from nag.numerics.newton import Functions, inverse_of, newton_step, newton_to_rest
 
 # A box that is not mapped into itself is enlarged so many times; how much each side exceeds that
 # of the image, and the side of a coordinate that is zero, relative to the largest.
@@ -41,36 +40,6 @@ WIDER, LEAST_SIDE = 2.0, 2.0**-60
 GROWTH, GROWN = 1024.0, 1
 # Points that are tested at once, by entries of their Jacobians.
 BLOCK = 2**20
-# Bits of the balls, one after the other, and Newton steps in each.
-BITS = (128, 256, 512)
-STEPS = 12
-# Sides of boxes of balls, beside the coordinates and the largest of them: powers of two.
-FIRST_SIDE, SIDES_APART, LAST_SIDE = -16, 16, 24
-# Times that a box is replaced by its image, in which its zero lies.
-SMALLER = 12
-
-
-@dataclass(frozen=True, eq=False)
-class FineBox:
-    """A box of more digits than doubles have.
-
-    Attributes:
-        centre: exact numbers.
-        outer: radii of a box about it that holds exactly one zero.
-        inner: radii of a box about it that this zero lies in.
-    """
-
-    centre: tuple[flint.acb, ...]
-    outer: tuple[flint.arb, ...]
-    inner: tuple[flint.arb, ...]
-
-    @property
-    def balls(self) -> list[flint.acb]:
-        """The box in which the zero lies."""
-        return [
-            flint.acb(flint.arb(z.real, r), flint.arb(z.imag, r))
-            for z, r in zip(self.centre, self.inner, strict=True)
-        ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,88 +202,6 @@ def box_in_balls(system: BallPolynomials, point: np.ndarray, reach: float) -> Fi
     if box is None or not all(abs(a - b) < bound for a, b in zip(start, box.centre, strict=True)):
         return None
     return box
-
-
-def box_about(
-    system: BallPolynomials, start: Sequence[flint.acb], ladder: Sequence[int] = BITS
-) -> FineBox | None:
-    """The box of the simple zero that Newton's method finds from a point, or None.
-
-    Args:
-        ladder: bits of the balls, tried one after the other.
-    """
-    for bits in ladder:
-        x = newton_to_rest(system, start, bits, STEPS)
-        box = None if x is None else ball_box(system, x, bits)
-        if box is not None:
-            return box
-    return None
-
-
-def ball_box(system: Functions, x: list[flint.acb], bits: int) -> FineBox | None:
-    """Krawczyk's test in balls about ``x``, for boxes from large to small."""
-    about = BallOperator.about(system, x, bits)
-    if about is None:
-        return None
-    with in_bits(bits):
-        scale = max([abs(z).mid() for z in x if abs(z).mid() > 0], default=flint.arb(1))
-        alike = [scale] * len(x)
-        for exponent in range(FIRST_SIDE, -bits + LAST_SIDE, -SIDES_APART):
-            part = flint.arb(2) ** exponent
-            # Sides of one size, and sides as the coordinates have them.
-            for sizes in (alike, [abs(z).mid() + scale * part for z in x]):
-                outer = [(size * part).mid() for size in sizes]
-                image = about.image(outer)
-                if all(a < r for a, r in zip(image, outer, strict=True)):
-                    return FineBox(tuple(x), tuple(outer), _shrunk(about, image))
-    return None
-
-
-@dataclass(frozen=True, eq=False)
-class BallOperator:
-    """Krawczyk's operator about an exact point, in balls of so many bits.
-
-    Attributes:
-        inverse: a matrix near the inverse Jacobian at ``x``; step: Newton's by it, in balls.
-    """
-
-    system: Functions
-    x: list[flint.acb]
-    bits: int
-    inverse: flint.acb_mat
-    step: list[flint.acb]
-
-    @classmethod
-    def about(cls, system: Functions, x: list[flint.acb], bits: int) -> BallOperator | None:
-        """None where the Jacobian has no inverse."""
-        inverse = inverse_of(system.jacobian(x, bits), bits)
-        step = None if inverse is None else newton_step(system, x, bits, inverse)
-        return None if step is None else cls(system, x, bits, inverse, step)
-
-    def image(self, sides: Sequence[flint.arb]) -> list[flint.arb]:
-        """Upper bounds of the distances of K(X) from ``x``, for discs X of these radii about it."""
-        with in_bits(self.bits):
-            box = [
-                z + flint.acb(flint.arb(0, r), flint.arb(0, r))
-                for z, r in zip(self.x, sides, strict=True)
-            ]
-            product, n = self.inverse * self.system.jacobian(box, self.bits), len(self.x)
-            found = []
-            for i in range(n):
-                total = self.step[i].abs_upper()
-                for j in range(n):
-                    total = total + abs(product[i, j] - int(i == j)) * sides[j]
-                found.append(flint.acb(total).abs_upper())
-            return found
-
-
-def _shrunk(about: BallOperator, sides: list[flint.arb]) -> tuple[flint.arb, ...]:
-    """Sides of the smallest box that the zero is seen to lie in."""
-    for _ in range(SMALLER):
-        last, sides = sides, about.image(sides)
-        if not any(2 * a < b for a, b in zip(sides, last, strict=True)):
-            break
-    return tuple(sides)
 
 
 def enter_box(boxes: Boxes, i: int, fine: FineBox) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import flint
 import numpy as np
 
-from nag.numerics.krawczyk import BallOperator
+from nag.numerics.ball_boxes import BallOperator
 from nag.numerics.newton import newton_step, subtract_step
 from nag.tracking.ends.terms import BITS, Terms, number
 
