@@ -21,7 +21,7 @@ from nag.decomposition import several_equations
 from nag.decomposition.components import decompose
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Superset
-from nag.decomposition.toric_section import paths_at_once, section_at_once
+from nag.decomposition.toric_section import paths_at_once, section_at_once, turns_to_cut
 from nag.files.cases import read_case
 from nag.mechanism.linkage import Link, Linkage, linkage_model
 from nag.mechanism.model import model
@@ -42,8 +42,11 @@ def planar(name: str) -> PolynomialSystem:
 
 def at_once(system: PolynomialSystem, seed: int) -> tuple[Superset | None, PathCounts]:
     reduction, rng = Reduction.of(system, scaled=True), np.random.default_rng(seed)
+    turns = turns_to_cut(reduction)
+    if turns is None:
+        return None, PathCounts()
     flag = random_rows(rng, reduction.n, reduction.n)
-    return section_at_once(reduction, flag, rng, Run())
+    return section_at_once(reduction, turns, flag, rng, Run())
 
 
 def plate(name: str, pins: str, *places: tuple[int, int]) -> Link:

@@ -9,7 +9,7 @@ import flint
 
 def to_rational(c: Fraction | int) -> flint.fmpq:
     """A fraction as FLINT's."""
-    return flint.fmpq(c.numerator, c.denominator)
+    return flint.fmpq(*c.as_integer_ratio())
 
 
 def to_fraction(q: flint.fmpq) -> Fraction:

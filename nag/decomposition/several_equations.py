@@ -20,7 +20,7 @@ from nag.decomposition.isolated import (
 from nag.decomposition.method import Attempt, Task
 from nag.decomposition.orbits import Action
 from nag.decomposition.superset import Ambient, Superset, intersection_order, witness_superset
-from nag.decomposition.toric_section import section_at_once
+from nag.decomposition.toric_section import section_at_once, turns_to_cut
 from nag.witness.points import Points
 from nag.witness.slices import random_rows
 from nag.witness.witness import Decomposition, PathCounts
@@ -28,9 +28,12 @@ from nag.witness.witness import Decomposition, PathCounts
 
 def decompose_section(task: Task) -> Attempt:
     """The components of a set of turns by all its points on a slice, see `section_at_once`."""
+    turns = turns_to_cut(task.reduction)
+    if turns is None:
+        return Attempt()
     flag, rng = _random_flag(task)
     own = task.run.random(23)
-    superset, spent = section_at_once(task.reduction, flag, own, task.run)
+    superset, spent = section_at_once(task.reduction, turns, flag, own, task.run)
     if superset is None:
         return Attempt(None, spent)
     answer = _settle(task, superset, rng)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from nag.algebra.system import PolynomialSystem
-from nag.algebra.turns import looped_turns
+from nag.algebra.turns import Turns, looped_turns
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.superset import Superset
 from nag.errors import StartError
@@ -25,17 +25,14 @@ from nag.witness.witness import PathCounts
 
 
 def section_at_once(
-    reduction: Reduction, flag: np.ndarray, rng: np.random.Generator, run: Run
+    reduction: Reduction, turns: Turns, flag: np.ndarray, rng: np.random.Generator, run: Run
 ) -> tuple[Superset | None, PathCounts]:
     """Witness points of a set of turns, if they are proved to be all.
 
-    Also what paths that took. None if the system is not one of turns, or if there are fewer zeros
-    than the mixed volume: the set may have a larger component, or meet infinity where others do
-    not.
+    Also what paths that took. None if there are fewer zeros than the mixed volume: the set may have
+    a larger component, or meet infinity where others do not.
     """
-    section = _section(reduction, flag)
-    if section is None:
-        return None, PathCounts()
+    section = _section(reduction, turns, flag)
     x, tracked = section.zeros(run.settings, rng, run.threads)
     counts = PathCounts(tracked)
     if x is None:
@@ -59,21 +56,28 @@ def section_at_once(
 def paths_at_once(system: PolynomialSystem) -> int | None:
     """How many paths `section_at_once` tracks; None if the system is not one of turns."""
     reduction, rng = Reduction.of(system), np.random.default_rng(0)
-    section = _section(reduction, random_rows(rng, reduction.n, reduction.n))
+    turns = turns_to_cut(reduction)
+    if turns is None:
+        return None
     try:
-        return None if section is None else section.cells(rng).mixed_volume or None
+        section = _section(reduction, turns, random_rows(rng, reduction.n, reduction.n))
+        return section.cells(rng).mixed_volume or None
     except StartError:
         return None
 
 
-def _section(reduction: Reduction, flag: np.ndarray) -> IsotropicSection | None:
-    """The section by as many rows of the flag as leave points; None for other systems."""
+def turns_to_cut(reduction: Reduction) -> Turns | None:
+    """The turns that a system is one of, in dimension as its equations count; None for others."""
     system = reduction.natural.system(reduction.system)
     turns = None if system.nonzero else looped_turns(system)
-    if turns is None or turns.freedoms != reduction.n - len(reduction.reduced.polynomials):
-        return None
+    own = turns is not None and turns.freedoms == reduction.n - len(reduction.reduced.polynomials)
+    return turns if own else None
+
+
+def _section(reduction: Reduction, turns: Turns, flag: np.ndarray) -> IsotropicSection:
+    """The section by as many rows of the flag as leave points."""
     rows = flag[: turns.freedoms]
-    slices = np.zeros((len(rows), 1 + system.n), dtype=complex)
+    slices = np.zeros((len(rows), 1 + reduction.system.n), dtype=complex)
     slices[:, 0] = rows[:, 0]
     slices[:, [1 + i for i in reduction.kept]] = rows[:, 1:] / reduction.scales
     return IsotropicSection(turns, slices)

@@ -87,7 +87,10 @@ def _disjoint_sets(relations: list[list[int]]) -> list[list[int]] | None:
     """Disjoint sets whose indicators span what these vectors span; None if there are none such."""
     if not relations:
         return []
-    table = np.array(row_echelon(relations)[0], dtype=object)
-    if not np.isin(table, (0, 1)).all() or ((table != 0).sum(axis=0) > 1).any():
-        return None
-    return [np.flatnonzero(row).tolist() for row in table]
+    sets = []
+    for row in row_echelon(relations)[0]:
+        if any(c not in (0, 1) for c in row):
+            return None
+        sets.append([j for j, c in enumerate(row) if c])
+    members = [j for own in sets for j in own]
+    return sets if len(set(members)) == len(members) else None

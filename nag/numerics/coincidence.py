@@ -92,6 +92,8 @@ def clusters(points: np.ndarray, accuracy: np.ndarray) -> list[np.ndarray]:
     """
     count = len(points)
     label = np.arange(count)
+    if count < 2:
+        return list(label[:, None])
 
     def root(i: int) -> int:
         while label[i] != i:
