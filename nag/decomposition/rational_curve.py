@@ -16,6 +16,7 @@ from nag.decomposition.hypersurface import NEARER
 from nag.decomposition.reduction import Reduction
 from nag.decomposition.roots import BITS, ball, points_at_roots, points_in_balls
 from nag.decomposition.splitting import Class
+from nag.numerics.digits import in_bits
 from nag.tracking.run import Run
 from nag.witness.cutting import Cut
 from nag.witness.slices import random_rows
@@ -50,7 +51,7 @@ def decompose_rational_curve(
     if degree > MOST_DEGREE:
         return None
     rows = random_rows(rng, n, n, NEARER)[:1]
-    with flint.ctx.workprec(BITS):
+    with in_bits(BITS):
         images = [
             flint.acb_poly([ball(f.terms.get((k,), 0)) for k in range(f.degree + 1)])
             for f in graph.images

@@ -11,6 +11,7 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
+from nag.numerics.digits import in_bits
 from nag.witness.close_points import close_pairs, in_words
 from nag.witness.cutting import Cut
 from nag.witness.exact_points import of_balls
@@ -33,7 +34,7 @@ def line(rows: np.ndarray) -> list[Any]:
     """
     A = rows[:, 1:]
     n, direction = A.shape[1], np.linalg.svd(A)[2][-1]
-    with flint.ctx.workprec(BITS):
+    with in_bits(BITS):
         whole = flint.acb_mat(n, n, [complex(c) for c in np.vstack([A, direction]).ravel()])
         right = [c for row in rows[:, 0] for c in (complex(-row), 0)] + [0, 1]
         points = whole.solve(flint.acb_mat(n, 2, right))
@@ -49,7 +50,7 @@ def zeros_on(f: Polynomial, images: Sequence[Any]) -> list[list[Any]] | None:
     Returns:
         As `points_at_roots`.
     """
-    with flint.ctx.workprec(BITS):
+    with in_bits(BITS):
         powers = [[image**k for k in range(f.degree_in([i]) + 1)] for i, image in enumerate(images)]
         restricted = flint.acb_poly([])
         for exponents, c in f.terms.items():
@@ -85,7 +86,6 @@ def points_in_balls(cut: Cut, rows: np.ndarray, balls: Sequence[Sequence[Any]]) 
     How close, the points tell.
     """
     points = np.array([[complex(c) for c in point] for point in balls])
-    with flint.ctx.workprec(BITS):
-        fine = {i: in_words(balls[i], 1.0) for pair in close_pairs(points) for i in pair}
-        known = of_balls(balls)
+    fine = {i: in_words(balls[i], 1.0) for pair in close_pairs(points) for i in pair}
+    known = of_balls(balls)
     return replace(Points.of([Fibre(cut, len(rows), points, fine)], rows), known=known)

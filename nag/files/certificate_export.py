@@ -8,10 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import flint
-
 from nag.files.json_values import system_document
-from nag.numerics.ball_boxes import BITS, FineBox
+from nag.numerics.ball_boxes import FineBox
 from nag.numerics.certified_points import CertifiedPoints
 from nag.numerics.claims import Claim, nothing_against
 from nag.solving.certificate import SolutionsCertificate
@@ -49,11 +47,7 @@ def _points(points: CertifiedPoints) -> list[dict[str, Any]]:
 
 def _decimals(box: FineBox) -> list[list[str]]:
     """Real and imaginary parts of the zero in a box, to the digits that the box leaves."""
-    with flint.ctx.workprec(BITS[-1]):
-        return [
-            [flint.arb(part.mid(), r).str(DIGITS, radius=False) for part in (z.real, z.imag)]
-            for z, r in zip(box.centre, box.inner, strict=True)
-        ]
+    return [[part.str(DIGITS, radius=False) for part in (z.real, z.imag)] for z in box.balls]
 
 
 def _reality(certificate: SolutionsCertificate) -> list[bool | None]:

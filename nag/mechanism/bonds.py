@@ -20,15 +20,17 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
 
+import flint
 import numpy as np
 
-from nag.algebra.number import Number, to_mpf
+from nag.algebra.number import Number
 from nag.algebra.system import PolynomialSystem
 from nag.errors import MechanismError, NagError
 from nag.mechanism.axes import direction, dot
 from nag.mechanism.dh import DHModel
 from nag.mechanism.half_angles import HalfAngleModel
 from nag.mechanism.model import Model
+from nag.numerics.digits import bits_of, in_bits, number
 from nag.numerics.precise_point import DIGITS
 from nag.numerics.read_only import fixed_mapping
 from nag.tracking.run import DEFAULT_RUN, Run, takes_run
@@ -130,7 +132,7 @@ def _loop(given: Model | DHModel) -> _Loop:
         kept = tuple(turn.joint for turn in given.charts.plain)
 
         def turns(point: Sequence[Any]) -> Mapping[str, tuple[Any, Any]]:
-            return given.turns(point, lambda c: to_mpf(c, DIGITS))
+            return given.turns(point, number)
 
         return _Loop(given.system, names, kept, dict.fromkeys(names, Fraction(1)), turns)
     form = given.form
@@ -183,9 +185,9 @@ def bonds(
     degrees: dict[str, int] = {}
     for i, joint in enumerate(loop.kept):
         ends, degrees[joint] = search.over(i)
-        for kind, number in ends.items():
+        for kind, paths in ends.items():
             # So many paths as the order come together at each of two conjugate ends.
-            found.setdefault(kind, set()).add(Fraction(number, 2 * dict(kind)[joint]))
+            found.setdefault(kind, set()).add(Fraction(paths, 2 * dict(kind)[joint]))
     pairs = []
     for kind in sorted(found, key=lambda kind: [order.index(name) for name, _ in kind]):
         (count, *others) = found[kind]
@@ -263,16 +265,12 @@ class _Ends:
                 result.append(self._vanishing(norms, self._norms(self._precise(fibre, goal, y))))
         return result
 
-    def _precise(self, fibre: Fibre, rows: np.ndarray, z: np.ndarray) -> list[Any]:
+    def _precise(self, fibre: Fibre, rows: np.ndarray, z: np.ndarray) -> list[flint.acb]:
         """A point near an end in many digits: eliminated joints lose most of them there."""
-        import mpmath
-
         zero = zero_in_digits(fibre.cut, rows, z)
         if zero is None:
             raise BondError("points near the ends of the curve are not regular")
-        with mpmath.workdps(DIGITS):
-            parts = [[mpmath.mpf(_man_exp(part)) for part in (x.real, x.imag)] for x in zero.centre]
-            return [mpmath.mpc(*both) for both in parts[: self.n]]
+        return list(zero.centre[: self.n])
 
     def _rows(self, i: int, value: complex) -> np.ndarray:
         row = np.zeros((1, 1 + self.n), dtype=complex)
@@ -293,20 +291,12 @@ class _Ends:
         orders = {name: int(power * unit) for name, power in powers.items()}
         return tuple((name, order // gcd(*orders.values())) for name, order in orders.items())
 
-    def _norms(self, point: Sequence[Any]) -> dict[str, float]:
+    def _norms(self, point: Sequence[flint.acb]) -> dict[str, float]:
         """Of each joint's half-angle, relative to its size."""
-        import mpmath
-
         result = {}
-        with mpmath.workdps(DIGITS):
+        with in_bits(bits_of(DIGITS)):
             for name, (c, s) in self.loop.half_angles(point).items():
-                square = to_mpf(self.loop.squares[name], DIGITS)
-                size = abs(c) ** 2 + square * abs(s) ** 2
-                result[name] = max(float(abs(c * c + square * s * s) / size), 1e-300)
+                square = number(self.loop.squares[name])
+                size = abs(c) ** 2 + square.real * abs(s) ** 2
+                result[name] = max(float((abs(c * c + square * s * s) / size).mid()), 1e-300)
         return result
-
-
-def _man_exp(x: Any) -> Any:
-    """The middle of an ``arb``, as `mpmath` takes it."""
-    man, exp = x.mid().man_exp()
-    return int(man), int(exp)

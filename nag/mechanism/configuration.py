@@ -10,9 +10,12 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
 
+import flint
+
 from nag.algebra.number import Irrational, Number, square_root, to_mpf
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.quaternion import conjugate, multiply, rotate
+from nag.numerics.digits import number
 from nag.text.table import one_line
 
 
@@ -25,7 +28,7 @@ class Configuration:
         position: the place of each body's reference point, as tuples of 3 numbers. A body's
             reference point is the one that is at the global origin in the reference configuration.
 
-    Entries are exact where the lifted point was exact, else complex or `mpmath` numbers.
+    Entries are exact where the lifted point was exact, else complex, balls or `mpmath` numbers.
     """
 
     euler: Mapping[str, tuple[Any, ...]]
@@ -60,7 +63,9 @@ class Arithmetic:
 
 
 def arithmetic_of(point: Sequence[Any]) -> Arithmetic:
-    """The arithmetic in which ``point`` is to be lifted: exact, `mpmath` or complex doubles."""
+    """The arithmetic in which a point is lifted: exact, balls, `mpmath` or complex doubles."""
+    if any(isinstance(x, flint.acb) for x in point):
+        return Arithmetic(number, flint.acb.sqrt)
     if all(isinstance(x, int | Fraction | Irrational) for x in point):
         return Arithmetic(lambda c: c, square_root)
     if any(_is_multiprecision(x) for x in point):
@@ -83,7 +88,7 @@ def as_entries(point: Sequence[Any]) -> tuple[Any, ...]:
     for x in point:
         if isinstance(x, int):
             x = Fraction(x)
-        elif not isinstance(x, Fraction | Irrational) and not _is_multiprecision(x):
+        elif not isinstance(x, Fraction | Irrational | flint.acb) and not _is_multiprecision(x):
             x = complex(x)
         entries.append(x)
     return tuple(entries)

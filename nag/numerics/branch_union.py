@@ -31,7 +31,8 @@ from nag.numerics.zero_values import (
     NONZERO,
     multiplicity_of_all,
     possible_zeros,
-    surely_differs,
+    vanishes,
+    widen_point,
 )
 
 # A point, in doubles or in balls, and how far the exact one may be from it.
@@ -100,7 +101,7 @@ class GenericPoint(ABC):
             return self.zero.vanishes(f)
         if (Evaluator.of([f], f.n).residuals(self.points) > NONZERO).any():
             return False
-        if self.radii is not None and surely_differs(f, self.point, self.radii):
+        if self.radii is not None and vanishes(f, widen_point(self.point, self.radii)) is False:
             return False
         image, zero = self.branch.image(f)
         if zero or self.branch.kind in (BranchKind.POINT, BranchKind.LINEAR_SPACE):

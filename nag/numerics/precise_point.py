@@ -9,7 +9,7 @@ from math import inf
 import flint
 import numpy as np
 
-from nag.numerics.digits import doubles, log_norm, middle, times_power_of_two
+from nag.numerics.digits import doubles, log_norm, times_power_of_two
 from nag.numerics.newton import Functions, find_zero
 
 # Decimal digits that zeros are worked out to where nothing else is said.
@@ -39,10 +39,9 @@ class PrecisePoint:
         return cls(tuple(centre), np.full(len(centre), radius))
 
     @classmethod
-    def of_balls(cls, balls: Sequence[flint.acb]) -> PrecisePoint:
-        """Balls, as a middle and a radius each."""
-        radii = [float(z.rad().upper()) for z in balls]
-        return cls(tuple(map(middle, balls)), np.array(radii, dtype=float))
+    def of_doubles(cls, x: np.ndarray, radii: np.ndarray) -> PrecisePoint:
+        """Complex doubles with their errors, both of shape ``(n,)``."""
+        return cls(tuple(map(flint.acb, x.tolist())), radii)
 
     def __len__(self) -> int:
         return len(self.centre)

@@ -124,8 +124,8 @@ def vanishes_at_all(zeros: Sequence[SingularEnd], f: Polynomial) -> bool | None:
     return answers.pop() if len(answers) == 1 else None
 
 
-def surely_differs(f: Polynomial, x: np.ndarray, radii: np.ndarray) -> bool:
-    """Whether a polynomial has no zero in the ball about a point, with a margin.
+def widen_point(x: np.ndarray, radii: np.ndarray) -> PrecisePoint:
+    """A point in doubles with errors that are surely large enough.
 
     A coordinate of 1e-89 beside one of 1e45 vanishes to any digits that both are written to
     together, but not to its own.
@@ -133,9 +133,7 @@ def surely_differs(f: Polynomial, x: np.ndarray, radii: np.ndarray) -> bool:
     Args:
         radii: errors of the coordinates, shape ``(n,)``; to them comes that of writing them.
     """
-    wide = SLACK * (radii + np.finfo(float).eps * np.abs(x))
-    point = PrecisePoint(tuple(map(flint.acb, x.tolist())), wide)
-    return not BallPolynomials.of((f,)).values(point.balls, LEAST_BITS)[0, 0].contains(0)
+    return PrecisePoint.of_doubles(x, SLACK * (radii + np.finfo(float).eps * np.abs(x)))
 
 
 def multiplicity_of_all(zeros: Sequence[SingularEnd]) -> int | None:

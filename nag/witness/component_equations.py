@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-import flint
 import numpy as np
 
 from nag.algebra.branches import Branch, branches
@@ -91,8 +90,7 @@ def precise_point(component: WitnessSet) -> PrecisePoint:
         zero = zero_in_digits(fibre.cut, rows, fibre.points[0], fine)
         if zero is not None:
             return zero.first(n)
-    x, radii = component.points[0], component.radii[0]
-    return PrecisePoint(tuple(map(flint.acb, x.tolist())), radii)
+    return PrecisePoint.of_doubles(component.points[0], component.radii[0])
 
 
 def find_fibres(

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import flint
 import numpy as np
 
+from nag.numerics.digits import bits_of, in_bits
 from nag.solving.start.fibre_monodromy import GenericSystem
 from nag.solving.start.target import group_degrees, homogenized, unit
 from nag.tracking.compiled import CompiledRows
@@ -179,7 +180,7 @@ def _second_differences(
     for rows, points in there:
         homotopy = Homotopy(rows, np.zeros((0, rows.N), dtype=complex))
         fine.append(affine_points(newton_steps(homotopy, points, 4, STEPS)))
-    with flint.ctx.workdps(DIGITS):
+    with in_bits(bits_of(DIGITS)):
         u, v = map(flint.acb, shifts)
         differences = [
             [(b - a) / u - (c - a) / v for a, b, c in zip(*each, strict=True)]
