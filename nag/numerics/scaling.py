@@ -103,6 +103,9 @@ class Logarithms:
         n = exponents.shape[1]
         if not self.counts:
             return np.full(n, near).astype(np.int64)
+        if isinstance(near, float) and near == 0.0 and self._largest_range(sizes) == 0.0:
+            # No scales are better than those with which nothing varies, and none as near to 0.
+            return np.zeros(n, dtype=np.int64)
         # All weights are one at first.
         total, weighted, weighted_sizes = np.array(self.counts, dtype=float), exponents, sizes
         for _ in range(SWEEPS + 1):
