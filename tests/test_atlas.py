@@ -36,9 +36,8 @@ from nag.bench.atlas.stability import (
 from nag.bench.verdicts import agrees
 from nag.cli import main
 from nag.files.cases import read_case
-from nag.numerics.box_relations import overlaps
 from nag.numerics.discs import DiscPolynomials, Discs
-from nag.numerics.krawczyk import boxes_of
+from nag.numerics.krawczyk import boxes_of, overlaps
 from nag.numerics.local_dimension import local_dimension
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solve import solve

@@ -27,10 +27,9 @@ from nag.files.export import write_decomposition
 from nag.files.json_schema import schema
 from nag.files.solutions_export import read_solutions, write_solutions
 from nag.mechanism.model import model
-from nag.numerics.box_relations import overlaps, real_zeros
 from nag.numerics.certified_points import Proof, certify_points
 from nag.numerics.discs import DiscPolynomials, Discs, product
-from nag.numerics.krawczyk import boxes_in_doubles, boxes_of
+from nag.numerics.krawczyk import boxes_in_doubles, boxes_of, overlaps, real_zeros
 from nag.numerics.point_claims import zero_digits
 from nag.report.certificate import solution_rows
 from nag.solving.certificate import certify_solutions

@@ -214,6 +214,14 @@ def test_forms_that_are_small_but_have_no_zero_do_not_vanish(k: int) -> None:
         assert forms.vanish((1, 0, 0), 1, point, 1e-20) is infinite
 
 
+def test_what_was_asked_for_in_few_bits_is_right_in_many() -> None:
+    x, y = Polynomial.variables(2)
+    homotopy, _ = homotopy_of([(x**2 - y**2) / 3 + x - 1, x - y - y * Fraction(1, 10**60) + 2])
+    terms, point = Terms(homotopy), [flint.acb(1)] * 3
+    assert InitialForms(terms, 64).residual((1, 0, 0), 1, point) < 1e-15
+    assert not InitialForms(terms, FINE).vanish((1, 0, 0), 1, point, 1e-20)
+
+
 def test_where_coordinates_vanish_in_all_terms_nothing_is_left_to_vanish() -> None:
     x, y = Polynomial.variables(2)
     homotopy = Homotopy(compile_rows([x * y - x, x**2 + x * y]), np.zeros((0, 3)))

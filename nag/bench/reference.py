@@ -12,10 +12,9 @@ from nag.algebra.system import PolynomialSystem
 from nag.errors import NagError
 from nag.numerics.ball_boxes import BITS, FineBox, box_about
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.box_relations import overlaps
 from nag.numerics.certified_points import independent_equations
 from nag.numerics.digits import middle
-from nag.numerics.krawczyk import Boxes, enter_box
+from nag.numerics.krawczyk import Boxes, enter_box, overlaps
 
 # A found point belongs to the solution that is nearest, if it is nearer than this, relative to its
 # size.

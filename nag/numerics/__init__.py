@@ -12,6 +12,6 @@ series); `deflation` (a singular zero made a regular one) by `descent` and `shar
 (all of it together); `local_dimension` on `located_zero` and `dimension_bounds` (the dimension at
 any point), and `tangent_cone`; `shown` is what is seen at the prompt. Proofs: `krawczyk` on `discs`
 and `ball_boxes` (boxes that hold one zero), `certified_points` with `deflated_system`,
-`rational_relations`, `box_relations` and `close_zeros` (those that doubles do not tell apart);
+`rational_relations` and `close_zeros` (those that doubles do not tell apart);
 `claims` and `point_claims` (what exports say, against what is proved).
 """

@@ -46,6 +46,29 @@ class FineBox:
         ]
 
 
+def one_zero(a: FineBox, b: FineBox) -> bool | None:
+    """Whether two boxes have the same zero: the zero of one lies where the other has but one.
+
+    The centres are exact, so that distances are right to all but rounding in any precision.
+    None where it is not known.
+    """
+    distance = [abs(x - y) for x, y in zip(a.centre, b.centre, strict=True)]
+    sums = zip(distance, a.inner, b.inner, strict=True)
+    if any(d > r + s for d, r, s in sums):
+        return False
+    if all(d + r < s for d, r, s in zip(distance, a.inner, b.outer, strict=True)):
+        return True
+    if all(d + s < r for d, r, s in zip(distance, a.outer, b.inner, strict=True)):
+        return True
+    return None
+
+
+def holds_conjugate(box: FineBox) -> bool:
+    """Whether a box holds the conjugate of its zero as well."""
+    triples = zip(box.centre, box.inner, box.outer, strict=True)
+    return all(2 * abs(z.imag) + r < s for z, r, s in triples)
+
+
 def box_about(
     system: BallPolynomials, start: Sequence[flint.acb], ladder: Sequence[int] = BITS
 ) -> FineBox | None:

@@ -22,13 +22,12 @@ from nag.algebra.exact_ranks import jacobian_rank
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import BITS, FineBox, box_about
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.box_relations import overlaps
 from nag.numerics.close_zeros import close_zeros, matched
 from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
 from nag.numerics.digits import in_bits, middle, number, rational_point
 from nag.numerics.discs import UP
-from nag.numerics.krawczyk import Boxes, boxes_of, enter_box
+from nag.numerics.krawczyk import Boxes, boxes_of, enter_box, overlaps
 from nag.numerics.singular_point import Place, analyse
 
 # Zeros further from a point than its accuracy, times this, or this much, are not meant by it.

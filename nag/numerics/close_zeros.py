@@ -13,9 +13,8 @@ import flint
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from nag.numerics.ball_boxes import BITS, FineBox, ball_box
+from nag.numerics.ball_boxes import BITS, FineBox, ball_box, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.box_relations import holds_conjugate, one_zero
 from nag.numerics.newton import newton_to_rest
 
 # Places to begin at, for each zero, and steps from there: each may lead part of the way only.

@@ -19,9 +19,8 @@ import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.ball_boxes import BITS, FineBox, box_about
+from nag.numerics.ball_boxes import BITS, FineBox, box_about, holds_conjugate
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.box_relations import holds_conjugate
 from nag.numerics.digits import bits_of, in_bits, log_norm, middle
 from nag.numerics.pivots import pivots
 from nag.numerics.precise_point import PrecisePoint

@@ -14,17 +14,19 @@ References:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import flint
 import numpy as np
 
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.ball_boxes import FineBox, box_about
+from nag.numerics.ball_boxes import FineBox, box_about, holds_conjugate, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
+from nag.numerics.coincidence import neighbours
 from nag.numerics.discs import (
     LEAST,
+    UNIT,
     UP,
     DiscPolynomials,
     Discs,
@@ -219,3 +221,67 @@ def enter_box(boxes: Boxes, i: int, fine: FineBox) -> None:
 def above(value: flint.arb) -> float:
     """A double that is no less."""
     return float(value.upper()) * UP + LEAST
+
+
+def overlaps(boxes: Boxes) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:
+    """Pairs of proved boxes with the same zero, and pairs of which that is not known.
+
+    All other pairs of proved boxes are proved to have distinct zeros.
+    """
+    same, unknown = [], []
+    for i, j in _candidates(boxes):
+        verdict = one_zero(fine_box(boxes, i), fine_box(boxes, j))
+        if verdict is None:
+            unknown.append((i, j))
+        elif verdict:
+            same.append((i, j))
+    return same, unknown
+
+
+def _candidates(boxes: Boxes) -> Iterator[tuple[int, int]]:
+    """Pairs of proved boxes whose doubles do not tell the zeros apart, smaller index first."""
+    places = np.flatnonzero(boxes.proved)
+    centres, inner = boxes.centres[places], boxes.inner[places]
+    n = centres.shape[1]
+    if n == 0:
+        return
+    # Of size one, so that the sum over a box's radii, twice, bounds what the key may differ by.
+    weights = np.exp(1j * np.arange(1, n + 1) ** 2)
+    key = (centres @ weights).real
+    rounding = np.abs(centres).sum(axis=1) * (n + 8) * 8 * UNIT
+    width = (4 * inner.sum(axis=1) + 2 * rounding) * UP
+    for first, second in neighbours(key, width):
+        distance = np.abs(centres[first] - centres[second]) / UP
+        apart = (distance > (inner[first] + inner[second]) * UP).any(axis=1)
+        pairs = zip(places[first[~apart]].tolist(), places[second[~apart]].tolist(), strict=True)
+        yield from (tuple(sorted(pair)) for pair in pairs)
+
+
+def fine_box(boxes: Boxes, i: int) -> FineBox:
+    """A box as balls."""
+    if i in boxes.fine:
+        return boxes.fine[i]
+    return FineBox(
+        tuple(flint.acb(complex(z)) for z in boxes.centres[i]),
+        tuple(flint.arb(float(r)) for r in boxes.outer[i]),
+        tuple(flint.arb(float(r)) for r in boxes.inner[i]),
+    )
+
+
+def real_zeros(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
+    """Which zeros are proved real, and which not real; of equations with real coefficients.
+
+    The conjugate of a zero is one too, so a box with one zero that holds the conjugate has a real
+    zero.
+    """
+    imaginary = np.abs(boxes.centres.imag)
+    # Points that are not proved may be of any size.
+    with np.errstate(over="ignore"):
+        real = boxes.proved & ((2 * imaginary + boxes.inner) * UP < boxes.outer).all(axis=1)
+    complex_ = boxes.proved & (imaginary > boxes.inner * UP).any(axis=1)
+    for i in boxes.fine:
+        box = boxes.fine[i]
+        real[i] = holds_conjugate(box)
+        off = [abs(z.imag) for z in box.centre]
+        complex_[i] = any(d > r for d, r in zip(off, box.inner, strict=True))
+    return real, complex_

@@ -16,14 +16,14 @@ import numpy as np
 
 from nag.algebra.factoring import factored
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.ball_boxes import BITS, FineBox, box_about
+from nag.numerics.ball_boxes import BITS, FineBox, box_about, one_zero
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.box_relations import fine_box, one_zero
 from nag.numerics.certified_points import EVIDENCE, CertifiedPoints, Proof, independent_equations
 from nag.numerics.claims import Standing
 from nag.numerics.deflated_system import vanishing_digits
 from nag.numerics.digits import in_bits
 from nag.numerics.discs import DiscPolynomials, Discs, magnitude
+from nag.numerics.krawczyk import fine_box
 
 # Part of its size by which a coordinate may be further off than is said, in boxes of 150 digits, as
 # one is that is said to be exact: evidence that it is not.

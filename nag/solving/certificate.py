@@ -18,7 +18,6 @@ import numpy as np
 from nag.algebra.combinations import of_lowest_degrees
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.box_relations import overlaps, real_zeros
 from nag.numerics.certified_points import (
     CertifiedPoints,
     Proof,
@@ -26,6 +25,7 @@ from nag.numerics.certified_points import (
     distinct_simple,
 )
 from nag.numerics.claims import Claim, nothing_against
+from nag.numerics.krawczyk import overlaps, real_zeros
 from nag.numerics.point_claims import (
     nonvanishing,
 )

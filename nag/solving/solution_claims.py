@@ -10,7 +10,6 @@ import numpy as np
 from nag.algebra.evaluation import Evaluator
 from nag.algebra.system import PolynomialSystem
 from nag.algebra.zero_count import Completeness, most_zeros
-from nag.numerics.box_relations import overlaps, real_zeros
 from nag.numerics.certified_points import (
     CertifiedPoints,
     Proof,
@@ -24,6 +23,7 @@ from nag.numerics.claims import (
     claims_of_each,
     name_entries,
 )
+from nag.numerics.krawczyk import overlaps, real_zeros
 from nag.numerics.point_claims import (
     error_standings,
     multiplicity_standings,

@@ -26,7 +26,6 @@ import numpy as np
 from nag.algebra.factoring import factored
 from nag.algebra.polynomial import Polynomial
 from nag.algebra.system import PolynomialSystem
-from nag.numerics.box_relations import overlaps
 from nag.numerics.certified_points import (
     CertifiedPoints,
     Proof,
@@ -35,6 +34,7 @@ from nag.numerics.certified_points import (
     joined_boxes,
 )
 from nag.numerics.claims import Claim, nothing_against
+from nag.numerics.krawczyk import overlaps
 from nag.numerics.point_claims import (
     is_away,
     nonvanishing,
