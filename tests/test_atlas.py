@@ -37,7 +37,7 @@ from nag.bench.verdicts import agrees
 from nag.cli import main
 from nag.files.cases import read_case
 from nag.numerics.discs import DiscPolynomials, Discs
-from nag.numerics.krawczyk import boxes_of, overlaps
+from nag.numerics.krawczyk import find_overlaps, prove_boxes
 from nag.numerics.local_dimension import local_dimension
 from nag.solving.parameter_line import parameter_line
 from nag.solving.solve import solve
@@ -125,9 +125,9 @@ def test_the_violated_cube_has_six_proved_configurations() -> None:
     system = bricard_violated(4, np.random.default_rng(0)).system
     found = solve(replace(system, nonzero=()))
     slices = np.zeros((0, 1 + system.n), dtype=complex)
-    boxes = boxes_of(system.polynomials, slices, found.points, np.full(len(found.points), 1e-6))
+    boxes = prove_boxes(system.polynomials, slices, found.points, np.full(len(found.points), 1e-6))
     assert boxes.proved.all()
-    assert overlaps(boxes) == ([], [])
+    assert find_overlaps(boxes) == ([], [])
     values = DiscPolynomials.of(system.nonzero, slices)(Discs(boxes.centres, boxes.inner))
     assert int((np.abs(values.mid) > 2 * values.rad).all(axis=1).sum()) == 6
 

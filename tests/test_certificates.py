@@ -29,7 +29,7 @@ from nag.files.solutions_export import read_solutions, write_solutions
 from nag.mechanism.model import model
 from nag.numerics.certified_points import Proof, certify_points
 from nag.numerics.discs import DiscPolynomials, Discs, product
-from nag.numerics.krawczyk import boxes_in_doubles, boxes_of, overlaps, real_zeros
+from nag.numerics.krawczyk import boxes_in_doubles, find_overlaps, prove_boxes, tell_real_zeros
 from nag.numerics.point_claims import zero_digits
 from nag.report.certificate import solution_rows
 from nag.solving.certificate import certify_solutions
@@ -129,21 +129,21 @@ def test_boxes_hold_the_rational_zeros_that_they_are_proved_for() -> None:
 def test_no_box_is_proved_away_from_zeros(point: tuple[float, float]) -> None:
     equations = [x**2 + y**2 - 2, x - y]
     reach = np.array([1e-6])
-    found = boxes_of(equations, NO_SLICE, np.array([point], dtype=complex), reach)
+    found = prove_boxes(equations, NO_SLICE, np.array([point], dtype=complex), reach)
     assert not found.proved.any()
 
 
 def test_multiple_zeros_are_not_proved_simple() -> None:
     equations = [(x - y) ** 2, x + y - 2]
-    found = boxes_of(equations, NO_SLICE, np.ones((1, 2), dtype=complex), np.array([1e-6]))
+    found = prove_boxes(equations, NO_SLICE, np.ones((1, 2), dtype=complex), np.array([1e-6]))
     assert not found.proved.any()
 
 
 def test_points_at_one_zero_are_seen_to_be_one() -> None:
     points = np.array([[1, 1], [1 + 1e-15, 1], [-1, -1]], dtype=complex)
-    boxes = boxes_of([x**2 + y**2 - 2, x - y], NO_SLICE, points, np.full(3, 1e-6))
+    boxes = prove_boxes([x**2 + y**2 - 2, x - y], NO_SLICE, points, np.full(3, 1e-6))
     assert boxes.proved.all()
-    assert overlaps(boxes) == ([(0, 1)], [])
+    assert find_overlaps(boxes) == ([(0, 1)], [])
 
 
 def test_real_and_complex_zeros_are_told_apart() -> None:
@@ -151,8 +151,8 @@ def test_real_and_complex_zeros_are_told_apart() -> None:
     points = np.array([[root, 1], [root + 1e-17j, 1], [1e-9j, 0]], dtype=complex)
     equations = [(x**2 - 2) * (x**2 + Fraction(1, 10**18)), y - x**2 + 1]
     points[2, 1] = points[2, 0] ** 2 - 1
-    boxes = boxes_of(equations, NO_SLICE, points, np.full(3, 1e-6))
-    real, complex_ = real_zeros(boxes)
+    boxes = prove_boxes(equations, NO_SLICE, points, np.full(3, 1e-6))
+    real, complex_ = tell_real_zeros(boxes)
     assert boxes.proved.all()
     assert real.tolist() == [True, True, False]
     assert complex_.tolist() == [False, False, True]
@@ -162,7 +162,7 @@ def test_zeros_nearer_than_doubles_see_are_not_proved_from_doubles() -> None:
     # Both zeros have the same nearest doubles; a box about these would hold two.
     equations = [(x - 1) ** 2 - Fraction(1, 10**40), y - x]
     points = np.ones((2, 2), dtype=complex)
-    assert not boxes_of(equations, NO_SLICE, points, np.full(2, 1e-9)).proved.any()
+    assert not prove_boxes(equations, NO_SLICE, points, np.full(2, 1e-9)).proved.any()
 
 
 def test_each_zero_of_more_equations_is_proved_by_those_that_are_independent_there() -> None:

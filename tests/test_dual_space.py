@@ -10,7 +10,7 @@ from nag.algebra.exact_ranks import PrimeField
 from nag.numerics.dual_space import DualSpace, dual_space
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.null_space import Digits, Field, UnclearRank
-from nag.numerics.power_series import Series, SeriesRing, composed, derivatives, evaluate
+from nag.numerics.power_series import Series, SeriesRing, compose_series, derivatives, evaluate
 
 PRIME = 4611686018427387847
 FIELDS = [PrimeField(PRIME), Digits(60, -40.0, -20.0)]
@@ -29,7 +29,7 @@ def at_origin(field: Field, variables: str, equations: str, highest: int) -> Dua
     def series(order: int) -> tuple[SeriesRing, list[Series]]:
         ring = SeriesRing(n, order, field.modulus)
         terms = [[(e, number(field, c)) for e, c in f.terms.items()] for f in rows]
-        return ring, composed(terms, [{ring.unit(i): 1} for i in range(n)], ring)
+        return ring, compose_series(terms, [{ring.unit(i): 1} for i in range(n)], ring)
 
     with flint.ctx.workdps(60):
         return dual_space(field, n, series, highest, lambda hilbert: False)
@@ -106,7 +106,7 @@ def test_solved_equations_vanish_along_their_series(field: Field) -> None:
     with flint.ctx.workdps(60):
         found = eliminate(terms, [0, 0, 0, 0], [0, 1], [0, 1], 7, field.modulus)
         assert found is not None
-        *solved, rest = composed(terms, found.images, found.ring)
+        *solved, rest = compose_series(terms, found.images, found.ring)
         assert all(field.is_zero(c) for s in solved for c in s.values())
         [known] = found.rest
         for key in rest.keys() | known.keys():

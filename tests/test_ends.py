@@ -14,7 +14,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.tracking.compiled import compile_rows
 from nag.tracking.ends.at_infinity import at_infinity
 from nag.tracking.ends.follow import Unfinished, follow
-from nag.tracking.ends.inclusion import proved
+from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.initial_forms import FINE, InitialForms
 from nag.tracking.ends.limits import Limits, digits_of_evidence
 from nag.tracking.ends.terms import Terms
@@ -150,8 +150,8 @@ def test_zeros_that_are_not_regular_are_not_proved() -> None:
     errors = np.full(2, 1e-30)
     double, starts = homotopy_of([(x - 1) ** 2])
     simple, _ = homotopy_of([(x - 1) * (x + 1)])
-    assert proved(Terms(double), centre, errors) is None
-    assert proved(Terms(simple), centre, errors) is not None
+    assert prove_end(Terms(double), centre, errors) is None
+    assert prove_end(Terms(simple), centre, errors) is not None
     assert len(starts) == 2
 
 
@@ -161,7 +161,7 @@ def test_no_more_digits_are_asked_for_near_a_double_zero() -> None:
     centre[:, 0, 0], centre[1, 0, 1] = 1.0, 1e-18
     double, _ = homotopy_of([(x - 1) ** 2])
     terms = Terms(double)
-    assert proved(terms, centre, np.full(2, 1e-18)) is None
+    assert prove_end(terms, centre, np.full(2, 1e-18)) is None
     assert "finer" not in vars(terms)
 
 
@@ -188,8 +188,8 @@ def test_a_box_without_a_zero_is_not_proved() -> None:
     homotopy, _ = homotopy_of([x**2 - 2])
     centre = np.zeros((2, 2, 2))
     centre[0, 0, 0], centre[1, 0, 0] = 1.0, 1.4142135623730951
-    assert proved(Terms(homotopy), centre, np.full(2, 1e-30)) is None
-    assert proved(Terms(homotopy), centre, np.full(2, 1e-15)) is not None
+    assert prove_end(Terms(homotopy), centre, np.full(2, 1e-30)) is None
+    assert prove_end(Terms(homotopy), centre, np.full(2, 1e-15)) is not None
 
 
 def test_evidence_grows_with_the_digits_of_the_coefficients() -> None:
@@ -292,7 +292,7 @@ def test_a_box_smaller_than_doubles_can_be_proves_nothing() -> None:
     homotopy, _ = homotopy_of([x**2 - 2 * x])
     centre = np.zeros((2, 2, 2))
     centre[0, 0, 0], centre[1, 0, 0] = 1.0, 1e-305
-    assert proved(Terms(homotopy), centre, np.zeros(2)) is None
+    assert prove_end(Terms(homotopy), centre, np.zeros(2)) is None
 
 
 def test_a_step_in_more_digits_between_two_close_branch_points_leads_to_no_other_path() -> None:

@@ -12,7 +12,7 @@ import nag
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import box_about
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.clusters import close_zeros
+from nag.numerics.clusters import find_zeros_of_cluster
 from nag.numerics.deflation import deflate
 from nag.numerics.exact_system import ExactSystem
 from nag.numerics.newton import find_zero, newton_step
@@ -93,7 +93,7 @@ def test_zeros_of_a_cluster_are_found_one_by_one_and_leave_the_precision_as_it_i
     system = ExactSystem.of(equations("x^2 - 1/10^60", "y - x"), np.zeros(2))
     found = deflate(system, [flint.acb(0)] * 2, -25.0, np.random.default_rng(0))
     before = flint.ctx.prec
-    for _ in close_zeros(system, found, -25.0, np.random.default_rng(0)):
+    for _ in find_zeros_of_cluster(system, found, -25.0, np.random.default_rng(0)):
         assert flint.ctx.prec == before
 
 

@@ -14,7 +14,7 @@ from nag.numerics.ball_boxes import BITS, FineBox, box_about
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.certified_points import independent_equations
 from nag.numerics.digits import middle
-from nag.numerics.krawczyk import Boxes, enter_box, overlaps
+from nag.numerics.krawczyk import Boxes, enter_box, find_overlaps
 
 # A found point belongs to the solution that is nearest, if it is nearer than this, relative to its
 # size.
@@ -67,7 +67,7 @@ class Reference:
             with flint.ctx.workprec(BITS[-1]):
                 rest = zip(box.centre, found.centres[i], strict=True)
                 low[i] = [complex(middle(z - complex(c))) for z, c in rest]
-        if overlaps(found) != ([], []):
+        if find_overlaps(found) != ([], []):
             raise ReferenceError("two points lead to one solution")
         return cls(found.centres, low, tuple(found.fine[i] for i in range(P)))
 

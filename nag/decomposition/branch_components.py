@@ -31,7 +31,7 @@ from nag.numerics.branch_union import (
 )
 from nag.numerics.natural_coordinates import NaturalCoordinates, scale_coordinates
 from nag.numerics.singular_point import Place, SingularEnd, analyse
-from nag.numerics.zero_values import ON, SINGULAR, WRITTEN, vanishes_at_all, widened
+from nag.numerics.zero_values import ON, SINGULAR, WRITTEN, vanishes_at_all, widen_error
 from nag.tracking.run import Run
 from nag.witness.change_of_coordinates import carry_component, coordinates_of
 from nag.witness.component_equations import component_fibres
@@ -90,7 +90,7 @@ class BranchComponent(GenericPoint):
 
     @property
     def error(self) -> float:
-        return widened(self.point, self.witness.accuracy)
+        return widen_error(self.point, self.witness.accuracy)
 
     def vanishes_in_digits(self, f: Polynomial, image: Polynomial) -> bool | None:
         multiple = self._isolated and self.witness.multiplicity != 1

@@ -22,12 +22,12 @@ from nag.algebra.exact_ranks import jacobian_rank
 from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_boxes import BITS, FineBox, box_about
 from nag.numerics.ball_polynomials import BallPolynomials
-from nag.numerics.close_zeros import close_zeros, matched
+from nag.numerics.close_zeros import match_boxes, prove_close_zeros
 from nag.numerics.coincidence import clusters
 from nag.numerics.deflated_system import deflated_zero, vanishing_digits
 from nag.numerics.digits import in_bits, middle, number, rational_point
 from nag.numerics.discs import UP
-from nag.numerics.krawczyk import Boxes, boxes_of, enter_box, overlaps
+from nag.numerics.krawczyk import Boxes, enter_box, find_overlaps, prove_boxes
 from nag.numerics.singular_point import Place, analyse
 
 # Zeros further from a point than its accuracy, times this, or this much, are not meant by it.
@@ -193,7 +193,7 @@ def _regular(
     if count > n:
         return _overdetermined(equations, slices, found, proofs, tested, reach)
     if count == n:
-        _enter(boxes, tested, boxes_of(equations, slices, points[tested], reach[tested]))
+        _enter(boxes, tested, prove_boxes(equations, slices, points[tested], reach[tested]))
         for i in tested[boxes.proved[tested]].tolist():
             proofs[i] = Proof.SIMPLE
     return set()
@@ -209,7 +209,7 @@ def _close_together(
 ) -> None:
     """Prove a zero of its own for each point of those close together, where one has none yet."""
     boxes = found.boxes
-    twice = {i for pair in overlaps(boxes)[0] for i in pair}
+    twice = {i for pair in find_overlaps(boxes)[0] for i in pair}
     without = twice | set(tested[~boxes.proved[tested]].tolist())
     if not without:
         return
@@ -222,11 +222,13 @@ def _close_together(
             continue
         points, errors = found.points[members], accuracy[members]
         near = NEAR * max(1.0, float(np.abs(points).max(initial=0.0)))
-        zeros = close_zeros(system, points, near, np.random.default_rng(0))
+        zeros = prove_close_zeros(system, points, near, np.random.default_rng(0))
         if len(zeros) < len(members):
             continue
         claims = None if real is None else real[members]
-        for i, box in zip(members.tolist(), matched(zeros, points, errors, claims), strict=True):
+        for i, box in zip(
+            members.tolist(), match_boxes(zeros, points, errors, claims), strict=True
+        ):
             enter_box(boxes, i, box)
             proofs[i] = Proof.SIMPLE
 
@@ -255,7 +257,7 @@ def _overdetermined(
         seen.add(tuple(rows))
         square = [equations[i] for i in rows]
         others = [f for i, f in enumerate(equations) if i not in set(rows)]
-        _enter(boxes, left, boxes_of(square, slices, points[left], reach[left]))
+        _enter(boxes, left, prove_boxes(square, slices, points[left], reach[left]))
         for i in left[boxes.proved[left]].tolist():
             vanishing, exact = _others(square, others, slices, points[i])
             found.digits[i] = np.inf if exact else vanishing
@@ -272,7 +274,7 @@ def _overdetermined(
 def distinct_simple(groups: Sequence[CertifiedPoints]) -> int:
     """Number of simple zeros of points of one system that are proved, and proved distinct."""
     boxes = joined_boxes(groups, Proof.SIMPLE)
-    same, unknown = overlaps(boxes)
+    same, unknown = find_overlaps(boxes)
     return len(boxes.centres) - len({j for _, j in [*same, *unknown]})
 
 

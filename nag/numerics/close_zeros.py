@@ -23,7 +23,7 @@ PLACES, STEPS = 10, 200
 ROUNDING = 2.0**-52
 
 
-def close_zeros(
+def prove_close_zeros(
     system: BallPolynomials, points: np.ndarray, reach: float, rng: np.random.Generator
 ) -> list[FineBox]:
     """Boxes of as many distinct simple zeros next to points as there are of these, or fewer.
@@ -59,7 +59,7 @@ def _near(box: FineBox, points: np.ndarray, reach: float) -> bool:
     return bool((np.abs(points - centre).max(axis=1) < reach).any())
 
 
-def matched(
+def match_boxes(
     boxes: Sequence[FineBox], points: np.ndarray, accuracy: np.ndarray, real: np.ndarray | None
 ) -> list[FineBox]:
     """One box for each point: the nearest, and of those that are as near one that is as real.

@@ -24,7 +24,7 @@ STARTS, MOST_STARTS = 12, 400
 ALIKE = 1e-5
 
 
-def close_zeros(
+def find_zeros_of_cluster(
     system: ExactSystem, found: Deflated, reach: float, rng: np.random.Generator
 ) -> Iterator[tuple[Point, float, bool]]:
     """Approximate zeros of a cluster about a point that is no exact zero, and their distance.

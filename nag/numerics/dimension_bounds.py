@@ -28,7 +28,7 @@ from nag.numerics.exact_system import ExactSystem
 from nag.numerics.implicit_function import eliminate
 from nag.numerics.local_dimension import LocalDimension
 from nag.numerics.local_structure import FURTHEST, HIGHEST, NUMBERS, REACHES, known_digits
-from nag.numerics.located_zero import Zero, is_exact, located_zero
+from nag.numerics.located_zero import Zero, is_exact, locate_zero
 from nag.numerics.null_space import Field, UnclearRank
 from nag.numerics.power_series import Series, SeriesRing, Terms
 from nag.numerics.sharpening import DIGITS, ZERO, sharpen
@@ -78,7 +78,7 @@ def _bounds(
 ) -> tuple[LocalDimension, list[flint.acb] | None]:
     """Bounds, and the zero in balls; None if there is none."""
     with working(DIGITS):
-        zero, factors, reason = located_zero(polynomials, point, error, rng)
+        zero, factors, reason = locate_zero(polynomials, point, error, rng)
         if zero is None:
             here = np.array([complex(float(c)) if is_exact(c) else complex(c) for c in point])
             return LocalDimension(here, None, 0, len(point), 0, 0, (), "", reason), None

@@ -22,7 +22,14 @@ import flint
 from nag.numerics.ball_polynomials import MonomialProducts, factors_of
 from nag.numerics.digits import log_norm, middle
 from nag.numerics.exact_system import PointValues
-from nag.numerics.power_series import Series, SeriesRing, Terms, composed, product_of, shifted
+from nag.numerics.power_series import (
+    Series,
+    SeriesRing,
+    Terms,
+    compose_series,
+    product_of,
+    shift_polynomials,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +168,7 @@ def jacobian(rows: Sequence[Terms], centre: Sequence[Any], modulus: int = 0) -> 
         return result
     ring = SeriesRing(n, 1, modulus)
     images = [{0: c, ring.unit(i): 1} for i, c in enumerate(centre)]
-    for value in composed(rows, images, ring):
+    for value in compose_series(rows, images, ring):
         result.append([value.get(ring.unit(i), 0) for i in range(n)])
     return result
 
@@ -196,7 +203,7 @@ def eliminate(
     rest_rows = [rows[i] for i in others]
     if not columns:
         images = _images(centre, free, ring)
-        return Reduction(ring, images, shifted(rest_rows, centre, ring), -float("inf"))
+        return Reduction(ring, images, shift_polynomials(rest_rows, centre, ring), -float("inf"))
     chosen = [rows[i] for i in solved]
     functions = at_points or _Rows(rows, modulus)
     found = _at_centre(functions, centre, solved, columns, modulus)
@@ -245,7 +252,7 @@ class _Rows:
     def values(self, x: Sequence[Any]) -> list[Any]:
         ring = SeriesRing(0, 0, self.modulus)
         constants = [{0: c} if c else {} for c in x]
-        return [value.get(0, 0) for value in composed(self.rows, constants, ring)]
+        return [value.get(0, 0) for value in compose_series(self.rows, constants, ring)]
 
     def jacobian(self, x: Sequence[Any]) -> Matrix:
         return jacobian(self.rows, x, self.modulus)

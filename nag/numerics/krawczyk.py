@@ -64,7 +64,7 @@ class Boxes:
     fine: dict[int, FineBox]
 
 
-def boxes_of(
+def prove_boxes(
     polynomials: Sequence[Polynomial],
     slices: np.ndarray,
     points: np.ndarray,
@@ -119,7 +119,7 @@ def _tested(
     """Outer and inner radii about points, and for which of them they are proved."""
     P, n = points.shape
     exact = Discs(points, np.zeros(points.shape))
-    inverse = inverses(system.jacobian(exact).mid)
+    inverse = invert_matrices(system.jacobian(exact).mid)
     step = _step(inverse, system(exact))
     sides = np.abs(points).max(axis=1, initial=0.0)[:, None] * LEAST_SIDE
     outer = WIDER * step + np.maximum(sides, 1e-300)
@@ -157,7 +157,7 @@ def _grow(
         outer[left] = wider[good]
 
 
-def inverses(matrices: np.ndarray) -> np.ndarray:
+def invert_matrices(matrices: np.ndarray) -> np.ndarray:
     """Inverses, not exact; not finite where there is none."""
     usable = np.isfinite(matrices).all(axis=(1, 2))
     found = np.full(matrices.shape, np.nan, dtype=complex)
@@ -213,17 +213,17 @@ def enter_box(boxes: Boxes, i: int, fine: FineBox) -> None:
     centre = np.array([complex(z) for z in fine.centre])
     boxes.centres[i] = centre
     off = [abs(z - complex(c)) for z, c in zip(fine.centre, centre, strict=True)]
-    boxes.inner[i] = [above(o + r) for o, r in zip(off, fine.inner, strict=True)]
+    boxes.inner[i] = [round_up(o + r) for o, r in zip(off, fine.inner, strict=True)]
     room = [r - o for o, r in zip(off, fine.outer, strict=True)]
     boxes.outer[i] = [max(0.0, float(r.lower()) / UP) for r in room]
 
 
-def above(value: flint.arb) -> float:
+def round_up(value: flint.arb) -> float:
     """A double that is no less."""
     return float(value.upper()) * UP + LEAST
 
 
-def overlaps(boxes: Boxes) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:
+def find_overlaps(boxes: Boxes) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:
     """Pairs of proved boxes with the same zero, and pairs of which that is not known.
 
     All other pairs of proved boxes are proved to have distinct zeros.
@@ -268,7 +268,7 @@ def fine_box(boxes: Boxes, i: int) -> FineBox:
     )
 
 
-def real_zeros(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
+def tell_real_zeros(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
     """Which zeros are proved real, and which not real; of equations with real coefficients.
 
     The conjugate of a zero is one too, so a box with one zero that holds the conjugate has a real

@@ -12,7 +12,7 @@ import numpy as np
 
 from nag.algebra.exact_ranks import FIELDS, PrimeField
 from nag.algebra.polynomial import Polynomial
-from nag.numerics.clusters import close_zeros
+from nag.numerics.clusters import find_zeros_of_cluster
 from nag.numerics.curves import curve_through, is_exact_zero, point_beside
 from nag.numerics.deflation import MOST_WORK, Deflated, NotDeflated, deflate
 from nag.numerics.descent import work
@@ -73,7 +73,7 @@ class Effort:
     patience: float = 1.0
 
 
-def judged(
+def judge_zero(
     polynomials: Sequence[Polynomial],
     x: Sequence[Any] | np.ndarray,
     accuracy: float | np.ndarray,
@@ -280,7 +280,7 @@ def _resolved(
     result: list[SingularEnd] = []
     known: list[PrecisePoint] = []
     component: SingularEnd | None = None
-    for start, size, regular in close_zeros(system, found, reach, rng):
+    for start, size, regular in find_zeros_of_cluster(system, found, reach, rng):
         if component is not None and not regular:
             break
         end = _judged(system, start, size - 4.0, rng, effort, spread, depth + 1)

@@ -75,7 +75,7 @@ def exact_zero(
     """
     exact = all(is_exact(c) for c in point)
     error = None if exact else log10(max(accuracy, 1e-300))
-    zero, factors, _ = located_zero(polynomials, list(point), error, rng)
+    zero, factors, _ = locate_zero(polynomials, list(point), error, rng)
     return zero, factors
 
 
@@ -84,7 +84,7 @@ def is_exact(c: Any) -> bool:
     return isinstance(c, int | Fraction | Irrational)
 
 
-def located_zero(
+def locate_zero(
     polynomials: Sequence[Polynomial],
     point: Sequence[Any],
     error: float | None,

@@ -88,7 +88,9 @@ class SeriesRing:
                 total[k] %= self.modulus
 
 
-def composed(rows: Sequence[Terms], images: Sequence[Series], ring: SeriesRing) -> list[Series]:
+def compose_series(
+    rows: Sequence[Terms], images: Sequence[Series], ring: SeriesRing
+) -> list[Series]:
     """Polynomials with a series put in for each variable."""
     limit = (ring.order + 1) << BITS * ring.m
     images = [{k: c for k, c in image.items() if k < limit} for image in images]
@@ -130,7 +132,9 @@ def composed(rows: Sequence[Terms], images: Sequence[Series], ring: SeriesRing) 
     return result
 
 
-def shifted(rows: Sequence[Terms], centre: Sequence[Any], ring: SeriesRing) -> list[Series]:
+def shift_polynomials(
+    rows: Sequence[Terms], centre: Sequence[Any], ring: SeriesRing
+) -> list[Series]:
     """Polynomials about another point, one variable after the other."""
     result = []
     for row in rows:

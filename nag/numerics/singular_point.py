@@ -83,6 +83,6 @@ def analyse(
             zero lies is of interest: not how many zeros it may be, nearer together than that.
         patience: part of the usual work after which a local ring is left undecided.
     """
-    from nag.numerics.local_structure import Effort, judged
+    from nag.numerics.local_structure import Effort, judge_zero
 
-    return judged(polynomials, x, accuracy, rng, slices, Effort(not place_only, patience))
+    return judge_zero(polynomials, x, accuracy, rng, slices, Effort(not place_only, patience))

@@ -29,7 +29,7 @@ SINGULAR = 1e-9
 SLACK, LEAST = 1e3, 1e-12
 
 
-def widened(x: np.ndarray, accuracy: float) -> float:
+def widen_error(x: np.ndarray, accuracy: float) -> float:
     """An error of the coordinates of a point of that relative accuracy, with a margin."""
     return max(SLACK * accuracy, LEAST) * (1 + float(np.abs(x).max(initial=0.0)))
 
@@ -66,7 +66,7 @@ def possible_zeros(
     return (end,) if end.place is Place.ISOLATED else ()
 
 
-def alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularEnd, ...]:
+def choose_alike(zeros: Sequence[SingularEnd], x: np.ndarray) -> tuple[SingularEnd, ...]:
     """The one of several zeros that a point agrees with in each coordinate; all if none does."""
     chosen = []
     for zero in zeros:

@@ -33,10 +33,10 @@ from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import (
     SLACK,
     WRITTEN,
-    alike,
+    choose_alike,
     possible_zeros,
     vanishes_at_all,
-    widened,
+    widen_error,
 )
 from nag.solving.larger_sets import LargerSets
 from nag.solving.lifted_solution import lifted_solution
@@ -89,7 +89,7 @@ class _Found(GenericPoint):
             return SLACK * accuracy * np.where(x == 0, 1.0, np.abs(x))
         if self.solution.radii is not None:
             return SLACK * self.solution.radii
-        return widened(x, accuracy)
+        return widen_error(x, accuracy)
 
     def vanishes_in_digits(self, f: Polynomial, image: Polynomial) -> bool | None:
         return vanishes_at_all(self._zeros, image) if self.tracked is not None else None
@@ -139,7 +139,7 @@ class _Found(GenericPoint):
         y, error = _known(self.tracked)
         zeros = possible_zeros(equations, y, error, np.random.default_rng(0))
         zeros = tuple(z for z in zeros if z.multiplicity == self.tracked.multiplicity)
-        return alike(zeros, y) if len(zeros) > 1 else zeros
+        return choose_alike(zeros, y) if len(zeros) > 1 else zeros
 
 
 def _known(solution: Solution) -> tuple[np.ndarray, float | np.ndarray]:

@@ -25,7 +25,7 @@ from nag.numerics.certified_points import (
     distinct_simple,
 )
 from nag.numerics.claims import Claim, nothing_against
-from nag.numerics.krawczyk import overlaps, real_zeros
+from nag.numerics.krawczyk import find_overlaps, tell_real_zeros
 from nag.numerics.point_claims import (
     nonvanishing,
 )
@@ -158,8 +158,8 @@ def certify_solutions(result: SolveResult) -> SolutionsCertificate:
         return certify_points(system.polynomials, none, places, accuracy, multiple, said_real)
 
     points = proved(result.solutions)
-    same, unknown = overlaps(points.boxes)
-    real, not_real = real_zeros(points.boxes)
+    same, unknown = find_overlaps(points.boxes)
+    real, not_real = tell_real_zeros(points.boxes)
     real |= points.real
     bound, name = bound_of_zeros(system)
     excluded = proved(result.excluded_solutions)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from nag.solving.start.target import Start
-from nag.tracking.ends.inclusion import proved
+from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.terms import Terms
 from nag.tracking.paths import Ball, Paths, PathStatus
 from nag.tracking.projective import coinciding
@@ -53,6 +53,6 @@ def _prove_all(begin: Start, ends: Paths) -> bool:
         if ball is None:
             parts = np.stack([np.stack([x.real, x.imag], axis=1), np.zeros((len(x), 2))], axis=2)
             ball = Ball(parts, np.full(len(x), accuracy))
-        if proved(terms, ball.centre, ball.radii) is None:
+        if prove_end(terms, ball.centre, ball.radii) is None:
             return False
     return True

@@ -23,7 +23,7 @@ from nag.numerics.claims import (
     claims_of_each,
     name_entries,
 )
-from nag.numerics.krawczyk import overlaps, real_zeros
+from nag.numerics.krawczyk import find_overlaps, tell_real_zeros
 from nag.numerics.point_claims import (
     error_standings,
     multiplicity_standings,
@@ -97,7 +97,7 @@ def _claims_of_points(
 
 def _reality(points: CertifiedPoints, said: Sequence[bool]) -> list[Standing]:
     """That zeros are real, or are not."""
-    real, not_real = real_zeros(points.boxes)
+    real, not_real = tell_real_zeros(points.boxes)
     real |= points.real
     found = []
     for i, (claimed, evidence) in enumerate(zip(said, points.on_evidence, strict=True)):
@@ -117,7 +117,7 @@ def _pairs(certificate: SolutionsCertificate) -> list[Claim]:
     claims = []
     for key, (same, unknown) in {
         "solutions": (certificate.same, certificate.unknown),
-        "excluded_solutions": overlaps(certificate.excluded.boxes),
+        "excluded_solutions": find_overlaps(certificate.excluded.boxes),
     }.items():
         for pairs, standing in ((same, Standing.REFUTED), (unknown, Standing.OPEN)):
             if pairs:
@@ -251,6 +251,6 @@ def _distinct_from(
     first, chosen = len(listed.centres), found.having(proof)
     together = joined_boxes([*known, found], *proofs)
     everything = found.having(*proofs).tolist()
-    same, unknown = overlaps(together)
+    same, unknown = find_overlaps(together)
     taken = {max(pair) for pair in [*same, *unknown]}
     return sum(bool(away[i]) and first + everything.index(i) not in taken for i in chosen.tolist())

@@ -19,7 +19,7 @@ import numpy as np
 
 from nag.numerics.array_table import ArrayTable
 from nag.numerics.discs import LEAST, UNIT, UP, Discs, magnitude, rounding_of_sum
-from nag.numerics.krawczyk import inverses
+from nag.numerics.krawczyk import invert_matrices
 from nag.tracking.moving_discs import MovingSystem, times
 
 # Coefficients of series of values, and of Jacobian matrices.
@@ -174,9 +174,9 @@ def _corrected(system: MovingSystem, x: np.ndarray, t: np.ndarray) -> tuple[np.n
     """Points that Newton's method leads to, and the paths' derivatives by t there."""
     for _ in range(CORRECTIONS):
         values, slopes, _ = system.at(x, t)
-        x = x - (inverses(slopes) @ values[..., None])[..., 0]
+        x = x - (invert_matrices(slopes) @ values[..., None])[..., 0]
     _, slopes, rates = system.at(x, t)
-    return x, -(inverses(slopes) @ rates[..., None])[..., 0]
+    return x, -(invert_matrices(slopes) @ rates[..., None])[..., 0]
 
 
 def _tried(system: MovingSystem, state: _State, active: np.ndarray) -> np.ndarray:
@@ -259,7 +259,7 @@ def _tube(
     rad[0], rad[2] = radii, magnitude(curve[3])
     box = Discs(curve[:SLOPES], rad)
     slopes = system.slopes_along(box, times(begin, end, SLOPES))
-    inverse = inverses(slopes.mid[0])
+    inverse = invert_matrices(slopes.mid[0])
     moving = -inverse @ slopes.mid[1] @ inverse
     column = Discs(values.mid[..., None], values.rad[..., None])
     off, rounding = (part[..., 0] for part in _applied(inverse, moving, column, 0.0))

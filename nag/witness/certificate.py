@@ -34,7 +34,7 @@ from nag.numerics.certified_points import (
     joined_boxes,
 )
 from nag.numerics.claims import Claim, nothing_against
-from nag.numerics.krawczyk import overlaps
+from nag.numerics.krawczyk import find_overlaps
 from nag.numerics.point_claims import (
     is_away,
     nonvanishing,
@@ -179,7 +179,7 @@ def _certify_component(
 ) -> ComponentCertificate:
     """What is proved of a component, on its slice and on that of its dimension."""
     points = certify_witness_points(system, component)
-    same, unknown = overlaps(points.boxes)
+    same, unknown = find_overlaps(points.boxes)
     bare = replace(component, fibres=())
     there = [_moved(system, bare, target, points)]
     for symmetry in component.images:
@@ -238,7 +238,9 @@ def _repeated(
             continue
         owners = [(i, k) for k, (i, g) in enumerate(there) for _ in g.having(*proofs)]
         for pairs, found in zip(
-            (same, unknown), overlaps(joined_boxes([g for _, g in there], *proofs)), strict=True
+            (same, unknown),
+            find_overlaps(joined_boxes([g for _, g in there], *proofs)),
+            strict=True,
         ):
             pairs |= {
                 (owners[i][0], owners[j][0]) for i, j in found if owners[i][1] != owners[j][1]

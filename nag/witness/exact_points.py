@@ -22,7 +22,7 @@ from nag.algebra.polynomial import Polynomial
 from nag.numerics.ball_polynomials import BallPolynomials
 from nag.numerics.precise_point import PrecisePoint, precise_zero
 from nag.numerics.singular_point import SingularEnd
-from nag.numerics.zero_values import WRITTEN, alike, possible_zeros
+from nag.numerics.zero_values import WRITTEN, choose_alike, possible_zeros
 from nag.tracking.newton import Refined, refine
 from nag.witness.close_points import Fine, chosen, zero_from
 from nag.witness.confirm import zero_in_digits
@@ -290,7 +290,7 @@ def exact_zeros(
     if isolated:
         # Paths end at a zero as many times as its multiplicity says: no other is meant.
         zeros = tuple(z for z in zeros if z.multiplicity == component.multiplicity)
-    return alike(zeros, x) if len(zeros) > 1 else zeros
+    return choose_alike(zeros, x) if len(zeros) > 1 else zeros
 
 
 def _close_in_digits(component: WitnessSet, index: int) -> PrecisePoint | None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nag.tracking.ends.at_infinity import at_infinity
-from nag.tracking.ends.inclusion import proved
+from nag.tracking.ends.inclusion import prove_end
 from nag.tracking.ends.limits import BEYOND, LEAST_EVIDENCE, Limit, Limits, digits_of_evidence
 from nag.tracking.ends.runs import CLOSE_ORDER, LAST_STEPS, MAX_STEPS, MOST_STEPS, ORDER, run
 from nag.tracking.ends.terms import Terms
@@ -288,7 +288,7 @@ def _confirmed(states: States, path: int, terms: Terms) -> bool:
     """Whether a path's end is a regular zero: as it is known to be, or by a proof, in a box."""
     if states.regular[path] and states.steps[path] == 1:
         return True
-    box = proved(terms, states.found[path], states.errors[path])
+    box = prove_end(terms, states.found[path], states.errors[path])
     if box is not None:
         states.errors[path] = np.minimum(states.errors[path], box)
     return box is not None

@@ -21,7 +21,7 @@ TINY = 1e-12
 SHRINKS = 0.01
 
 
-def proved(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray | None:
+def prove_end(terms: Terms, centre: np.ndarray, errors: np.ndarray) -> np.ndarray | None:
     """Radii of a box about a point that holds one zero only, a regular one; None if none is proved.
 
     Slopes over a box do not see that errors in the coordinates of a badly conditioned zero go
