@@ -1,5 +1,6 @@
 """Joints of every type: prime components, constraints of PT13 table 1, mobility of loops."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -15,7 +16,7 @@ from nag.mechanism.euler import euler_parameters, prime_component
 from nag.mechanism.graph import Joint, Mechanism
 from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.loops import loop_structure
-from nag.mechanism.model import ModelError, model
+from nag.mechanism.model import ModelError, formulations, model
 from nag.mechanism.quaternion import norm_squared
 from nag.mechanism.unreduced import Placement, joint_constraints
 
@@ -57,9 +58,10 @@ def components(polynomials: list[Polynomial]) -> list[tuple[int, int]]:
 def test_prime_components_have_the_listed_number_dimension_and_degree(kind):
     known = JOINT_TYPES[kind]
     constraints, modes = polynomials_in_both(kind)
-    assert components(constraints) == [(known.dimension, known.degree)] * known.components
+    found = known.components
+    assert components(constraints) == [(found.dimension, found.degree)] * found.count
     for mode in modes:
-        assert components(mode) == [(known.dimension, known.degree)]
+        assert components(mode) == [(found.dimension, found.degree)]
 
 
 @pytest.mark.parametrize("kind", JOINT_TYPES)
@@ -143,3 +145,15 @@ def test_vectors_that_do_not_belong_to_the_type_are_refused(fields, text, key):
 
 def test_the_translational_joint_is_the_prismatic_one():
     assert Joint("J", "translational", ("A", "B"), axis=exact(1, 0, 0)).type == "prismatic"
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_a_type_of_joint_is_its_record_and_nothing_asks_for_its_name(name, monkeypatch):
+    named = {f"{name} of mine": known for name, known in JOINT_TYPES.items()}
+    monkeypatch.setattr("nag.mechanism.graph.JOINT_TYPES", {**JOINT_TYPES, **named})
+    given = LOOPS[name]
+    joints = tuple(replace(joint, type=f"{joint.type} of mine") for joint in given.joints)
+    for formulation in formulations(given):
+        one, other = (model(m, formulation) for m in (given, replace(given, joints=joints)))
+        assert (other.system, other.space) == (one.system, one.space)
+        assert other.unreduced == one.unreduced

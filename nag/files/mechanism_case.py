@@ -42,14 +42,14 @@ def read_mechanism(top: Table, number: ReadNumber) -> Mechanism:
 
 def _read_joint(name: str, table: Table, number: ReadNumber) -> Joint:
     kind = table.text("type")
-    second_keys = SECOND_KEYS if SYNONYMS.get(kind, kind) == "universal" else ()
+    known = JOINT_TYPES.get(SYNONYMS.get(kind, kind))
+    # What the type needs is asked for here; what does not belong to it, the joint itself refuses.
+    needed = () if known is None else known.fields
+    second_keys = SECOND_KEYS if "second_axis" in needed else ()
     table.allow(("name", "type", "bodies", *VECTORS, *LINE_KEYS, *second_keys))
     bodies = table.texts("bodies", "names of bodies", 2)
     if not all(b.strip() and b.isprintable() for b in bodies):
         table.fail("bodies", "holds an empty or unprintable name; write names of bodies")
-    known = JOINT_TYPES.get(SYNONYMS.get(kind, kind))
-    # What the type needs is asked for here; what does not belong to it, the joint itself refuses.
-    needed = () if known is None else known.fields
     line = _read_line(table, number)
     vectors = dict(zip(("point", "axis"), line, strict=True)) if line else {}
     as_line = any(key in table.values for key in second_keys)

@@ -13,11 +13,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import product
+from math import prod
 
 from nag.algebra.number import Number
 from nag.mechanism.axes import across, direction
 from nag.mechanism.graph import Joint
-from nag.mechanism.joint_types import JOINT_TYPES
 
 # Every joint that is not in its reference mode, with the index of its mode.
 Modes = tuple[tuple[str, int], ...]
@@ -32,20 +32,17 @@ def mode_rotation(joint: Joint, mode: int) -> tuple[Number, ...]:
     axis = direction(joint.axis)
     e2, e3 = across(axis)
     zero = Fraction(0)
-    if joint.type == "prismatic":
+    if joint.of_type.orthogonalities == 3:
         return (zero, *((axis, e2, e3)[mode - 1]))
     return (zero, *e2)
 
 
 def all_modes(joints: Sequence[Joint]) -> Iterator[Modes]:
     """Every combination of the joints' modes, that of the reference configuration first."""
-    for combination in product(*(range(JOINT_TYPES[j.type].modes) for j in joints)):
+    for combination in product(*(range(j.of_type.modes) for j in joints)):
         yield tuple((j.name, m) for j, m in zip(joints, combination, strict=True) if m)
 
 
 def number_of_modes(joints: Sequence[Joint]) -> int:
     """How many combinations there are."""
-    total = 1
-    for joint in joints:
-        total *= JOINT_TYPES[joint.type].modes
-    return total
+    return prod(j.of_type.modes for j in joints)

@@ -123,10 +123,10 @@ def space_of(joints: Sequence[Joint]) -> Space:
     Planar if all axes of revolute joints are parallel and all slides orthogonal to them; spherical
     if all joints turn about one point; else spatial. Rigid joints fit everywhere.
     """
-    free = [j for j in joints if j.type != "rigid"]
+    free = [j for j in joints if not j.of_type.is_rigid]
     if _planar_normal(free) is not None:
         return "planar"
-    if all(j.type in ("revolute", "universal", "spherical") for j in free):
+    if all(j.of_type.turns_about_point for j in free):
         centre = _centre(free)
         if centre is not None and all(_turns_about(centre, j) for j in free):
             return "spherical"
@@ -135,17 +135,17 @@ def space_of(joints: Sequence[Joint]) -> Space:
 
 def planar_normal(joints: Sequence[Joint]) -> Vector:
     """The normal of the plane in which a planar mechanism moves."""
-    normal = _planar_normal([j for j in joints if j.type != "rigid"])
+    normal = _planar_normal([j for j in joints if not j.of_type.is_rigid])
     if normal is None:
         raise NagError("the mechanism is not planar")
     return direction(normal)
 
 
 def _planar_normal(joints: Sequence[Joint]) -> Vector | None:
-    if not all(j.type in ("revolute", "prismatic") for j in joints):
+    if not all(j.of_type.turns_only or j.of_type.slides_only for j in joints):
         return None
-    turns = [j.axis for j in joints if j.type == "revolute"]
-    slides = [j.axis for j in joints if j.type == "prismatic"]
+    turns = [j.axis for j in joints if j.of_type.turns_only]
+    slides = [j.axis for j in joints if j.of_type.slides_only]
     normal = turns[0] if turns else _normal_of(slides)
     if not all(vanishes(cross(normal, axis)) for axis in turns):
         return None
@@ -162,7 +162,7 @@ def _normal_of(slides: Sequence[Vector]) -> Vector:
 
 def _centre(joints: Sequence[Joint]) -> Vector | None:
     """The point about which all joints turn, if they do."""
-    fixed = next((j for j in joints if j.type != "revolute"), None)
+    fixed = next((j for j in joints if not j.of_type.turns_only), None)
     if fixed is not None:
         return fixed.point
     if not joints:
@@ -172,6 +172,6 @@ def _centre(joints: Sequence[Joint]) -> Vector | None:
 
 
 def _turns_about(centre: Vector, joint: Joint) -> bool:
-    if joint.type == "revolute":
+    if joint.of_type.turns_only:
         return on_axis(centre, joint)
     return vanishes(difference(centre, joint.point))

@@ -138,7 +138,7 @@ def _loop(given: Model | DHModel) -> _Loop:
     form = given.form
     if not isinstance(form, HalfAngleModel) or len(form.closures) != 1:
         raise NagError("bonds are for single loops in formulation H")
-    if any(joint.type != "revolute" for joint in given.structure.joints):
+    if not all(joint.of_type.turns_only for joint in given.structure.joints):
         raise NagError("bonds are for loops of revolute joints")
     axes = {joint.name: direction(joint.axis) for joint in given.structure.joints}
     return _Loop(

@@ -213,14 +213,15 @@ def prime_component(
     first, second = joint.bodies
     a, b = (_in_reference_frame(structure, parameters, body) for body in (first, second))
     constant = mode_rotation(joint, mode)
-    if joint.type == "spherical":
+    conditions = joint.of_type.orthogonalities
+    if conditions == 0:
         return []
-    if joint.type == "universal":
+    if conditions == 1:
         u, v = direction(joint.axis), direction(joint.second_axis)
         turned = dot(rotate(a, u), rotate(b, v))
         scale = norm_squared(a) * norm_squared(b)
         return [turned - scale * dot(u, v)]
-    if joint.type == "prismatic":
+    if conditions == 3:
         return list(difference(b, multiply(a, unit_multiple(constant))))
     relative = multiply(conjugate(a), b)
     return [dot(row, relative) for row in mode_conditions(joint, mode)]
@@ -231,7 +232,8 @@ def mode_conditions(joint: Joint, mode: int) -> list[tuple[Number, ...]]:
 
     Two for a turn about an axis, three for a joint that keeps orientations, none for the others.
     """
-    if joint.type in ("spherical", "universal"):
+    conditions = joint.of_type.orthogonalities
+    if conditions < 2:
         return []
     back = conjugate(mode_rotation(joint, mode))
     line = (Fraction(0), *direction(joint.axis))
@@ -239,7 +241,7 @@ def mode_conditions(joint: Joint, mode: int) -> list[tuple[Number, ...]]:
     for i in range(4):
         unit = tuple(Fraction(int(i == j)) for j in range(4))
         turn = multiply(unit, back)
-        if joint.type == "prismatic":
+        if conditions == 3:
             columns.append(turn[1:])
         else:
             columns.append(difference(multiply(line, turn), multiply(turn, line)))
@@ -254,9 +256,11 @@ def unit_multiple(constant: Sequence[Number]) -> tuple[Number, ...]:
 
 def slide_directions(joint: Joint) -> tuple[Vector, ...]:
     """The directions in which a joint slides."""
-    if joint.type in ("prismatic", "cylindrical"):
-        return (direction(joint.axis),)
-    return across(direction(joint.axis)) if joint.type == "planar" else ()
+    gaps = joint.of_type.gaps
+    if not gaps:
+        return ()
+    along = direction(joint.axis)
+    return (along,) if gaps == 2 else across(along)
 
 
 def slide_carrier(structure: LoopStructure, joint: Joint) -> str:

@@ -99,12 +99,12 @@ def _least_euler_paths(structure: LoopStructure, space: Space) -> int:
     loops in the plane may take fewer paths at once.
     """
     moving = len(structure.moving)
-    sliding = sum(j.type == "prismatic" for j in structure.joints)
+    sliding = sum(j.of_type.orthogonalities == 3 for j in structure.joints)
     if space == "planar" and not sliding and len(structure.loops) >= FEWEST_LOOPS:
         return 0
     if space == "planar" or sliding:
         return 2 ** (max(moving - sliding, 0) + 1) - 2
-    turning = [j for j in structure.joints if j.type in ("revolute", "cylindrical", "planar")]
+    turning = [j for j in structure.joints if j.of_type.orthogonalities == 2]
     at_base = sum(structure.base in j.bodies for j in turning)
     quadrics = min(moving + 2 * (len(turning) - at_base), 4 * moving - 2 * at_base)
     return 2 ** (quadrics + 1) - 2

@@ -12,7 +12,7 @@ from nag.algebra.from_python import exact_vector
 from nag.algebra.given import check_listed, check_type, is_a, shown
 from nag.algebra.number import Number, is_zero, number_text
 from nag.errors import MechanismError
-from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS
+from nag.mechanism.joint_types import HELICAL, JOINT_TYPES, SYNONYMS, JointType
 from nag.text.table import one_line
 
 if TYPE_CHECKING:
@@ -63,6 +63,20 @@ class Joint:
             value = getattr(self, field)
             if value is not None:
                 object.__setattr__(self, field, _exact(value, field, joint=self.name))
+
+    @property
+    def of_type(self) -> JointType:
+        """What its type asks for and leaves free."""
+        return JOINT_TYPES[self.type]
+
+    def freedoms_in(self, space: str) -> int:
+        """Its freedoms in a planar, spherical or spatial mechanism."""
+        return min(self.of_type.freedoms, 6 if space == "spatial" else 3)
+
+    def axis_in(self, body: str) -> Vector | None:
+        """The direction of its axis in one of its two bodies; None if it has none."""
+        second = self.second_axis is not None and body == self.bodies[1]
+        return self.second_axis if second else self.axis
 
     def other(self, body: str) -> str:
         """The body at the other end."""
@@ -303,14 +317,14 @@ def _check_duplicates(joints: tuple[Joint, ...]) -> None:
 
 
 def _same_joint(first: Joint, second: Joint) -> bool:
-    if first.type != second.type or first.type not in ("revolute", "cylindrical"):
+    if first.type != second.type or not first.of_type.keeps_line:
         return False
     here = all(is_zero(x - y) for x, y in zip(second.point, first.point, strict=True))
     return here and _parallel(first.axis, second.axis)
 
 
 def _check_vector(joint: Joint, key: str) -> None:
-    value, known = getattr(joint, key), JOINT_TYPES[joint.type]
+    value, known = getattr(joint, key), joint.of_type
     if value is None and key in known.fields:
         raise MechanismError(
             f"a {joint.type} joint needs its {key.replace('_', ' ')}", joint=joint.name, key=key

@@ -123,24 +123,25 @@ def _chart(i: int) -> Fraction:
 
 def factors_of(joint: Joint) -> tuple[Factor, ...]:
     """The factors whose product is the displacement of the second body against the first."""
-    name = joint.name
-    if joint.type == "spherical":
+    kinds = joint.of_type.factors
+    return tuple(
+        Factor(joint.name, kind, (UNIT, *_generators(joint, kind, number)), number)
+        for i, kind in enumerate(kinds)
+        for number in [kinds[:i].count(kind)]
+    )
+
+
+def _generators(joint: Joint, kind: Kind, number: int) -> tuple[DualQuaternion, ...]:
+    """What a factor is combined of besides the unit, ``number`` the same ones before it."""
+    if kind == "ball":
         axes = [tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3)]
-        return (Factor(name, "ball", (UNIT, *(line(joint.point, a) for a in axes))),)
-    axis = direction(joint.axis)
-    turn = Factor(name, "turn", (UNIT, line(joint.point, axis)))
-    slide = Factor(name, "slide", (UNIT, _shift(axis)))
-    if joint.type == "revolute":
-        return (turn,)
-    if joint.type == "prismatic":
-        return (slide,)
-    if joint.type == "cylindrical":
-        return turn, slide
-    if joint.type == "universal":
-        second = line(joint.point, direction(joint.second_axis))
-        return turn, Factor(name, "turn", (UNIT, second), 1)
-    u, v = across(axis)
-    return (Factor(name, "plane", (UNIT, line(joint.point, axis), _shift(u), _shift(v))),)
+        return tuple(line(joint.point, a) for a in axes)
+    axis = direction(joint.second_axis if number else joint.axis)
+    if kind == "turn":
+        return (line(joint.point, axis),)
+    if kind == "slide":
+        return (_shift(axis),)
+    return (line(joint.point, axis), *map(_shift, across(axis)))
 
 
 def free_factor(body: str) -> Factor:

@@ -1,10 +1,15 @@
-"""Types of joints: their freedoms, their constraints and the components of these.
+"""Types of joints: each is one record, of which the equations of all formulations are made.
 
 Piipponen & Tuomela 2013 (PT13), table 1: coincidence of two points (C, three conditions),
 orthogonality of two vectors (SO, one), orthogonality of a vector and the gap between two points
 (O, one). The set that a joint's SO constraints describe in the unit Euler parameters (a, b) of its
 bodies falls into prime components, one for each assembly mode; with r = conj(a) b each lies over
 an eigenspace of Tuomela 2025 (T25), lemma 2.1.
+
+A new type is a new entry of `JOINT_TYPES`. Formulation E and the unreduced model read its numbers
+of constraints, formulations H and S its factors, case files and graphs what must be given of it.
+Only a factor of a kind that is not there yet asks for more: generators and letters in
+`joint_factors`.
 """
 
 from __future__ import annotations
@@ -12,58 +17,123 @@ from __future__ import annotations
 from dataclasses import dataclass
 from types import MappingProxyType
 
+# Freedoms of each kind of factor of a joint's displacement (`nag.mechanism.joint_factors`).
+FACTOR_FREEDOMS = MappingProxyType({"turn": 1, "slide": 1, "ball": 3, "plane": 3})
+
+
+@dataclass(frozen=True)
+class PrimeComponents:
+    """What SO constraints fall into.
+
+    Attributes:
+        modes: number of prime components over the rotations: as many ways to assemble two bodies
+            whose local frames are given.
+        count: number of prime components of the constraints and the norms in (a, b).
+        dimension: of each of them, in the eight Euler parameters of both bodies.
+        degree: of each of them.
+    """
+
+    modes: int
+    count: int
+    dimension: int
+    degree: int
+
+
+# By the number of SO constraints: none; R(a) u orthogonal to R(b) v; r in an eigenspace; r
+# constant. The degrees are those of {(a, a r)}.
+PRIME_COMPONENTS = (
+    PrimeComponents(1, 1, 6, 4),
+    PrimeComponents(1, 1, 5, 16),
+    PrimeComponents(2, 2, 4, 8),
+    PrimeComponents(4, 8, 3, 2),
+)
+
 
 @dataclass(frozen=True)
 class JointType:
     """What a type of joint asks for, and what it leaves free.
 
     Attributes:
-        freedoms: of one body against the other, in space.
         fields: what must be given of it: ``point``, ``axis``, ``second_axis``.
         optional: what may be given and changes nothing (a place where the joint is drawn).
-        coincidences: number of C constraints, three conditions each.
-        orthogonalities: number of SO constraints.
-        gaps: number of O constraints.
-        modes: number of prime components of the SO constraints over the rotations: as many ways to
-            assemble two bodies whose local frames are given.
-        components: number of prime components of the SO constraints and the norms in (a, b).
-        dimension: of each of them, in the eight Euler parameters of both bodies.
-        degree: of each of them.
+        coincidences: number of C constraints, three conditions each, at its point.
+        orthogonalities: number of SO constraints: one between its two axes; two that keep its axis;
+            three that keep all directions.
+        gaps: number of O constraints: one along its axis, or two across it.
+        factors: kinds of the factors whose product is its displacement, in order: keys of
+            `FACTOR_FREEDOMS`. The first turn is about ``axis``, the second about ``second_axis``.
     """
 
-    freedoms: int
     fields: tuple[str, ...]
     optional: tuple[str, ...]
     coincidences: int
     orthogonalities: int
     gaps: int
-    modes: int
-    components: int
-    dimension: int
-    degree: int
+    factors: tuple[str, ...]
 
     @property
     def conditions(self) -> int:
         """Number of scalar conditions, 6 minus the freedoms."""
         return 3 * self.coincidences + self.orthogonalities + self.gaps
 
+    @property
+    def freedoms(self) -> int:
+        """Freedoms of one body against the other, in space."""
+        return sum(FACTOR_FREEDOMS[kind] for kind in self.factors)
 
-# The degrees are those of {(a, a r)}: r in an eigenspace for a revolute joint, r constant for a
-# rigid one, R(a) u orthogonal to R(b) v for a universal one.
+    @property
+    def components(self) -> PrimeComponents:
+        """Prime components of its SO constraints."""
+        return PRIME_COMPONENTS[self.orthogonalities]
+
+    @property
+    def modes(self) -> int:
+        """Number of its assembly modes."""
+        return self.components.modes
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether it leaves nothing free."""
+        return not self.factors
+
+    @property
+    def turns_only(self) -> bool:
+        """Whether it is one turn about its axis."""
+        return self.factors == ("turn",)
+
+    @property
+    def slides_only(self) -> bool:
+        """Whether it is one slide along its axis."""
+        return self.factors == ("slide",)
+
+    @property
+    def turns_freely(self) -> bool:
+        """Whether it is any turn about its point."""
+        return self.factors == ("ball",)
+
+    @property
+    def turns_about_point(self) -> bool:
+        """Whether it moves and its point stays where it is."""
+        return self.coincidences > 0 and not self.is_rigid
+
+    @property
+    def keeps_line(self) -> bool:
+        """Whether its axis, as a line, is one and the same of both bodies."""
+        return self.orthogonalities == 2 and "point" in self.fields
+
+
+LINE = ("point", "axis")
 JOINT_TYPES = MappingProxyType(
     {
-        "revolute": JointType(1, ("point", "axis"), (), 1, 2, 0, 2, 2, 4, 8),
-        "prismatic": JointType(1, ("axis",), ("point",), 0, 3, 2, 4, 8, 3, 2),
-        "cylindrical": JointType(2, ("point", "axis"), (), 0, 2, 2, 2, 2, 4, 8),
-        "universal": JointType(2, ("point", "axis", "second_axis"), (), 1, 1, 0, 1, 1, 5, 16),
-        "spherical": JointType(3, ("point",), (), 1, 0, 0, 1, 1, 6, 4),
-        "planar": JointType(3, ("axis",), ("point",), 0, 2, 1, 2, 2, 4, 8),
-        "rigid": JointType(0, (), ("point", "axis"), 1, 3, 0, 4, 8, 3, 2),
+        "revolute": JointType(LINE, (), 1, 2, 0, ("turn",)),
+        "prismatic": JointType(("axis",), ("point",), 0, 3, 2, ("slide",)),
+        "cylindrical": JointType(LINE, (), 0, 2, 2, ("turn", "slide")),
+        "universal": JointType((*LINE, "second_axis"), (), 1, 1, 0, ("turn", "turn")),
+        "spherical": JointType(("point",), (), 1, 0, 0, ("ball",)),
+        "planar": JointType(("axis",), ("point",), 0, 2, 1, ("plane",)),
+        "rigid": JointType((), LINE, 1, 3, 0, ()),
     }
 )
-
-# Degrees of freedom that a joint leaves between its two bodies.
-JOINT_FREEDOMS = MappingProxyType({name: t.freedoms for name, t in JOINT_TYPES.items()})
 
 # Other names in use (PT13 has "translational").
 SYNONYMS = MappingProxyType({"translational": "prismatic"})
@@ -73,8 +143,3 @@ HELICAL = (
     "take a cylindrical joint, which has its configurations among others, or a revolute or "
     "prismatic one for the limits of a small and a large pitch"
 )
-
-
-def freedoms_in(joint_type: str, space: str) -> int:
-    """Freedoms of a joint in a planar, spherical or spatial mechanism."""
-    return min(JOINT_FREEDOMS[joint_type], 6 if space == "spatial" else 3)

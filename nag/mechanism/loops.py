@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING
 
 from nag.mechanism.axes import space_of
 from nag.mechanism.graph import Body, Joint, Mechanism, check_mechanism
-from nag.mechanism.joint_types import JOINT_FREEDOMS, freedoms_in
 
 if TYPE_CHECKING:
     import networkx
@@ -60,7 +59,7 @@ def rigid_groups(mechanism: Mechanism, held: Collection[str] = ()) -> RigidGroup
     Args:
         held: names of joints.
     """
-    ties = {j.name for j in mechanism.joints if j.type == "rigid" or j.name in held}
+    ties = {j.name for j in mechanism.joints if j.of_type.is_rigid or j.name in held}
     leader = {b: b for b in mechanism.body_names}
     order = {b: i for i, b in enumerate(mechanism.body_names)}
     for joint in mechanism.joints:
@@ -134,7 +133,7 @@ class LoopStructure:
     @property
     def cut_freedoms(self) -> int:
         """Freedoms of the joints of no loop."""
-        return sum(JOINT_FREEDOMS[j.type] for j in self.outside)
+        return sum(j.of_type.freedoms for j in self.outside)
 
     @property
     def single(self) -> Loop | None:
@@ -300,5 +299,5 @@ def gruebler_kutzbach(mechanism: Mechanism) -> int:
     space = space_of(mechanism.joints)
     freedoms = 6 if space == "spatial" else 3
     moving = len(mechanism.body_names) - 1
-    lost = sum(freedoms - freedoms_in(j.type, space) for j in mechanism.joints)
+    lost = sum(freedoms - j.freedoms_in(space) for j in mechanism.joints)
     return freedoms * moving - lost

@@ -17,7 +17,6 @@ from nag.mechanism.assembly import AssemblyModel
 from nag.mechanism.axes import space_of
 from nag.mechanism.bonds import BondError, Bonds, bonds, has_bonds
 from nag.mechanism.graph import Mechanism, check_mechanism
-from nag.mechanism.joint_types import freedoms_in
 from nag.mechanism.loops import gruebler_kutzbach, loop_structure
 from nag.mechanism.mobility_report import CurveOfMotion, MobilityReport
 from nag.mechanism.model import Model
@@ -160,7 +159,7 @@ def _in_general(problem: Problem, detail: str, run: Run) -> MobilityReport:
 def _without_loops(mechanism: Mechanism) -> MobilityReport:
     counted = gruebler_kutzbach(mechanism)
     space = space_of(mechanism.joints)
-    free = sum(freedoms_in(j.type, space) for j in mechanism.joints)
+    free = sum(j.freedoms_in(space) for j in mechanism.joints)
     return MobilityReport(space, counted, "", 0, 0, free, free, free, free, None, "", None)
 
 

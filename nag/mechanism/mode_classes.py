@@ -83,7 +83,7 @@ def mode_classes(structure: LoopStructure) -> tuple[ModeClass, ...]:
         if rest and carries_modes(structure, flip):
             basis[min(rest)] = rest
     classes: dict[tuple[Modes, frozenset[str]], list[Modes]] = {}
-    flippable = {j.name for j in structure.joints if j.type == "revolute"}
+    flippable = {j.name for j in structure.joints if _is_flippable(j)}
     for modes in sorted(all_modes(structure.joints), key=len):
         fixed = tuple((name, m) for name, m in modes if name not in flippable)
         changed = frozenset(name for name, _ in modes if name in flippable)
@@ -105,15 +105,19 @@ def flips(structure: LoopStructure) -> Iterator[Flip]:
         joints = [j for j in structure.joints if body in j.bodies]
         normal = _normal(body, joints)
         if normal is not None:
-            names = frozenset(j.name for j in joints if j.type == "revolute")
-            yield Flip(body, normal, names)
+            yield Flip(body, normal, frozenset(j.name for j in joints if _is_flippable(j)))
+
+
+def _is_flippable(joint: Joint) -> bool:
+    """Whether a half-turn about a line through its point, across its axis, changes its mode."""
+    return joint.of_type.turns_about_point and joint.of_type.modes > 1
 
 
 def _normal(body: str, joints: Sequence[Joint]) -> Vector | None:
     """The direction of the line about which the body may be turned half round."""
-    if not all(j.type in ("revolute", "spherical", "universal") for j in joints):
+    if not all(j.of_type.turns_about_point for j in joints):
         return None
-    axes = [_axis_in(body, j) for j in joints if j.type != "spherical"]
+    axes = [axis for j in joints if (axis := j.axis_in(body)) is not None]
     links = [difference(j.point, joints[0].point) for j in joints[1:]]
     link = next((v for v in links if not vanishes(v)), None)
     crossing = next((n for n in (cross(axes[0], a) for a in axes[1:]) if not vanishes(n)), None)
@@ -128,12 +132,6 @@ def _normal(body: str, joints: Sequence[Joint]) -> Vector | None:
     if not all(vanishes(cross(normal, v)) for v in links):
         return None
     return direction(normal) if all(is_zero(dot(normal, a)) for a in axes) else None
-
-
-def _axis_in(body: str, joint: Joint) -> Vector:
-    if joint.type == "universal" and joint.bodies[1] == body:
-        return joint.second_axis
-    return joint.axis
 
 
 def carries_modes(structure: LoopStructure, flip: Flip) -> bool:

@@ -11,7 +11,6 @@ from nag.decomposition.intersection import intersect_components
 from nag.mechanism.coordinates import euler_decomposition
 from nag.mechanism.euler import mode_conditions
 from nag.mechanism.graph import Mechanism
-from nag.mechanism.joint_types import JOINT_TYPES
 from nag.mechanism.loops import LoopStructure
 from nag.mechanism.mode_classes import ModeClass, mode_classes
 from nag.mechanism.model import Model, ModelError, model, with_loops
@@ -108,7 +107,7 @@ def apart(structure: LoopStructure) -> bool:
     every pair of modes, so that they leave r = 0, which is no rotation.
     """
     for joint in structure.joints:
-        modes = range(JOINT_TYPES[joint.type].modes)
+        modes = range(joint.of_type.modes)
         conditions = [mode_conditions(joint, mode) for mode in modes]
         for i in modes:
             for j in range(i):

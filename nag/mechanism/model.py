@@ -135,7 +135,7 @@ class Model:
         found = []
         for body in (self.structure.base, *self.structure.moving):
             own = [j for j in self.structure.joints if body in j.bodies]
-            if len(own) == 2 and all(j.type == "revolute" for j in own) and same_line(*own):
+            if len(own) == 2 and all(j.of_type.turns_only for j in own) and same_line(*own):
                 found.append(zero_length(body, own[0].name, own[1].name))
         return tuple(found)
 

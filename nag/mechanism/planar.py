@@ -155,7 +155,7 @@ def planar_model(structure: LoopStructure) -> PlanarModel:
 
 
 def _sliding(structure: LoopStructure) -> list[Joint]:
-    return [j for j in structure.joints if j.type == "prismatic"]
+    return [j for j in structure.joints if j.of_type.slides_only]
 
 
 def _inverse(turn: Turn) -> Turn:

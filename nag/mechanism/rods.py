@@ -226,7 +226,7 @@ def _joints_of(body: str, joints: Sequence[Joint]) -> list[Joint]:
 
 
 def _is_rod(joints: Sequence[Joint]) -> bool:
-    return len(joints) == 2 and all(j.type == "spherical" for j in joints)
+    return len(joints) == 2 and all(j.of_type.turns_freely for j in joints)
 
 
 def _is_zero_rod(joints: Sequence[Joint]) -> bool:
@@ -264,11 +264,11 @@ def _spanning_joints(
         return body
 
     # Spherical joints last: they alone can close a loop by equations of their own.
-    for joint in sorted(left, key=lambda j: j.type == "spherical"):
+    for joint in sorted(left, key=lambda j: j.of_type.turns_freely):
         ends = [root(b) for b in joint.bodies]
         if ends[0] != ends[1]:
             tree[ends[1]] = ends[0]
-        elif joint.type == "spherical":
+        elif joint.of_type.turns_freely:
             closing.append(joint)
         else:
             raise NagError("the joints between the bodies that are no rods have a loop")

@@ -62,23 +62,21 @@ def gap(first: Placement, second: Placement, u: Sequence[Number], point: Sequenc
 
 def joint_constraints(joint: Joint, first: Placement, second: Placement) -> list[Any]:
     """The constraints of PT13 table 1, zero in an assembled configuration."""
-    axis = None if joint.axis is None else direction(joint.axis)
+    asked = joint.of_type
+    axis = direction((Fraction(0), Fraction(0), Fraction(1)) if joint.axis is None else joint.axis)
+    e2, e3 = across(axis)
     values: list[Any] = []
-    if joint.type in ("revolute", "spherical", "universal", "rigid"):
+    if asked.coincidences:
         values += coincidence(first, second, joint.point)
-    if joint.type == "universal":
+    if asked.orthogonalities == 1:
         values.append(orthogonality(first, second, axis, direction(joint.second_axis)))
-    if joint.type in ("revolute", "cylindrical", "prismatic", "planar", "rigid"):
-        if axis is None:
-            axis = (Fraction(0), Fraction(0), Fraction(1))
-        e2, e3 = across(axis)
+    if asked.orthogonalities >= 2:
         values += [orthogonality(first, second, e, axis) for e in (e2, e3)]
-    if joint.type in ("prismatic", "rigid"):
+    if asked.orthogonalities == 3:
         values.append(orthogonality(first, second, e2, cross(axis, e2)))
-    if joint.type in ("prismatic", "cylindrical"):
-        values += [gap(first, second, e, joint.point) for e in (e2, e3)]
-    if joint.type == "planar":
-        values.append(gap(first, second, axis, joint.point))
+    if asked.gaps:
+        along = (e2, e3) if asked.gaps == 2 else (axis,)
+        values += [gap(first, second, e, joint.point) for e in along]
     return values
 
 

@@ -105,7 +105,8 @@ def _component_lines(kinds: Sequence[str]) -> list[str]:
         known = JOINT_TYPES[kind]
         parts = ((known.coincidences, "C"), (known.orthogonalities, "SO"), (known.gaps, "O"))
         constraints = " + ".join(f"{count} {name}" for count, name in parts if count)
-        numbers = (known.modes, known.components, known.dimension, known.degree)
+        found = known.components
+        numbers = (found.modes, found.count, found.dimension, found.degree)
         rows.append([kind, str(known.freedoms), constraints, *map(str, numbers)])
     lines = ["joints and the prime components of their SO constraints, in the Euler parameters of"]
     lines.append("both bodies")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from nag.mechanism.joint_types import JOINT_TYPES
 from nag.text.table import Row, align, printable, sheet
 from nag.witness.shown import in_words, kinds, paths_text, remarks
 from nag.witness.witness import PathCounts
@@ -42,7 +41,7 @@ def modes_lines(answer: ModesAnswer, title: str, run: Row) -> list[str]:
 
 
 def _modes_text(answer: ModesAnswer, members: int) -> str:
-    joints = [j for j in answer.structure.joints if JOINT_TYPES[j.type].modes > 1]
+    joints = [j for j in answer.structure.joints if j.of_type.modes > 1]
     text = f"{members} combinations of the assembly modes of {len(joints)} joints"
     if len(answer.classes) == members:
         return f"{text}, each decomposed"
@@ -55,7 +54,7 @@ def _modes_text(answer: ModesAnswer, members: int) -> str:
 
 def _changed(name: str, mode: int, answer: ModesAnswer) -> str:
     joint = next(j for j in answer.structure.joints if j.name == name)
-    return name if JOINT_TYPES[joint.type].modes == 2 else f"{name}:{mode}"
+    return name if joint.of_type.modes == 2 else f"{name}:{mode}"
 
 
 def _meeting_text(answer: ModesAnswer, dimensions: set[int]) -> str:
