@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
@@ -283,3 +284,14 @@ def test_sheets_of_one_component_meet_a_line_in_as_many_points(digits: int) -> N
     ):
         points = [c.points[0, 1].real * 10**digits for c in found.components]
         assert not found.complete or sorted(np.round(points, 6)) == [-2.0, 2.0]
+
+
+def test_a_point_at_which_doubles_see_no_rank_is_cut_in_digits() -> None:
+    line, point = ["x - 5", "y - z"], ["y - x^2", "y - x^2 - (x - 1)/10^12", "z - 1"]
+    found = nag.decompose([f"({a})*({b})" for a in line for b in point])
+    curve, isolated = found.components
+    assert (curve.dimension, isolated.dimension) == (1, 0)
+    # As read from an export that holds no equations that cut it.
+    bare = replace(isolated, fibres=())
+    assert not intersect_components(found.system, curve, bare).components
+    assert kinds(intersect_components(found.system, bare, bare)) == {(0, 1): 1}

@@ -17,7 +17,8 @@ from nag.witness.change_of_coordinates import carry_component
 from nag.witness.close_points import CLOSE, Fine, follow_slice, rated
 from nag.witness.component_equations import component_system
 from nag.witness.cutting import Cut
-from nag.witness.fibres import Fibre, cut_fibres, move_regular
+from nag.witness.cutting_in_digits import cut_fibres
+from nag.witness.fibres import Fibre, move_regular
 from nag.witness.moving import SliceError, orthonormal_rows
 from nag.witness.slices import even_rows, unit_complex
 from nag.witness.witness import PathCounts, WitnessSet
@@ -88,7 +89,7 @@ class Factor:
         if fibres is None:
             raise IntersectionError("the witness points are no regular zeros of the system")
         return [
-            self._with_fine(fibre, dict(enumerate(map(Fine.of_doubles, fibre.points))))
+            self._with_fine(fibre, dict(enumerate(map(Fine.of_doubles, fibre.points))) | fibre.fine)
             for fibre in fibres
         ]
 

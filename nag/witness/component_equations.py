@@ -17,7 +17,8 @@ from nag.numerics.zero_values import ON, vanish
 from nag.witness.change_of_coordinates import carry_component, carry_fibres, coordinates_of
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import Equations
-from nag.witness.fibres import Fibre, cut_fibres
+from nag.witness.cutting_in_digits import cut_fibres
+from nag.witness.fibres import Fibre
 from nag.witness.points import with_fine
 from nag.witness.witness import WitnessSet
 

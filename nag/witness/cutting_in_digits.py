@@ -19,9 +19,10 @@ from nag.numerics.pivots import pivots
 from nag.numerics.singular_point import SingularEnd
 from nag.numerics.zero_values import is_negligible, vanish
 from nag.witness.close_points import CLOSE, Fine, in_words, rated
+from nag.witness.close_to_sets import meant
 from nag.witness.confirm import zero_in_digits
 from nag.witness.cutting import MOST_DEFLATIONS, Cut, Equations, dyadic
-from nag.witness.fibres import Fibre
+from nag.witness.fibres import Fibre, admit
 from nag.witness.isosingular import Deflated
 from nag.witness.slices import padded
 
@@ -35,6 +36,32 @@ FIRST = 40
 # Equations whose coefficients have more digits may be as good as zero, in a hundred digits, between
 # zeros that are close to each other: of z^3 (z - e) at the scale of e, e^4 is left.
 LONG = 12
+
+
+def cut_fibres(
+    points: np.ndarray,
+    accuracy: float,
+    equations: Equations,
+    rows: np.ndarray,
+    rng: np.random.Generator,
+    deflate: bool,
+) -> list[Fibre] | None:
+    """Points on the slice ``rows`` with cuts; None if a point is no regular zero of any.
+
+    Points at which doubles see no rank are looked at in digits.
+    """
+    fibres: list[Fibre] = []
+    # Null vectors are read best at a small point, and serve the others as well.
+    for i in np.argsort(np.linalg.norm(points, axis=1), kind="stable"):
+        x = points[i]
+        if admit(x, accuracy, fibres, equations, rows, rng, deflate):
+            continue
+        zeros = meant([(x, accuracy)], equations, rows, rng, whole=True).zeros
+        if len(zeros) != 1 or (zeros[0].multiplicity != 1) != deflate:
+            return None
+        if not admit_zero(zeros[0], fibres, equations, rows, rng):
+            return None
+    return fibres
 
 
 def admit_zero(

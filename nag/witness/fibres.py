@@ -435,20 +435,3 @@ def admit(
     cut, z = found
     fibres.append(Fibre(cut, len(rows), z[None]))
     return True
-
-
-def cut_fibres(
-    points: np.ndarray,
-    accuracy: float,
-    equations: Equations,
-    rows: np.ndarray,
-    rng: np.random.Generator,
-    deflate: bool,
-) -> list[Fibre] | None:
-    """Points on the slice ``rows`` with cuts; None if a point is no regular zero of any."""
-    fibres: list[Fibre] = []
-    # Null vectors are read best at a small point, and serve the others as well.
-    for i in np.argsort(np.linalg.norm(points, axis=1), kind="stable"):
-        if not admit(points[i], accuracy, fibres, equations, rows, rng, deflate):
-            return None
-    return fibres
